@@ -1,0 +1,45 @@
+# make demo   the whole way once, from simulated pictures to demo/report.html
+# make test   install and run the tests
+# make lint   style and types
+# make bench  the speed of the reasoner, beside plain clingo
+# make figures  the other numbers and the pictures of the README
+
+PYTHON ?= python3
+DOMAIN ?= structure_stability
+OUT ?= demo
+VENV := .venv
+INSTALLED := $(VENV)/.installed
+
+.PHONY: demo test lint bench figures clean
+
+$(INSTALLED): pyproject.toml constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else "SeeWhy needs Python 3.11 or newer, found " + sys.version.split()[0] + "; name one with make PYTHON=...")'
+	$(PYTHON) -m venv $(VENV)
+	$(VENV)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev]'
+	@touch $@
+
+demo: $(INSTALLED)
+	$(VENV)/bin/seewhy demo --domain $(DOMAIN) --out $(OUT)
+
+test: $(INSTALLED)
+	$(VENV)/bin/python -m pytest
+
+lint: $(INSTALLED)
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/mypy
+
+bench: $(INSTALLED)
+	$(VENV)/bin/python -m pytest benchmarks --benchmark-enable --benchmark-only --benchmark-columns=min,median,ops,rounds --benchmark-sort=name
+
+# The numbers and the pictures of the README.
+figures: $(INSTALLED)
+	$(VENV)/bin/seewhy data make structure_stability --count 2500 --seed 0 --out runs/pictures
+	$(VENV)/bin/seewhy data show runs/pictures --rows 2 --columns 7 --out docs/pictures/contact_sheet.png
+	$(VENV)/bin/seewhy check structure_stability --data runs/pictures
+	$(VENV)/bin/seewhy train structure_stability --data runs/pictures --out runs/model
+	$(VENV)/bin/seewhy evaluate runs/model --data runs/pictures
+	$(VENV)/bin/seewhy ask runs/model runs/pictures/images/000056.png "what is making this structure unstable?" --picture docs/pictures/answer.svg
+
+clean:
+	rm -rf $(VENV) demo runs build dist

@@ -1,0 +1,53 @@
+"""`seewhy ask`: one question about one picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from seewhy.cli.options import ImageFile, Json, ModelFolder
+from seewhy.cli.screen import print_json, remark, say
+
+if TYPE_CHECKING:
+    from seewhy.reply import Reply
+
+
+def ask(
+    model: ModelFolder,
+    image: ImageFile,
+    question: Annotated[str, typer.Argument(metavar="QUESTION", help="In plain words.")],
+    picture: Annotated[
+        Path | None,
+        typer.Option("--picture", help="Also draw the answer with its reasons to this .svg file."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Answer a question about a picture, with the reasons."""
+    from seewhy.agent import Agent
+
+    reply = Agent.load(model).ask(image, question)
+    if picture is not None:
+        from seewhy.report.card import draw_card
+
+        draw_card(reply, image).save(picture)
+        remark(f"picture: {picture}")
+    if json:
+        print_json(reply.to_dict())
+    else:
+        print_reply(reply)
+
+
+def print_reply(reply: Reply) -> None:
+    """Print an answer, what was seen, and the justification."""
+    say(reply.text)
+    say()
+    seen = ", ".join(
+        f"{name} {own.value} ({own.probability:.2f})" for name, own in reply.features.items()
+    )
+    say(f"seen: {seen}")
+    say(f"by: {reply.method}")
+    say("because:")
+    for line in reply.justification.to_text().splitlines():
+        say(f"  {line}")

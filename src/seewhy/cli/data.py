@@ -1,0 +1,116 @@
+"""`seewhy data`: make datasets and look at them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from seewhy.cli.options import DomainName, Json, Seed
+from seewhy.cli.screen import percent, print_json, progress, remark, say
+
+app = typer.Typer(no_args_is_help=True)
+
+
+@app.command()
+def make(
+    domain: DomainName,
+    out: Annotated[Path, typer.Option("--out", help="The folder to write.")],
+    count: Annotated[int, typer.Option("--count", min=1, help="How many pictures.")] = 2500,
+    seed: Seed = 0,
+    size: Annotated[
+        int, typer.Option("--size", min=16, max=1024, help="Side of a picture in pixels.")
+    ] = 112,
+    workers: Annotated[
+        int, typer.Option("--workers", min=-1, help="Processes to use; -1: one per core.")
+    ] = -1,
+    json: Json = False,
+) -> None:
+    """Make pictures with the domain's own source; the same seed makes the same files.
+
+    One picture in three is marked split = test in scenes.csv. An interrupted call goes on
+    where it was.
+    """
+    from seewhy.domain import load_domain
+    from seewhy.errors import SeeWhyError
+    from seewhy.pictures import make_dataset
+
+    if workers == 0:
+        raise SeeWhyError("--workers must be -1 or at least 1, got 0")
+    own = load_domain(domain)
+    with progress() as bars:
+        task = bars.add_task("making pictures", total=count)
+        made = make_dataset(
+            own,
+            out,
+            count=count,
+            seed=seed,
+            size=size,
+            workers=workers,
+            on_progress=lambda done: bars.update(task, completed=done),
+        )
+    if json:
+        print_json(
+            {
+                "folder": str(made.folder),
+                "scenes": made.count,
+                "classes": made.classes,
+                "determined": made.determined,
+            }
+        )
+        return
+    say(f"{made.count} pictures in {made.folder}")
+    for name, share in made.classes.items():
+        say(f"  {own.classes[name].say}: {percent(share)}")
+    say(
+        f"  {percent(made.determined)} of them have an outcome that their features determine "
+        "(the best that any classifier over the features can do)"
+    )
+
+
+@app.command()
+def show(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="A dataset folder.")],
+    domain: Annotated[
+        str | None,
+        typer.Option("--domain", help="Its domain; found from the columns where left out."),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="The picture to write (DIR/contact_sheet.png).")
+    ] = None,
+    rows: Annotated[int, typer.Option("--rows", min=1, max=50)] = 5,
+    columns: Annotated[int, typer.Option("--columns", min=1, max=20)] = 8,
+    json: Json = False,
+) -> None:
+    """Write a contact sheet: pictures with their labels."""
+    from seewhy.dataset import Dataset
+    from seewhy.dataset_domain import domain_of
+    from seewhy.domain import load_domain
+    from seewhy.files import whole_file
+    from seewhy.pictures import determined_share
+    from seewhy.report.contact_sheet import draw_contact_sheet
+
+    own = load_domain(domain) if domain else domain_of(folder)
+    dataset = Dataset.load(folder, own)
+    sheet = draw_contact_sheet(dataset, rows=rows, columns=columns)
+    target = out or folder / "contact_sheet.png"
+    with whole_file(target) as temporary:
+        sheet.save(temporary, format="PNG")
+    shares = {name: dataset.labels.count(name) / len(dataset) for name in own.classes}
+    determined = determined_share(dataset.vectors, dataset.labels)
+    if json:
+        print_json(
+            {
+                "contact_sheet": str(target),
+                "domain": own.name,
+                "scenes": len(dataset),
+                "classes": shares,
+                "determined": determined,
+            }
+        )
+        return
+    remark(f"domain: {own.name}")
+    said = ", ".join(f"{own.classes[n].say} {percent(s)}" for n, s in shares.items())
+    say(f"{len(dataset)} pictures ({said}); {percent(determined)} determined by their features")
+    say(f"contact sheet: {target}")

@@ -1,0 +1,149 @@
+"""`seewhy demo`: the whole way once, from simulated structures to answers with reasons."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from seewhy.cli.options import Json, Seed
+from seewhy.cli.screen import output, print_json, progress, say
+
+if TYPE_CHECKING:
+    from seewhy.agent import Agent
+    from seewhy.dataset import Dataset, Scene
+    from seewhy.reply import Reply
+
+
+def demo(
+    domain: Annotated[
+        str, typer.Option("--domain", help="A bundled domain's name or a domain folder.")
+    ] = "structure_stability",
+    out: Annotated[Path, typer.Option("--out", help="The folder to write.")] = Path("demo"),
+    count: Annotated[int, typer.Option("--count", min=60, help="How many pictures.")] = 1500,
+    seed: Seed = 0,
+    json: Json = False,
+) -> None:
+    """Make pictures, train, evaluate, ask, and write OUT/report.html."""
+    from seewhy.cli.evaluate import print_evaluation
+    from seewhy.cli.train import print_learned
+    from seewhy.cli.training import train_model, trained_already
+    from seewhy.dataset import Dataset
+    from seewhy.domain import load_domain
+    from seewhy.evaluation import evaluate
+    from seewhy.files import write_whole
+    from seewhy.pictures import make_dataset
+    from seewhy.report.page import report_page
+
+    start = perf_counter()
+    own = load_domain(domain)
+    quiet = json
+
+    def heading(text: str) -> None:
+        if not quiet:
+            output().print()
+            output().print(f"{text}  ({perf_counter() - start:.0f} s)", markup=False, style="bold")
+
+    heading(f"{own.title}: {count} pictures")
+    with progress() as bars:
+        task = bars.add_task("making pictures", total=count)
+        made = make_dataset(
+            own,
+            out / "pictures",
+            count=count,
+            seed=seed,
+            on_progress=lambda done: bars.update(task, completed=done),
+        )
+    if not quiet:
+        shares = ", ".join(f"{n} {100 * s:.0f} %" for n, s in made.classes.items())
+        say(f"{shares}; the features determine {100 * made.determined:.1f} % of the outcomes")
+    heading("Training one network per feature")
+    dataset = Dataset.load(out / "pictures", own)
+    agent = trained_already(out / "model", dataset, seed=seed)
+    if agent is None:
+        agent = train_model(own, out / "pictures", out / "model", seed=seed)
+    elif not quiet:
+        say(f"{out / 'model'} is trained on these pictures already")
+    if not quiet:
+        print_learned(agent)
+    heading("Evaluating on pictures that were never trained on")
+    evaluation = evaluate(agent, dataset, seed=seed)
+    if not quiet:
+        print_evaluation(evaluation)
+    heading("Questions about test pictures")
+    answered = [(scene, _ask_everything(agent, scene)) for scene in choose_scenes(agent, dataset)]
+    if not quiet:
+        _print_answers(answered[:2])
+    command = f"seewhy demo --domain {domain} --count {count} --seed {seed} --out {out}"
+    report = out / "report.html"
+    write_whole(report, report_page(agent, evaluation, answered, command=command))
+    if json:
+        print_json(
+            {
+                "report": str(report),
+                "model": str(out / "model"),
+                "seconds": round(perf_counter() - start, 1),
+                "evaluation": evaluation.to_dict(),
+            }
+        )
+        return
+    heading(f"The whole story, with pictures and justifications: {report}")
+    scene, replies = answered[0]
+    say(f'ask on: seewhy ask {out / "model"} {scene.picture} "{replies[-1].question.text}?"')
+
+
+def choose_scenes(agent: Agent, dataset: Dataset, *, most: int = 6) -> list[Scene]:
+    """Choose test scenes that differ: every way of deciding and every class, knowledge first."""
+    scenes = dataset.of_split("test")
+    pictures = scenes.pictures(agent.domain.pictures.size)
+    kinds: dict[tuple[str, str | None, str], list[Scene]] = {}
+    for scene, own in zip(scenes.scenes, agent.classify_all(pictures), strict=True):
+        kinds.setdefault((own.method, own.label, own.verdict), []).append(scene)
+    chosen: list[Scene] = []
+    rank = 0
+    ordered = [kinds[key] for key in sorted(kinds, key=str)]
+    while len(chosen) < most and any(len(own) > rank for own in ordered):
+        chosen += [own[rank] for own in ordered if len(own) > rank]
+        rank += 1
+    return chosen[:most]
+
+
+def _ask_everything(agent: Agent, scene: Scene) -> list[Reply]:
+    """Every question of the domain about one picture, and the explanation of one answer."""
+    from seewhy.dialogue.question import Asks
+
+    own = agent.classify(scene.picture)
+    replies: list[Reply] = []
+    explain = None
+    for question in agent.questions.one_of_each():
+        if question.asks is Asks.EXPLAIN:
+            explain = question
+            continue
+        if (
+            question.value is not None
+            and question.value != agent.domain.named(own.vector)[question.feature or ""]
+            and len(agent.domain.features[question.feature or ""].values) > 2
+        ):
+            continue
+        replies.append(agent.answer(own, question))
+    if explain is not None:
+        about = next(
+            (
+                r
+                for r in replies
+                if r.question.asks is Asks.WHY_CLASS and r.question.label == own.label
+            ),
+            replies[0],
+        )
+        replies.append(agent.answer(own, explain, previous=about))
+    return replies
+
+
+def _print_answers(answered: list[tuple[Scene, list[Reply]]]) -> None:
+    for scene, replies in answered:
+        say(f"\n{scene.picture}")
+        for reply in replies:
+            say(f"  {reply.question.text}?")
+            say(f"    {reply.text}")

@@ -1,0 +1,79 @@
+"""The command line: `seewhy …`; every command is a module of its own."""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+from typing import Any
+
+import typer
+
+from seewhy.cli import ask, chat, check, data, demo, evaluate, new, train
+from seewhy.cli.screen import complain
+
+_INTERRUPTED = 130
+# Typer names only some of the errors of a command line; this is what they have in common.
+_UsageError: Any = typer.BadParameter.__base__
+
+app = typer.Typer(
+    name="seewhy",
+    help="Answers questions about pictures and says why.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.add_typer(data.app, name="data", help="Make, look at and check datasets.")
+app.command("train")(train.train)
+app.command("evaluate")(evaluate.evaluate)
+app.command("ask")(ask.ask)
+app.command("chat")(chat.chat)
+app.command("new")(new.new)
+app.command("check")(check.check)
+app.command("demo")(demo.demo)
+
+
+def main() -> None:
+    """Run a command; errors that are the user's to mend end with one sentence and code 2."""
+    from seewhy.errors import SeeWhyError
+
+    for stream in (sys.stdin, sys.stdout, sys.stderr):
+        # Names and questions may hold what the terminal's encoding does not.
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        code = app(standalone_mode=False, prog_name="seewhy")
+    except SeeWhyError as problem:
+        complain(str(problem))
+        sys.exit(2)
+    except _UsageError as problem:
+        _complain_of_usage(problem)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        code = _INTERRUPTED
+    except BrokenPipeError:
+        # The reader of our output has gone (`seewhy … | head`); there is nobody to tell.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+    except OSError as problem:
+        where = f"{problem.filename}: " if problem.filename else ""
+        complain(f"{where}{problem.strerror or problem}; check the path, its rights and the disk")
+        sys.exit(2)
+    if code == _INTERRUPTED:
+        complain("interrupted; what is finished is kept, the same command goes on from there")
+    sys.exit(code if isinstance(code, int) else 0)
+
+
+def _complain_of_usage(problem: Any) -> None:
+    """Say in one sentence what is wrong with a command line, and which help to read."""
+    text = " ".join(problem.format_message().split()).rstrip(".")
+    context = problem.ctx
+    if type(problem).__name__ == "NoArgsIsHelpError":
+        return  # the help is on the screen
+    command = context.command_path if context is not None else "seewhy"
+    complain(f"{text[:1].lower()}{text[1:]}; '{command} --help' says what there is")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,120 @@
+"""Reference answers: what a correct answer says about an annotated scene.
+
+They train the recurrent network and score every answer. Where the knowledge, given the annotated
+features, decides the scene rightly, the relevant features are those of its justification.
+Elsewhere they are the smallest set of the scene's feature values that makes its class as certain,
+among all annotated scenes, as any set of them does.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from itertools import combinations
+
+import numpy as np
+
+from seewhy.dialogue.answer import AnswerType
+from seewhy.dialogue.question import Asks, Question
+from seewhy.dialogue.reasoned import ReasonedAnswers
+from seewhy.domain import Domain
+from seewhy.knowledge.scene import FeatureVector
+
+Experience = Mapping[FeatureVector, Mapping[str, int]]
+"""Annotated feature vector → class → the number of scenes."""
+
+_AS_CERTAIN = 0.02
+
+
+def experience_of(vectors: Sequence[FeatureVector], labels: Sequence[str]) -> Experience:
+    """Count the classes of every annotated feature vector.
+
+    Examples
+    --------
+    >>> experience_of([("a",), ("a",)], ["x", "x"])
+    {('a',): Counter({'x': 2})}
+    """
+    counts: dict[FeatureVector, Counter[str]] = {}
+    for vector, label in zip(vectors, labels, strict=True):
+        counts.setdefault(vector, Counter())[label] += 1
+    return counts
+
+
+def relevant_features(
+    experience: Experience, features: Sequence[str], vector: FeatureVector, label: str
+) -> tuple[str, ...]:
+    """Return the smallest set of features whose values make a class as certain as any set does.
+
+    "As certain" leaves out differences of less than 0.02 in the share of scenes of the class; of
+    sets of one size, the one with the largest share, then the most scenes, is taken.
+
+    Examples
+    --------
+    >>> seen = experience_of([("a", "x"), ("a", "y"), ("b", "x"), ("b", "y")],
+    ...                      ["up", "up", "down", "down"])
+    >>> relevant_features(seen, ["first", "second"], ("a", "x"), "up")
+    ('first',)
+    """
+    if not experience:
+        return ()
+    known = [n for n, value in enumerate(vector) if value is not None]
+    agrees = np.array(
+        [
+            [own == wanted for own, wanted in zip(other, vector, strict=True)]
+            for other in experience
+        ],
+        dtype=bool,
+    )
+    totals = np.array([sum(counts.values()) for counts in experience.values()])
+    of_class = np.array([counts.get(label, 0) for counts in experience.values()])
+    shares: list[tuple[int, float, int, tuple[int, ...]]] = []
+    for size in range(1, len(known) + 1):
+        for chosen in combinations(known, size):
+            alike = agrees[:, chosen].all(axis=1)
+            total = int(totals[alike].sum())
+            share = float(of_class[alike].sum() / total) if total else 0.0
+            shares.append((size, share, total, chosen))
+    if not shares:
+        return ()
+    certain = max(share for _, share, _, _ in shares) - _AS_CERTAIN
+    enough = [row for row in shares if row[1] >= certain]
+    _, _, _, best = min(enough, key=lambda row: (row[0], -row[1], -row[2], row[3]))
+    return tuple(features[n] for n in best)
+
+
+class ReferenceAnswers:
+    """The correct answer to a question about an annotated scene."""
+
+    def __init__(self, domain: Domain, reasoned: ReasonedAnswers, experience: Experience) -> None:
+        self.domain = domain
+        self.reasoned = reasoned
+        self.experience = experience
+        self._known: dict[tuple[object, ...], AnswerType] = {}
+
+    def answer(self, question: Question, vector: FeatureVector, label: str) -> AnswerType:
+        """Return the answer type for annotated features and the true class."""
+        key = (question.query, vector, label)
+        if key not in self._known:
+            self._known[key] = self._answer(question, vector, label)
+        return self._known[key]
+
+    def _answer(self, question: Question, vector: FeatureVector, label: str) -> AnswerType:
+        decides = self.reasoned.reasoner.decide(vector).label == label
+        if decides or question.asks not in (
+            Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS
+        ):  # fmt: skip
+            return self.reasoned.answer(question, vector, label).kind
+        if question.asks is Asks.CHANGE_TO_CLASS:
+            kind = self.reasoned.answer(question, vector, label).kind
+            # One alternative is what a softmax over answer types can learn.
+            return AnswerType(kind.form, kind.mentions, kind.changes[:1])
+        same = question.label == label
+        forms = {
+            (Asks.WHY_CLASS, True): "reasons",
+            (Asks.WHY_CLASS, False): "false_premise",
+            (Asks.WHY_NOT_CLASS, True): "denied_not",
+            (Asks.WHY_NOT_CLASS, False): "against",
+        }
+        relevant = relevant_features(self.experience, list(self.domain.features), vector, label)
+        ordered = tuple(feature for feature in self.domain.features if feature in relevant)
+        return AnswerType(forms[question.asks, same], ordered)

@@ -1,0 +1,396 @@
+"""Domain: a folder that a user writes, read and checked as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from seewhy.errors import DomainError, KnowledgeError
+from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.consistency import check_consistency
+from seewhy.knowledge.language import Knowledge, read_knowledge_file, read_literal
+from seewhy.knowledge.scene import FeatureVector, SceneSchema
+from seewhy.nearest import did_you_mean
+from seewhy.toml_file import line_of, read_toml
+
+FILES = ("domain.toml", "knowledge.al", "questions.toml")
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+
+
+class DomainTable(_Table):
+    """``[domain]``: what the domain is called and which sort stands for the picture."""
+
+    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    title: str
+    scene: str
+    subject: str
+    source: str | None = None
+
+
+class PictureTable(_Table):
+    """``[pictures]``: how pictures are shown to the networks."""
+
+    size: int = Field(default=56, ge=16, le=512)
+    flip: bool = False
+    shift: float = Field(default=0.05, ge=0.0, le=0.5)
+
+
+class ValueTable(_Table):
+    """``[features.NAME.values.VALUE]``: how a value is said, asked for and brought about."""
+
+    say: str
+    words: tuple[str, ...] = ()
+    change: str | None = None
+
+
+class FeatureTable(_Table):
+    """``[features.NAME]``: one feature, recognised by a network of its own."""
+
+    name: str
+    threshold: float = Field(default=0.9, gt=0.0, le=1.0)
+    change_cost: int = Field(default=1, ge=1, le=1000)
+    values: dict[str, ValueTable] = Field(min_length=1)
+
+
+class ClassTable(_Table):
+    """``[classes.NAME]``: one class, the literal that stands for it, and its words."""
+
+    literal: str
+    say: str
+    words: tuple[str, ...] = ()
+
+
+class DomainFile(_Table):
+    """The whole of ``domain.toml``."""
+
+    domain: DomainTable
+    pictures: PictureTable = PictureTable()
+    features: dict[str, FeatureTable] = Field(min_length=1)
+    classes: dict[str, ClassTable] = Field(min_length=2)
+
+
+class QuestionTable(_Table):
+    """``[[question]]``: what is asked, and the ways to ask it."""
+
+    asks: str
+    feature: str | None = None
+    value: str | None = None
+    patterns: tuple[str, ...] = Field(min_length=1)
+
+
+class QuestionsFile(_Table):
+    """The whole of ``questions.toml``."""
+
+    synonyms: dict[str, tuple[str, ...]] = {}
+    fillers: tuple[str, ...] = ()
+    answers: dict[str, str] = {}
+    question: tuple[QuestionTable, ...] = Field(min_length=1)
+
+
+@dataclass(frozen=True)
+class Feature:
+    """A feature: its values and how they are said.
+
+    ``literals`` gives for every value the literal that is believed when the value is seen.
+    """
+
+    key: str
+    name: str
+    values: tuple[str, ...]
+    say: Mapping[str, str]
+    words: Mapping[str, tuple[str, ...]]
+    change: Mapping[str, str]
+    threshold: float
+    change_cost: int
+    literals: Mapping[str, Literal]
+
+
+@dataclass(frozen=True)
+class SceneClass:
+    """A class of scenes: the literal that stands for it and how it is said."""
+
+    key: str
+    literal: Literal
+    say: str
+    words: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Domain:
+    """Everything that a domain folder says.
+
+    Attributes
+    ----------
+    name, title, subject : str
+        How the domain and its pictures are called ("the structure").
+    scene : str
+        The sort that stands for the picture; also its name as a term in beliefs.
+    features : mapping of str to Feature
+        In the order of the file, which is the order of every feature vector.
+    classes : mapping of str to SceneClass
+    knowledge : Knowledge
+    questions : QuestionsFile
+    pictures : PictureTable
+    folder : Path
+    source : str or None
+        The importable module that makes pictures (``draw(seed=, index=, size=)``).
+
+    Examples
+    --------
+    >>> domain = load_domain("structure_stability")
+    >>> list(domain.features)
+    ['num_blocks', 'base', 'lean', 'block_displaced']
+    >>> domain.vector({"num_blocks": "2", "lean": "no"})
+    ('2', None, 'no', None)
+    """
+
+    name: str
+    title: str
+    subject: str
+    scene: str
+    features: Mapping[str, Feature]
+    classes: Mapping[str, SceneClass]
+    knowledge: Knowledge
+    questions: QuestionsFile
+    pictures: PictureTable
+    folder: Path
+    source: str | None
+
+    @property
+    def schema(self) -> SceneSchema:
+        """How feature vectors and classes stand in the knowledge."""
+        return SceneSchema(
+            scene=self.scene,
+            features={key: feature.literals for key, feature in self.features.items()},
+            classes={key: own.literal for key, own in self.classes.items()},
+            change_costs={key: feature.change_cost for key, feature in self.features.items()},
+        )
+
+    def vector(self, values: Mapping[str, str | None]) -> FeatureVector:
+        """Return the feature vector of named values; features left out are unknown."""
+        return tuple(values.get(key) for key in self.features)
+
+    def named(self, vector: FeatureVector) -> dict[str, str | None]:
+        """Return feature name → value for a feature vector."""
+        return dict(zip(self.features, vector, strict=True))
+
+
+def bundled_domains() -> tuple[str, ...]:
+    """Return the names of the domains that come with SeeWhy.
+
+    Examples
+    --------
+    >>> "structure_stability" in bundled_domains()
+    True
+    """
+    home = Path(__file__).parent / "domains"
+    return tuple(sorted(p.parent.name for p in home.glob("*/domain.toml")))
+
+
+def domain_folder(name: str | Path) -> Path:
+    """Return the folder of a bundled domain's name or of a path to a user's folder.
+
+    Raises
+    ------
+    DomainError
+        If there is neither; the text gives the nearest bundled name.
+    """
+    path = Path(name)
+    if path.is_dir():
+        return path
+    if str(name) in bundled_domains():
+        return Path(__file__).parent / "domains" / str(name)
+    raise DomainError(
+        f"'{name}' is neither a folder nor a bundled domain; "
+        f"{did_you_mean(str(name), bundled_domains())}"
+    )
+
+
+def load_domain(name: str | Path) -> Domain:
+    """Load a bundled domain by name, or a user's domain by its folder.
+
+    Raises
+    ------
+    DomainError, KnowledgeError
+        If a file of the folder is missing or wrong; the text names file and line.
+
+    Examples
+    --------
+    >>> load_domain("structure_stability").title
+    'Structures of blocks'
+    """
+    folder = domain_folder(name)
+    for file in FILES:
+        if not (folder / file).is_file():
+            raise DomainError(
+                f"{folder}: the domain has no {file}; a domain is a folder with "
+                f"{', '.join(FILES)} ('seewhy new NAME' writes one)"
+            )
+    path = folder / "domain.toml"
+    table = read_toml(path, DomainFile)
+    knowledge = read_knowledge_file(folder / "knowledge.al")
+    questions = read_toml(folder / "questions.toml", QuestionsFile)
+    place = _Place(path)
+    _check_scene(table, knowledge, place)
+    features = {k: _feature(k, t, table, knowledge, place) for k, t in table.features.items()}
+    classes = {k: _class(k, t, table, knowledge, place) for k, t in table.classes.items()}
+    _check_classes(classes, place)
+    domain = Domain(
+        name=table.domain.name,
+        title=table.domain.title,
+        subject=table.domain.subject,
+        scene=table.domain.scene,
+        features=MappingProxyType(features),
+        classes=MappingProxyType(classes),
+        knowledge=knowledge,
+        questions=questions,
+        pictures=table.pictures,
+        folder=folder,
+        source=table.domain.source,
+    )
+    check_consistency(knowledge, domain.schema)
+    return domain
+
+
+class _Place:
+    """Finds the line of a key in domain.toml when an error needs it."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def at(self, *keys: str) -> str:
+        return f"{self.path}:{line_of(self.path.read_text(encoding='utf-8-sig'), keys)}"
+
+
+def _check_scene(table: DomainFile, knowledge: Knowledge, place: _Place) -> None:
+    sorts = knowledge.signature.sorts
+    scene = table.domain.scene
+    here = place.at("domain", "scene")
+    if scene not in sorts:
+        raise DomainError(
+            f"{here}: scene = '{scene}' is no sort of knowledge.al; {did_you_mean(scene, sorts)}"
+        )
+    if sorts[scene].members is not None:
+        raise DomainError(
+            f"{here}: the sort '{scene}' stands for the picture and must be declared without "
+            f"members ('#sort {scene}.'), see {sorts[scene].location}"
+        )
+    for sort in sorts.values():
+        if sort.members is None and sort.name != scene:
+            raise DomainError(
+                f"{sort.location}: sort '{sort.name}' has no members; only '{scene}', which "
+                "stands for the picture, may be without"
+            )
+
+
+def _feature(
+    key: str, table: FeatureTable, file: DomainFile, knowledge: Knowledge, place: _Place
+) -> Feature:
+    predicate = knowledge.signature.predicates.get(key)
+    here = place.at("features", key)
+    scene = file.domain.scene
+    if predicate is None:
+        raise DomainError(
+            f"{here}: the feature '{key}' is not declared in knowledge.al; "
+            f"{did_you_mean(key, knowledge.signature.predicates)}"
+        )
+    if not predicate.sorts or predicate.sorts[0] != scene or len(predicate.sorts) > 2:
+        raise DomainError(
+            f"{here}: the feature '{key}' must be declared as '#static {key}({scene}).' (yes or "
+            f"no) or '#static {key}({scene}, SORT).', got '{predicate}' "
+            f"({predicate.location})"
+        )
+    if len(predicate.sorts) == 1:
+        literals = {
+            "yes": Literal(predicate=key, arguments=(scene,)),
+            "no": Literal(predicate=key, arguments=(scene,), positive=False),
+        }
+    else:
+        literals = {
+            value: Literal(predicate=key, arguments=(scene, value))
+            for value in knowledge.signature.members(predicate.sorts[1])
+        }
+    for value in table.values:
+        if value not in literals:
+            raise DomainError(
+                f"{place.at('features', key, 'values', value)}: '{value}' is no value of "
+                f"'{key}' in knowledge.al; {did_you_mean(value, literals)}"
+            )
+    for value in literals:
+        if value not in table.values:
+            raise DomainError(
+                f"{here}: nothing says how '{key}' = '{value}' is said; add "
+                f'[features.{key}.values.{value}] with say = "…"'
+            )
+    tables = {value: table.values[value] for value in literals}
+    return Feature(
+        key=key,
+        name=table.name,
+        values=tuple(literals),
+        say=MappingProxyType({v: t.say for v, t in tables.items()}),
+        words=MappingProxyType({v: (*t.words, v) for v, t in tables.items()}),
+        change=MappingProxyType({v: t.change for v, t in tables.items() if t.change}),
+        threshold=table.threshold,
+        change_cost=table.change_cost,
+        literals=MappingProxyType(literals),
+    )
+
+
+def _check_classes(classes: Mapping[str, SceneClass], place: _Place) -> None:
+    keys: dict[Literal, str] = {}
+    for key, own in classes.items():
+        first = keys.setdefault(own.literal, key)
+        if first != key:
+            raise DomainError(
+                f"{place.at('classes', key, 'literal')}: the literal '{own.literal}' stands for "
+                f"the classes '{first}' and '{key}'; no scene could be one of them and not the "
+                "other, give each class a literal of its own"
+            )
+
+
+def _class(
+    key: str, table: ClassTable, file: DomainFile, knowledge: Knowledge, place: _Place
+) -> SceneClass:
+    here = place.at("classes", key, "literal")
+    scene = file.domain.scene
+    try:
+        literal = read_literal(table.literal)
+    except KnowledgeError as problem:
+        raise DomainError(f"{here}: {problem}") from None
+    predicates = knowledge.signature.predicates
+    if literal.predicate not in predicates:
+        raise DomainError(
+            f"{here}: the literal '{literal}' of class '{key}' uses '{literal.predicate}', which "
+            f"knowledge.al does not declare; {did_you_mean(literal.predicate, predicates)}"
+        )
+    sorts = predicates[literal.predicate].sorts
+    if len(sorts) != len(literal.arguments):
+        raise DomainError(
+            f"{here}: '{literal.predicate}' takes {len(sorts)} "
+            f"argument{'s' * (len(sorts) != 1)}, got '{literal}'"
+        )
+    arguments = []
+    for argument, sort in zip(literal.arguments, sorts, strict=True):
+        members = (scene,) if sort == scene else knowledge.signature.members(sort)
+        term = scene if sort == scene and argument[0].isupper() else argument
+        if term not in members:
+            raise DomainError(
+                f"{here}: '{argument}' is not of sort '{sort}' in the literal '{literal}'; "
+                f"{did_you_mean(argument, members)}"
+            )
+        arguments.append(term)
+    return SceneClass(
+        key=key,
+        literal=Literal(
+            predicate=literal.predicate, arguments=tuple(arguments), positive=literal.positive
+        ),
+        say=table.say,
+        words=table.words or (table.say,),
+    )

@@ -1,0 +1,107 @@
+"""What a domain's knowledge decides, and what its author may want to know."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import asdict, dataclass
+from itertools import product
+from math import prod
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from seewhy.dataset import Dataset
+from seewhy.dialogue.answer import answer_templates
+from seewhy.dialogue.question import Questions
+from seewhy.domain import Domain
+from seewhy.evaluation import AxiomRecord, axiom_records
+from seewhy.knowledge.consistency import never_applies
+from seewhy.knowledge.reasoner import Reasoner
+from seewhy.knowledge.scene import FeatureVector
+
+MOST_VECTORS = 20_000
+
+
+@dataclass(frozen=True)
+class DomainReport:
+    """What was found; errors are raised, not reported.
+
+    ``verdicts`` gives the share of each verdict among ``vectors`` feature vectors (all of them,
+    or a sample of 20,000). ``decided`` and ``decided_rightly`` are shares of a dataset's scenes
+    by their annotated features.
+    """
+
+    questions: int
+    wordings: int
+    vectors: int
+    verdicts: dict[str, float]
+    warnings: tuple[str, ...]
+    axioms: tuple[AxiomRecord, ...] = ()
+    decided: float | None = None
+    decided_rightly: float | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the report as values that JSON can hold."""
+        return {
+            **asdict(self),
+            "axioms": [{**asdict(own), "accuracy": own.accuracy} for own in self.axioms],
+        }
+
+
+def check_domain(domain: Domain, data: Path | None = None) -> DomainReport:
+    """Check what :func:`~seewhy.domain.load_domain` does not need to: questions and coverage.
+
+    Raises
+    ------
+    DomainError, DatasetError
+        If the questions or the dataset are wrong.
+    """
+    questions = Questions(domain)
+    answer_templates(domain)
+    reasoner = Reasoner(domain.knowledge, domain.schema)
+    vectors = feature_vectors(domain)
+    counted = Counter(decision.verdict.value for decision in reasoner.decide_all(vectors))
+    warnings = [
+        f"{axiom.location}: no feature vector satisfies the conditions of '{axiom}'"
+        for axiom in never_applies(domain.knowledge, domain.schema)
+    ]
+    covered = {q.feature for q in questions.all if q.feature}
+    warnings += [
+        f"no question asks about the feature '{key}'"
+        for key in domain.features
+        if key not in covered
+    ]
+    report = DomainReport(
+        questions=len(questions.one_of_each()),
+        wordings=len(questions.all),
+        vectors=len(vectors),
+        verdicts={name: number / len(vectors) for name, number in counted.most_common()},
+        warnings=tuple(warnings),
+    )
+    if data is None:
+        return report
+    scenes = Dataset.load(data, domain)
+    decisions = reasoner.decide_all(scenes.vectors)
+    decided = [
+        decision.label == label
+        for decision, label in zip(decisions, scenes.labels, strict=True)
+        if decision.label is not None
+    ]
+    return DomainReport(
+        **{
+            **report.__dict__,
+            "axioms": axiom_records(reasoner, scenes.vectors, scenes.labels),
+            "decided": len(decided) / len(scenes),
+            "decided_rightly": float(np.mean(decided)) if decided else 0.0,
+        }
+    )
+
+
+def feature_vectors(domain: Domain, *, most: int = MOST_VECTORS) -> list[FeatureVector]:
+    """Return all feature vectors of a domain, or a sample where there are more than ``most``."""
+    values = [feature.values for feature in domain.features.values()]
+    if prod(map(len, values)) <= most:
+        return [tuple(vector) for vector in product(*values)]
+    generator = np.random.default_rng(0)
+    return [tuple(own[int(generator.integers(len(own)))] for own in values) for _ in range(most)]

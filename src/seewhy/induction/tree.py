@@ -1,0 +1,334 @@
+"""A decision tree over feature vectors, whose paths read as sentences."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median_low
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.model_selection import GridSearchCV, StratifiedKFold
+from sklearn.tree import DecisionTreeClassifier
+
+from seewhy.errors import ModelError
+from seewhy.files import whole_file, write_whole
+from seewhy.knowledge.scene import FeatureVector
+
+
+@dataclass(frozen=True)
+class PathCondition:
+    """What a path asks of one feature: that its value is among ``values``."""
+
+    feature: str
+    values: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class TreePath:
+    """A path from the root to a leaf.
+
+    Attributes
+    ----------
+    conditions : tuple of PathCondition
+        One per feature that the path tests, in the order of the first test. Without values:
+        only a feature that is not known gets here.
+    label : str
+        The class of the leaf.
+    support : int
+        The training scenes that end in the leaf.
+    precision : float
+        The share of them that are of the class.
+    """
+
+    conditions: tuple[PathCondition, ...]
+    label: str
+    support: int
+    precision: float
+
+
+@dataclass(frozen=True)
+class TreeNode:
+    """A node of the tree, for drawing.
+
+    ``feature`` is what the node asks about (None at a leaf); ``allowed`` are the values of the
+    parent's feature that lead here.
+    """
+
+    feature: str | None
+    allowed: tuple[str, ...]
+    label: str
+    support: int
+    precision: float
+    branches: tuple[TreeNode, ...] = ()
+
+
+class DecisionTree:
+    """Induces classes from feature vectors with scikit-learn's tree (Gini, pruned).
+
+    Numbers are compared, all other values are columns of their own, so that no path ever orders
+    categories. Pruning (cost-complexity) is chosen by cross-validation where there are enough
+    scenes. Paper: section 3.3.
+
+    Parameters
+    ----------
+    features : mapping of str to sequence of str
+        Feature name → its values.
+
+    Examples
+    --------
+    >>> tree = DecisionTree({"size": ["1", "2", "3"], "lean": ["yes", "no"]})
+    >>> scenes = [("1", "no"), ("2", "no"), ("3", "no"), ("3", "yes")] * 10
+    >>> tree = tree.fit(scenes, ["up", "up", "up", "down"] * 10)
+    >>> tree.classify(("3", "yes"))
+    'down'
+    >>> tree.path(("3", "yes")).conditions
+    (PathCondition(feature='lean', values=('yes',)),)
+    """
+
+    def __init__(self, features: Mapping[str, Sequence[str]]) -> None:
+        self.features = {name: tuple(values) for name, values in features.items()}
+        self.columns = tuple(_columns(self.features))
+        self._tree: DecisionTreeClassifier | None = None
+
+    @property
+    def fitted(self) -> bool:
+        """False where there were no scenes to learn from."""
+        return self._tree is not None
+
+    @property
+    def classes(self) -> tuple[str, ...]:
+        """The classes that the tree knows."""
+        return () if self._tree is None else tuple(map(str, self._tree.classes_))
+
+    def fit(
+        self, vectors: Sequence[FeatureVector], labels: Sequence[str], *, seed: int = 0
+    ) -> DecisionTree:
+        """Grow and prune the tree; with no scenes it stays unfitted."""
+        if not vectors:
+            self._tree = None
+            return self
+        table = self._encode(vectors)
+        classes = np.asarray(labels)
+        # The features are few and discrete: leaves need support, or they are noise.
+        smallest = max(1, min(5, len(vectors) // 50))
+        tree = DecisionTreeClassifier(
+            criterion="gini", min_samples_leaf=smallest, random_state=seed
+        )
+        rarest = int(np.unique(classes, return_counts=True)[1].min())
+        if rarest >= 2 and len(set(labels)) > 1 and len(vectors) >= 20:
+            path = tree.cost_complexity_pruning_path(table, classes)
+            alphas = np.unique(np.clip(path.ccp_alphas[:-1], 0.0, None))
+            search = GridSearchCV(
+                tree,
+                {"ccp_alpha": sorted(_thin(alphas))},
+                cv=StratifiedKFold(min(5, rarest), shuffle=True, random_state=seed),
+            )
+            search.fit(table, classes)
+            tree = _largest_alpha(search, tree)
+        tree.fit(table, classes)
+        self._tree = tree
+        return self
+
+    def classify(self, vector: FeatureVector) -> str:
+        """Return the class of a scene.
+
+        Raises
+        ------
+        ValueError
+            If the tree is not fitted.
+        """
+        return str(self._fitted().predict(self._encode([vector]))[0])
+
+    def probability(self, vector: FeatureVector) -> dict[str, float]:
+        """Return the share of each class among the training scenes in the scene's leaf."""
+        shares = self._fitted().predict_proba(self._encode([vector]))[0]
+        return {name: float(share) for name, share in zip(self.classes, shares, strict=True)}
+
+    def path(self, vector: FeatureVector) -> TreePath:
+        """Return the path that a scene takes."""
+        tree = self._fitted().tree_
+        row = self._encode([vector])[0]
+        node = 0
+        steps: list[tuple[int, bool]] = []
+        while tree.children_left[node] != -1:
+            left = bool(row[tree.feature[node]] <= tree.threshold[node])
+            steps.append((node, left))
+            node = tree.children_left[node] if left else tree.children_right[node]
+        return self._path(steps, node)
+
+    def paths(self) -> tuple[TreePath, ...]:
+        """Return all paths, from the leftmost leaf to the rightmost."""
+        if self._tree is None:
+            return ()
+        tree = self._tree.tree_
+        found: list[TreePath] = []
+
+        def descend(node: int, steps: list[tuple[int, bool]]) -> None:
+            if tree.children_left[node] == -1:
+                found.append(self._path(steps, node))
+                return
+            descend(tree.children_left[node], [*steps, (node, True)])
+            descend(tree.children_right[node], [*steps, (node, False)])
+
+        descend(0, [])
+        return tuple(found)
+
+    def root(self) -> TreeNode | None:
+        """Return the tree as nested nodes, or None where it is unfitted."""
+        if self._tree is None:
+            return None
+        tree = self._tree.tree_
+
+        def node_at(node: int, steps: list[tuple[int, bool]]) -> TreeNode:
+            path = self._path(steps, node)
+            branches: tuple[TreeNode, ...] = ()
+            feature = None
+            if tree.children_left[node] != -1:
+                feature = self.columns[tree.feature[node]][0]
+                branches = (
+                    node_at(tree.children_left[node], [*steps, (node, True)]),
+                    node_at(tree.children_right[node], [*steps, (node, False)]),
+                )
+            asked = self.columns[tree.feature[steps[-1][0]]][0] if steps else None
+            allowed = next((c.values for c in path.conditions if c.feature == asked), ())
+            return TreeNode(feature, allowed, path.label, path.support, path.precision, branches)
+
+        return node_at(0, [])
+
+    def _path(self, steps: Sequence[tuple[int, bool]], leaf: int) -> TreePath:
+        fitted = self._fitted()
+        tree = fitted.tree_
+        allowed: dict[str, tuple[str, ...]] = {}
+        for node, left in steps:
+            feature, value = self.columns[tree.feature[node]]
+            values = allowed.get(feature, self.features[feature])
+            if value is None:
+                limit = tree.threshold[node]
+                kept = tuple(v for v in values if (int(v) <= limit) == left)
+            else:
+                kept = tuple(v for v in values if (v != value) == left)
+            allowed[feature] = kept
+        shares = tree.value[leaf][0]
+        return TreePath(
+            conditions=tuple(PathCondition(f, values) for f, values in allowed.items()),
+            label=str(fitted.classes_[int(np.argmax(shares))]),
+            support=int(tree.n_node_samples[leaf]),
+            precision=float(shares.max() / shares.sum()),
+        )
+
+    def _encode(self, vectors: Sequence[FeatureVector]) -> NDArray[np.float64]:
+        """One row per scene; a number that is not known is the middle one of its values."""
+        names = list(self.features)
+        table = np.zeros((len(vectors), len(self.columns)))
+        for column, (feature, value) in enumerate(self.columns):
+            position = names.index(feature)
+            if value is None:
+                middle = float(median_low([int(v) for v in self.features[feature]]))
+                table[:, column] = [
+                    middle if v[position] is None else float(v[position] or 0) for v in vectors
+                ]
+            else:
+                table[:, column] = [v[position] == value for v in vectors]
+        return table
+
+    def _fitted(self) -> DecisionTreeClassifier:
+        if self._tree is None:
+            raise ValueError("the tree is not fitted; call fit with at least one scene")
+        return self._tree
+
+    def save(self, folder: Path) -> None:
+        """Write the tree to ``folder`` without pickle (tree.skops and tree.json)."""
+        import skops.io
+
+        write_whole(
+            folder / "tree.json",
+            json.dumps({"features": self.features, "fitted": self.fitted}, indent=1),
+        )
+        if self._tree is not None:
+            with whole_file(folder / "tree.skops") as temporary:
+                skops.io.dump(self._tree, temporary)
+
+    @staticmethod
+    def load(folder: Path) -> DecisionTree:
+        """Read a tree that :meth:`save` wrote.
+
+        Raises
+        ------
+        ModelError
+            If a file is missing or is no tree.
+        """
+        import skops.io
+
+        try:
+            described: dict[str, Any] = json.loads(
+                (folder / "tree.json").read_text(encoding="utf-8")
+            )
+            tree = DecisionTree(described["features"])
+            if described["fitted"]:
+                loaded = skops.io.load(folder / "tree.skops", trusted=["sklearn.tree._tree.Tree"])
+                _check_nodes(loaded, len(tree.columns))
+                tree._tree = loaded
+        except FileNotFoundError as problem:
+            raise ModelError(
+                f"{folder}: the model is incomplete, {Path(str(problem.filename)).name} is "
+                "missing; train it again"
+            ) from None
+        except Exception as problem:
+            raise ModelError(
+                f"{folder}: the decision tree cannot be read ({problem}); train it again"
+            ) from None
+        return tree
+
+
+def _check_nodes(loaded: object, columns: int) -> None:
+    """Refuse node tables that point outside themselves; scikit-learn follows them unchecked."""
+    if not isinstance(loaded, DecisionTreeClassifier):
+        raise TypeError("it holds no decision tree")
+    nodes = loaded.tree_
+    count = nodes.node_count
+    inner = nodes.children_left != -1
+    children = np.concatenate([nodes.children_left[inner], nodes.children_right[inner]])
+    parents = np.concatenate([np.flatnonzero(inner)] * 2)
+    if (
+        (inner != (nodes.children_right != -1)).any()
+        or (children <= parents).any()
+        or (children >= count).any()
+        or (nodes.feature[inner] < 0).any()
+        or (nodes.feature[inner] >= columns).any()
+    ):
+        raise ValueError("its nodes do not form a tree")
+
+
+def _columns(features: Mapping[str, Sequence[str]]) -> list[tuple[str, str | None]]:
+    """(feature, None) for a number, (feature, value) for one value of a category."""
+    columns: list[tuple[str, str | None]] = []
+    for name, values in features.items():
+        if all(value.lstrip("-").isdigit() for value in values):
+            columns.append((name, None))
+        elif len(values) == 2:
+            columns.append((name, values[0]))
+        else:
+            columns += [(name, value) for value in values]
+    return columns
+
+
+def _thin(alphas: NDArray[np.float64], *, most: int = 25) -> list[float]:
+    """At most ``most`` of the pruning strengths, evenly chosen."""
+    if len(alphas) <= most:
+        return [float(alpha) for alpha in alphas]
+    return [float(alphas[i]) for i in np.linspace(0, len(alphas) - 1, most).astype(int)]
+
+
+def _largest_alpha(search: GridSearchCV, tree: DecisionTreeClassifier) -> DecisionTreeClassifier:
+    """The strongest pruning within one standard error of the best accuracy."""
+    results = search.cv_results_
+    best = int(results["rank_test_score"].argmin())
+    folds = search.n_splits_
+    least = results["mean_test_score"][best] - results["std_test_score"][best] / np.sqrt(folds)
+    alphas = np.asarray([p["ccp_alpha"] for p in results["params"]])
+    enough = results["mean_test_score"] >= least
+    return tree.set_params(ccp_alpha=float(alphas[enough].max()))

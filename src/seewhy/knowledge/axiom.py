@@ -1,0 +1,156 @@
+"""Axioms as data: literals, conditions, kinds and origins."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from seewhy.knowledge.signature import Location
+
+_STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
+_VARIABLE = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![A-Za-z0-9_\'])_*[A-Z][A-Za-z0-9_\']*')
+
+
+def variables_in(text: str) -> tuple[str, ...]:
+    """Return the variables of a term or condition, each once, in order of appearance.
+
+    Examples
+    --------
+    >>> variables_in('num_blocks(S, N), N > 2, name("Bob")')
+    ('S', 'N')
+    """
+    found = (match.group() for match in _VARIABLE.finditer(text))
+    return tuple(dict.fromkeys(name for name in found if not name.startswith('"')))
+
+
+def substitute(text: str, binding: Mapping[str, str]) -> str:
+    """Replace the variables of ``text`` that ``binding`` names.
+
+    Examples
+    --------
+    >>> substitute("num_blocks(S, N+1)", {"S": "scene", "N": "2"})
+    'num_blocks(scene, 2+1)'
+    """
+    return _VARIABLE.sub(lambda match: binding.get(match.group(), match.group()), text)
+
+
+@dataclass(frozen=True)
+class Literal:
+    """A predicate with its arguments, affirmed or denied by classical negation.
+
+    Examples
+    --------
+    >>> str(Literal(predicate="stable", arguments=("S",), positive=False))
+    '-stable(S)'
+    """
+
+    predicate: str
+    arguments: tuple[str, ...]
+    positive: bool = True
+
+    def __str__(self) -> str:
+        arguments = f"({', '.join(self.arguments)})" if self.arguments else ""
+        return f"{'' if self.positive else '-'}{self.predicate}{arguments}"
+
+    @property
+    def complement(self) -> Literal:
+        """The same literal with the opposite classical sign."""
+        return replace(self, positive=not self.positive)
+
+    def substitute(self, binding: Mapping[str, str]) -> Literal:
+        """Return the literal with variables replaced as ``binding`` says."""
+        return replace(self, arguments=tuple(substitute(a, binding) for a in self.arguments))
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One element of an axiom's body, as written.
+
+    ``literal`` is None for comparisons and aggregates, which clingo evaluates as they stand.
+    ``absent`` is True for ``not …``: the condition holds when the literal is not believed.
+    """
+
+    text: str
+    literal: Literal | None = None
+    absent: bool = False
+
+    def __str__(self) -> str:
+        return self.text
+
+    @property
+    def is_local(self) -> bool:
+        """Whether the condition has variables of its own, as ``#count {…}`` and ``p(X) : q(X)``."""
+        return self.literal is None and re.search("[{:]", _STRING.sub("", self.text)) is not None
+
+
+class AxiomKind(StrEnum):
+    """The statements of the action language AL_d (section 3.2 of the paper).
+
+    Causal laws and executability conditions speak of actions and time; the reader does not take
+    them yet.
+    """
+
+    STATE_CONSTRAINT = "state constraint"
+    DEFAULT = "default"
+    CAUSAL_LAW = "causal law"
+    EXECUTABILITY_CONDITION = "executability condition"
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where an axiom comes from: given by a person, or learned from scenes.
+
+    ``support`` counts the scenes that a learned axiom rests on; ``precision`` is the share of
+    them on which it is right.
+    """
+
+    learned: bool = False
+    support: int = 0
+    precision: float = 1.0
+
+
+@dataclass(frozen=True)
+class Axiom:
+    """One statement of the knowledge: the head is believed where all conditions hold.
+
+    ``text`` is the sentence that the author put above it (``%%``), or the statement itself.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> knowledge = read_knowledge('''
+    ... #sort structure.
+    ... #static stable(structure).
+    ... #static block_displaced(structure).
+    ... %% a displaced block falls
+    ... -stable(S) if block_displaced(S).
+    ... ''')
+    >>> axiom = knowledge.axioms[0]
+    >>> str(axiom)
+    '-stable(S) if block_displaced(S).'
+    >>> axiom.text, axiom.location.line
+    ('a displaced block falls', 6)
+    """
+
+    identifier: str
+    kind: AxiomKind
+    head: Literal
+    body: tuple[Condition, ...]
+    text: str
+    location: Location
+    origin: Origin = Origin()
+
+    def __str__(self) -> str:
+        default = "default " if self.kind is AxiomKind.DEFAULT else ""
+        # After 'p(X) : q(X)' a comma would go on with what stands behind the colon.
+        ends = ["; " if own.is_local and "{" not in own.text else ", " for own in self.body]
+        body = "".join(f"{own}{end}" for own, end in zip(self.body, ends, strict=True))
+        return f"{default}{self.head}{' if ' if body else ''}{body[:-2]}."
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The variables of head and body, those of local conditions left out, in order."""
+        parts = [str(self.head), *(c.text for c in self.body if not c.is_local)]
+        return variables_in(" ".join(parts))

@@ -1,0 +1,179 @@
+"""The smallest change of features under which a class is believed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import clingo
+
+from seewhy.knowledge.program import UNKNOWN, program_text
+from seewhy.knowledge.reasoner import Reasoner
+from seewhy.knowledge.scene import FeatureVector
+
+
+@dataclass(frozen=True)
+class FeatureChange:
+    """One feature that would have to be different; ``before`` is None where it is unknown."""
+
+    feature: str
+    before: str | None
+    after: str
+
+
+@dataclass(frozen=True)
+class Change:
+    """A set of feature changes and the feature vector that results.
+
+    ``cost`` adds up the domain's cost of every changed feature.
+    """
+
+    changes: tuple[FeatureChange, ...]
+    vector: FeatureVector
+    cost: int
+
+
+class ChangeFinder:
+    """Finds the cheapest feature vectors under which a class is believed.
+
+    An optimisation over answer sets, exact: candidates come in order of cost, among equals those
+    whose numbers move least, and each is confirmed by the reasoner, because a class must be
+    believed in every preferred answer set and not in one only. Vectors that fail are ruled out
+    for good.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> finder = ChangeFinder(Reasoner(domain.knowledge, domain.schema))
+    >>> vector = domain.vector({"num_blocks": "2", "base": "wide", "lean": "no",
+    ...                         "block_displaced": "yes"})
+    >>> [(c.feature, c.after) for c in finder.smallest(vector, "stable")[0].changes]
+    [('block_displaced', 'no')]
+    """
+
+    def __init__(self, reasoner: Reasoner) -> None:
+        self.reasoner = reasoner
+        self.schema = reasoner.schema
+        self._ruled_out = 0
+
+    @cached_property
+    def _control(self) -> clingo.Control:
+        control = clingo.Control(
+            ["--warn=none", "--opt-mode=optN", "--project=show"], logger=lambda *_: None
+        )
+        control.add("base", [], self._program())
+        control.ground([("base", [])])
+        return control
+
+    @cached_property
+    def _literals(self) -> dict[str, int]:
+        return {str(atom.symbol): atom.literal for atom in self._control.symbolic_atoms}
+
+    def _program(self) -> str:
+        schema = self.schema
+        lines = [program_text(self.reasoner.knowledge, schema, exceptions=True)]
+        for feature, values in schema.features.items():
+            choices = "; ".join(f"current({feature}, {value})" for value in (*values, UNKNOWN))
+            cost = schema.change_costs.get(feature, 1)
+            lines += [
+                f"1 {{ {choices} }} 1.",
+                f"changed({feature}, {cost}) :- current({feature}, V), not observed({feature}, V).",
+                f":- observed({feature}, {UNKNOWN}), not current({feature}, {UNKNOWN}).",
+            ]
+            if all(value.lstrip("-").isdigit() for value in values):
+                lines.append(
+                    f"moved({feature}, |V - W|) :- observed({feature}, V), current({feature}, W), "
+                    f"V != {UNKNOWN}, W != {UNKNOWN}."
+                )
+        goals = "; ".join(f"goal({name})" for name in map(self._goal, schema.classes))
+        lines.append(f"1 {{ {goals} }} 1.")
+        for name, literal in schema.classes.items():
+            lines.append(f":- goal({self._goal(name)}), not holds({literal}).")
+        lines += [
+            "#minimize { C@2, F : changed(F, C) }.",
+            "#minimize { D@1, F : moved(F, D) }.",
+            "#show observed/2.",
+        ]
+        return "\n".join(lines)
+
+    def _goal(self, label: str) -> str:
+        return f"c{list(self.schema.classes).index(label)}"
+
+    def smallest(self, vector: FeatureVector, label: str, *, limit: int = 3) -> tuple[Change, ...]:
+        """Return the cheapest changes that make ``label`` believed, at most ``limit`` of them.
+
+        An empty tuple means that no feature vector makes the class believed; a change without
+        feature changes means that it is believed already.
+
+        Raises
+        ------
+        KeyError
+            If there is no such class.
+        """
+        if label not in self.schema.classes:
+            raise KeyError(label)
+        current = [
+            self._literals[f"current({feature},{UNKNOWN if value is None else value})"]
+            for feature, value in zip(self.schema.features, vector, strict=True)
+        ]
+        assumptions = [
+            *current,
+            self._literals["strict"],
+            self._literals[f"goal({self._goal(label)})"],
+        ]
+        while candidates := self._cheapest(assumptions):
+            confirmed = [c for c in candidates if self.reasoner.decide(c).label == label]
+            if confirmed:
+                changes = (self._change(vector, candidate) for candidate in confirmed)
+                return tuple(sorted(changes, key=_order)[:limit])
+            for candidate in candidates:
+                self._rule_out(candidate, label)
+        return ()
+
+    def _cheapest(self, assumptions: list[int]) -> list[FeatureVector]:
+        found: list[FeatureVector] = []
+
+        def on_model(model: clingo.Model) -> None:
+            if model.optimality_proven:
+                shown = {
+                    str(s.arguments[0]): str(s.arguments[1])
+                    for s in model.symbols(shown=True)
+                    if s.name == "observed"
+                }
+                found.append(
+                    tuple(
+                        None if shown[feature] == UNKNOWN else shown[feature]
+                        for feature in self.schema.features
+                    )
+                )
+
+        solve: Any = self._control.configuration.solve
+        solve.models = 64
+        self._control.solve(assumptions, on_model=on_model)
+        return list(dict.fromkeys(found))
+
+    def _rule_out(self, vector: FeatureVector, label: str) -> None:
+        """Forbid a vector that was tried in vain as a way to ``label``, now and later."""
+        observed = ", ".join(
+            f"observed({feature}, {UNKNOWN if value is None else value})"
+            for feature, value in zip(self.schema.features, vector, strict=True)
+        )
+        self._ruled_out += 1
+        part = f"ruled_out_{self._ruled_out}"
+        self._control.add(part, [], f":- goal({self._goal(label)}), {observed}.")
+        self._control.ground([(part, [])])
+
+    def _change(self, before: FeatureVector, after: FeatureVector) -> Change:
+        changes = tuple(
+            FeatureChange(feature=feature, before=old, after=new)
+            for feature, old, new in zip(self.schema.features, before, after, strict=True)
+            if old != new and new is not None
+        )
+        cost = sum(self.schema.change_costs.get(change.feature, 1) for change in changes)
+        return Change(changes=changes, vector=after, cost=cost)
+
+
+def _order(change: Change) -> tuple[str, ...]:
+    return tuple(f"{c.feature}={c.after}" for c in change.changes)

@@ -1,0 +1,51 @@
+"""Ground literals and terms as clingo prints them."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import clingo
+
+from seewhy.knowledge.axiom import Literal
+
+
+@lru_cache(maxsize=4096)
+def term_of(text: str) -> str:
+    """A term as clingo prints it; as written where it is not one term, as ``1..3`` and ``_``."""
+    try:
+        return str(clingo.parse_term(text, logger=lambda *_: None))
+    except RuntimeError:
+        return text
+
+
+@lru_cache(maxsize=4096)
+def terms_of(text: str) -> frozenset[str]:
+    """The terms that an argument stands for; none where its arithmetic is undefined."""
+    if text == "_":
+        return frozenset({text})
+    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+    control.add("base", [], f"term({text}).")
+    control.ground([("base", [])])
+    return frozenset(str(atom.symbol.arguments[0]) for atom in control.symbolic_atoms)
+
+
+def key_of(literal: Literal) -> str:
+    """The literal as clingo prints it, its arithmetic evaluated."""
+    arguments = ",".join(term_of(argument) for argument in literal.arguments)
+    sign = "" if literal.positive else "-"
+    return f"{sign}{literal.predicate}({arguments})" if arguments else f"{sign}{literal.predicate}"
+
+
+def literal_of(key: str) -> Literal:
+    """The literal that :func:`key_of` names."""
+    symbol = clingo.parse_term(key)
+    return Literal(
+        predicate=symbol.name,
+        arguments=tuple(str(argument) for argument in symbol.arguments),
+        positive=symbol.positive,
+    )
+
+
+def complement_of(symbol: clingo.Symbol) -> clingo.Symbol:
+    """The same symbol with the opposite classical sign."""
+    return clingo.Function(symbol.name, symbol.arguments, not symbol.positive)

@@ -1,0 +1,148 @@
+"""A belief's justification: a tree of literals, axioms and features, for people and programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any
+
+from seewhy.knowledge.axiom import Axiom
+
+
+class Basis(StrEnum):
+    """What a node of a justification rests on."""
+
+    FEATURE = "feature"
+    AXIOM = "axiom"
+    DEFAULT = "default"
+    REASONS = "several reasons"
+    ABSENCE = "absence"
+    COMPARISON = "comparison"
+    FACT = "fact"
+    EXCEPTION = "exception"
+    CONFLICT = "conflict"
+    UNFOUNDED = "nothing concludes it"
+    TREE = "decision tree"
+    PATH = "path of the tree"
+    RECURRENT = "recurrent network"
+
+
+@dataclass(frozen=True)
+class Node:
+    """One step of a justification.
+
+    Attributes
+    ----------
+    literal : str
+        The literal or condition in the knowledge language.
+    text : str
+        The same as a clause in words.
+    basis : Basis
+    holds : bool
+        False where a justification says why something is not believed.
+    axiom : Axiom or None
+        The axiom that was used, with its text and place.
+    feature, value : str or None
+        The feature and the value that the picture shows.
+    probability : float or None
+        The network's probability of that value.
+    children : tuple of Node
+        What the step rests on.
+
+    Examples
+    --------
+    >>> leaf = Node(literal="lean(structure)", text="it leans", basis=Basis.FEATURE)
+    >>> print(Node("-stable(structure)", "it falls", Basis.AXIOM, children=(leaf,)).to_text())
+    it falls
+    └─ it leans
+    """
+
+    literal: str
+    text: str
+    basis: Basis
+    holds: bool = True
+    axiom: Axiom | None = None
+    feature: str | None = None
+    value: str | None = None
+    probability: float | None = None
+    children: tuple[Node, ...] = ()
+
+    def walk(self) -> Iterator[Node]:
+        """Yield this node and all below it, parents first."""
+        yield self
+        for child in self.children:
+            yield from child.walk()
+
+    def features(self) -> tuple[str, ...]:
+        """Return the features that the justification rests on, each once."""
+        named = (node.feature for node in self.walk() if node.feature is not None)
+        return tuple(dict.fromkeys(named))
+
+    def with_probabilities(self, seen: Mapping[str, tuple[str, float]]) -> Node:
+        """Return the tree with the probability of every value that the picture shows.
+
+        ``seen`` gives each feature's value and its probability. The values of a proposed change
+        are no readings and have no probability.
+        """
+        value, probability = seen.get(self.feature or "", (None, None))
+        shown = self.feature is not None and self.value in (None, value)
+        return replace(
+            self,
+            probability=probability if shown else self.probability,
+            children=tuple(child.with_probabilities(seen) for child in self.children),
+        )
+
+    def label(self) -> str:
+        """Return the node as one line: its clause, the axiom's sentence, the probability."""
+        line = self.text
+        if self.axiom is not None:
+            place = self.axiom.location
+            origin = self.axiom.origin
+            learned = f", learned from {origin.support} scenes" if origin.learned else ""
+            file = place.file.replace("\\", "/").rsplit("/", 1)[-1]
+            said = f'"{self.axiom.text}" ({file}:{place.line}{learned})'
+            line = f"{line}: {said}" if self.holds else f"does not apply: {said}"
+        elif not self.holds and self.basis in (Basis.FEATURE, Basis.COMPARISON):
+            line = f"but {line}"
+        if self.probability is not None:
+            line += f" (p = {self.probability:.2f})"
+        return line
+
+    def to_text(self) -> str:
+        """Return the tree as indented lines."""
+        return "\n".join(_lines(self, "", ""))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the tree as values that JSON can hold."""
+        axiom = self.axiom
+        return {
+            "literal": self.literal,
+            "text": self.text,
+            "basis": self.basis.value,
+            "holds": self.holds,
+            "axiom": None
+            if axiom is None
+            else {
+                "identifier": axiom.identifier,
+                "text": axiom.text,
+                "statement": str(axiom),
+                "file": axiom.location.file,
+                "line": axiom.location.line,
+                "learned": axiom.origin.learned,
+                "support": axiom.origin.support if axiom.origin.learned else None,
+            },
+            "feature": self.feature,
+            "value": self.value,
+            "probability": self.probability,
+            "children": [child.to_dict() for child in self.children],
+        }
+
+
+def _lines(node: Node, first: str, rest: str) -> Iterator[str]:
+    yield first + node.label()
+    for number, child in enumerate(node.children, start=1):
+        last = number == len(node.children)
+        yield from _lines(
+            child, rest + ("└─ " if last else "├─ "), rest + ("   " if last else "│  ")
+        )

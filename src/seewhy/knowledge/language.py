@@ -1,0 +1,497 @@
+"""Read the knowledge language: sorts, statics and axioms, checked against the signature.
+
+The language is that of the paper (AL_d and answer set prolog) over clingo terms. ``if`` is
+replaced by ``:-``, which is as long, so that the positions that clingo's parser reports are
+those of the user's file.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import clingo
+from clingo import ast
+
+from seewhy.errors import KnowledgeError
+from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal
+from seewhy.knowledge.signature import Location, Predicate, PredicateKind, Signature, Sort
+from seewhy.knowledge.statements import Statement, one_line, statements
+from seewhy.nearest import did_you_mean
+
+_NAME = r"_*[a-z][A-Za-z0-9_]*"
+_SORT = re.compile(rf"#sort\s+({_NAME})\s*(?:=\s*(\S.*))?$", re.DOTALL)
+_STATIC = re.compile(rf"#static\s+({_NAME})\s*(?:\(([^()]*)\))?\s*$", re.DOTALL)
+_RANGE = re.compile(r"(-?\d+)\s*\.\.\s*(-?\d+)$")
+_WORD = re.compile(r"\"(?:[^\"\\]|\\.)*\"|[A-Za-z0-9_']+")
+_CLINGO_ERROR = re.compile(r":(\d+):(\d+)(?:-[\d:]+)?: error: (.+)", re.DOTALL)
+_UNSAFE = re.compile(r":(\d+):(\d+)(?:-[\d:]+)?: note: '(\S+)' is unsafe")
+_MOST_MEMBERS = 10_000
+_CHANGE = {"#fluent": "#fluent", "#action": "#action", "impossible": "impossible"}
+
+
+@dataclass(frozen=True)
+class Knowledge:
+    """A domain's knowledge: the signature and the axioms in the order of the file."""
+
+    signature: Signature
+    axioms: tuple[Axiom, ...]
+    file: str
+
+
+def read_knowledge_file(path: Path | str) -> Knowledge:
+    """Read a ``.al`` file.
+
+    Raises
+    ------
+    KnowledgeError
+        Where the file is missing or a statement is wrong; the text names file, line and column.
+    """
+    path = Path(path)
+    try:
+        source = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise KnowledgeError(
+            f"{path}: there is no such file; a domain needs its axioms in knowledge.al"
+        ) from None
+    except (OSError, UnicodeDecodeError) as problem:
+        raise KnowledgeError(f"{path}: cannot be read as UTF-8 text ({problem})") from None
+    return read_knowledge(source, file=str(path))
+
+
+def read_knowledge(source: str, *, file: str = "knowledge.al") -> Knowledge:
+    """Read knowledge from text; ``file`` is the name that errors and justifications give.
+
+    Raises
+    ------
+    KnowledgeError
+        Where a statement is wrong; the text names file, line, column and the remedy.
+
+    Examples
+    --------
+    >>> knowledge = read_knowledge('''
+    ... #sort structure.
+    ... #sort num = 1..5.
+    ... #static num_blocks(structure, num).
+    ... #static stable(structure).
+    ... stable(S) if num_blocks(S, N), N < 2.
+    ... ''')
+    >>> [str(axiom) for axiom in knowledge.axioms]
+    ['stable(S) if num_blocks(S, N), N < 2.']
+    """
+    sorts: dict[str, Sort] = {}
+    predicates: dict[str, Predicate] = {}
+    rules: list[Statement] = []
+    for statement in statements(source, file=file):
+        if not statement.text.startswith("#"):
+            rules.append(statement)
+        elif statement.text.startswith("#sort"):
+            sort = _read_sort(statement)
+            _refuse_second(sort.name, sort.location, {**sorts, **predicates})
+            sorts[sort.name] = sort
+        elif statement.text.startswith("#static"):
+            predicate = _read_static(statement, sorts)
+            _refuse_second(predicate.name, predicate.location, {**sorts, **predicates})
+            predicates[predicate.name] = predicate
+        else:
+            _refuse_directive(statement)
+    signature = Signature(sorts=sorts, predicates=predicates)
+    parsed = [(statement, *_parse_rule(statement)) for statement in rules]
+    axioms = tuple(
+        _read_axiom(statement, kind, rule, signature, number)
+        for number, (statement, kind, rule) in enumerate(parsed, start=1)
+    )
+    _check_safety([(statement, rule) for statement, _, rule in parsed])
+    return Knowledge(signature=signature, axioms=axioms, file=file)
+
+
+def read_literal(text: str) -> Literal:
+    """Read one literal such as ``-stable(S)``.
+
+    Raises
+    ------
+    KnowledgeError
+        If the text is not a single literal.
+
+    Examples
+    --------
+    >>> read_literal("-stable(S)")
+    Literal(predicate='stable', arguments=('S',), positive=False)
+    """
+    found: list[ast.AST] = []
+    try:
+        (statement,) = statements(f"{text}.", file="")
+        ast.parse_string(f"{statement.text}.", found.append, logger=lambda *_: None)
+    except (RuntimeError, ValueError):
+        found = []
+    rules = [node for node in found if node.ast_type is ast.ASTType.Rule]
+    literal = _head_of(rules[0]) if len(rules) == 1 and not rules[0].body else None
+    if literal is None:
+        raise KnowledgeError(
+            f"'{text}' is not a literal; write one such as stable(S) or -stable(S)"
+        )
+    return literal
+
+
+def _refuse_second(name: str, location: Location, known: Mapping[str, Sort | Predicate]) -> None:
+    if name in known:
+        raise KnowledgeError(
+            f"{location}: '{name}' is declared a second time (first at {known[name].location}); "
+            "remove one of the two or rename it"
+        )
+
+
+def _refuse_directive(statement: Statement) -> None:
+    word = statement.text.split()[0]
+    if word in _CHANGE:
+        raise KnowledgeError(_change_message(statement.location, word))
+    raise KnowledgeError(
+        f"{statement.location}: found '{word}', expected a declaration; "
+        f"{did_you_mean(word, ['#sort', '#static'])}"
+    )
+
+
+def _change_message(location: Location, word: str) -> str:
+    return (
+        f"{location}: '{word}' belongs to knowledge about actions and time, which the reader "
+        "does not take yet; say it with statics or remove it"
+    )
+
+
+def _read_sort(statement: Statement) -> Sort:
+    match = _SORT.match(statement.text)
+    if match is None:
+        raise KnowledgeError(
+            f"{statement.location}: a sort is declared as '#sort name.', "
+            f"'#sort name = 1..5.' or '#sort name = {{a, b}}.', got '{statement.line}'"
+        )
+    name, definition = match.group(1), (match.group(2) or "").strip()
+    members: tuple[str, ...] | None = None
+    if definition:
+        span = _RANGE.match(definition)
+        if span:
+            members = _read_range(span.group(1), span.group(2), name, statement)
+        elif definition.startswith("{") and definition.endswith("}"):
+            members = _read_members(definition[1:-1].strip(), statement)
+        else:
+            raise KnowledgeError(
+                f"{statement.location}: the members of sort '{name}' must be a range (1..5) or a "
+                f"set ({{wide, narrow}}), got '{one_line(definition)}'"
+            )
+        if not members:
+            raise KnowledgeError(
+                f"{statement.location}: sort '{name}' has no members; give at least one"
+            )
+        if len(set(members)) < len(members):
+            twice = next(m for m in members if members.count(m) > 1)
+            raise KnowledgeError(
+                f"{statement.location}: sort '{name}' lists '{twice}' twice; remove one of them"
+            )
+    return Sort(name=name, members=members, location=statement.location)
+
+
+def _read_range(first: str, last: str, name: str, statement: Statement) -> tuple[str, ...]:
+    # Nothing reads numbers of more than nine digits: clingo's have 32 bits.
+    if max(len(first), len(last)) > 10 or int(last) - int(first) >= _MOST_MEMBERS:
+        raise KnowledgeError(
+            f"{statement.location}: sort '{name}' would have more than {_MOST_MEMBERS} members "
+            f"({first}..{last}); axioms are tried with each of them, give a smaller range"
+        )
+    return tuple(str(number) for number in range(int(first), int(last) + 1))
+
+
+def _read_members(inside: str, statement: Statement) -> tuple[str, ...]:
+    if not inside:
+        return ()
+    members = _term(f"({inside},)")
+    if members is not None:
+        return tuple(map(str, members.arguments))
+    parts = [part.strip() for part in inside.split(",")]
+    wrong = next((part for part in parts if _term(part) is None), inside)
+    raise KnowledgeError(
+        f"{statement.location}: '{one_line(wrong)}' cannot be a member of a sort; write a name "
+        "that begins with a small letter, or a number"
+    )
+
+
+def _term(text: str) -> clingo.Symbol | None:
+    try:
+        return clingo.parse_term(text, logger=lambda *_: None)
+    except RuntimeError:
+        return None
+
+
+def _read_static(statement: Statement, sorts: Mapping[str, Sort]) -> Predicate:
+    match = _STATIC.match(statement.text)
+    if match is None:
+        raise KnowledgeError(
+            f"{statement.location}: a static is declared as '#static name(sort, sort).', "
+            f"got '{statement.line}'"
+        )
+    name, inside = match.group(1), match.group(2)
+    arguments = tuple(part.strip() for part in inside.split(",")) if inside else ()
+    for argument in arguments:
+        if argument not in sorts:
+            raise KnowledgeError(
+                f"{statement.location}: '{name}' uses the sort '{one_line(argument)}', which is "
+                f"not declared above; {did_you_mean(argument, sorts)}"
+            )
+    return Predicate(
+        name=name, sorts=arguments, kind=PredicateKind.STATIC, location=statement.location
+    )
+
+
+def _parse_rule(statement: Statement) -> tuple[AxiomKind, ast.AST]:
+    """Turn a statement into clingo's syntax tree without moving any character."""
+    text, location = statement.text, statement.location
+    kind = AxiomKind.STATE_CONSTRAINT
+    if ":-" in re.sub(r'"(?:[^"\\]|\\.)*"', "", text):
+        raise KnowledgeError(f"{location}: found ':-'; write 'if' between head and body")
+    words = [m for m in _WORD.finditer(text) if not m.group().startswith('"')]
+    if words and words[0].group() == "default":
+        kind = AxiomKind.DEFAULT
+        text = " " * words[0].end() + text[words[0].end() :]
+    for word in words:
+        if word.group() in ("causes", "impossible"):
+            raise KnowledgeError(_change_message(location, word.group()))
+    ifs = [word for word in words if word.group() == "if"]
+    if len(ifs) > 1:
+        raise KnowledgeError(
+            f"{location}: found 'if' {len(ifs)} times in one statement; "
+            "end the statement before the second with a full stop"
+        )
+    if ifs:
+        text = f"{text[: ifs[0].start()]}:-{text[ifs[0].end() :]}"
+    padded = "\n" * (location.line - 1) + " " * (location.column - 1) + text + "."
+    messages: list[str] = []
+    found: list[ast.AST] = []
+    try:
+        ast.parse_string(padded, found.append, logger=lambda _, m: messages.append(m))
+    except RuntimeError:
+        raise KnowledgeError(_syntax_message(messages, statement)) from None
+    rules = [node for node in found if node.ast_type is ast.ASTType.Rule]
+    if len(rules) != 1 or len(found) != 2:
+        raise KnowledgeError(
+            f"{location}: found '{statement.line}', expected an axiom: head, 'if', conditions"
+        )
+    return kind, rules[0]
+
+
+def _syntax_message(messages: list[str], statement: Statement) -> str:
+    match = next(filter(None, map(_CLINGO_ERROR.search, messages)), None)
+    if match is None:
+        return (
+            f"{statement.location}: the statement that begins here cannot be read; "
+            "check its spelling"
+        )
+    what = one_line(match.group(3))
+    place = statement.place(int(match.group(1)), int(match.group(2)))
+    what = (
+        what.replace(":-", "if")
+        .replace("<IDENTIFIER>", "a name")
+        .replace("<VARIABLE>", "a variable")
+        .replace("EOF", "the end")
+    )
+    return f"{place}: {what}; an axiom reads 'head if condition, condition.'"
+
+
+def _read_axiom(
+    statement: Statement, kind: AxiomKind, rule: ast.AST, signature: Signature, number: int
+) -> Axiom:
+    head = _head_of(rule)
+    if head is None:
+        got = "none" if str(rule.head) == "#false" else f"'{rule.head}'"
+        raise KnowledgeError(
+            f"{statement.location}: the head of an axiom must be one literal such as stable(S) "
+            f"or -stable(S), got {got}"
+        )
+    if head.predicate in signature.sorts:
+        raise KnowledgeError(
+            f"{statement.location}: '{head.predicate}' is a sort; its members are listed where "
+            "it is declared, an axiom cannot add to them"
+        )
+    variable_sorts: dict[str, Sort] = {}
+    for atom in _atoms(rule):
+        _check_atom(atom, signature, statement, variable_sorts)
+    body = tuple(_read_condition(element) for element in rule.body)
+    axiom = Axiom(
+        identifier=f"a{number}",
+        kind=kind,
+        head=head,
+        body=body,
+        text=statement.sentence,
+        location=statement.location,
+    )
+    return axiom if axiom.text else Axiom(**{**axiom.__dict__, "text": str(axiom).rstrip(".")})
+
+
+def _read_condition(element: ast.AST) -> Condition:
+    if element.ast_type is not ast.ASTType.Literal:
+        return Condition(text=str(element))
+    text = _spaced(element)
+    if element.sign == ast.Sign.DoubleNegation:
+        return Condition(text=text)
+    return Condition(
+        text=text,
+        literal=_literal_of(element),
+        absent=element.sign == ast.Sign.Negation and _literal_of(element) is not None,
+    )
+
+
+def _spaced(element: ast.AST) -> str:
+    """The text of a body element in the language's own spelling."""
+    literal = _literal_of(element)
+    if literal is None:
+        return str(element)
+    signs = {ast.Sign.Negation: "not ", ast.Sign.DoubleNegation: "not not "}
+    return f"{signs.get(element.sign, '')}{literal}"
+
+
+def _head_of(rule: ast.AST) -> Literal | None:
+    """The head where it is one literal: neither ``not …`` nor the several of a range or pool."""
+    head = _literal_of(rule.head)
+    if head is None or rule.head.sign != ast.Sign.NoSign:
+        return None
+    several: list[ast.AST] = []
+
+    class Find(ast.Transformer):
+        def visit_Interval(self, term: ast.AST) -> ast.AST:  # noqa: N802
+            several.append(term)
+            return term
+
+        visit_Pool = visit_Interval  # noqa: N815
+
+    Find().visit(rule.head)
+    return None if several else head
+
+
+def _literal_of(node: ast.AST) -> Literal | None:
+    if node.ast_type is not ast.ASTType.Literal or node.atom.ast_type is not (
+        ast.ASTType.SymbolicAtom
+    ):
+        return None
+    symbol, positive = node.atom.symbol, True
+    while symbol.ast_type is ast.ASTType.UnaryOperation:
+        symbol, positive = symbol.argument, not positive
+    if symbol.ast_type is not ast.ASTType.Function:
+        return None
+    return Literal(
+        predicate=symbol.name,
+        arguments=tuple(str(argument) for argument in symbol.arguments),
+        positive=positive,
+    )
+
+
+def _atoms(node: ast.AST) -> Iterator[ast.AST]:
+    """All symbolic atoms of a rule, those inside aggregates included."""
+    found: list[ast.AST] = []
+
+    class Collect(ast.Transformer):
+        def visit_SymbolicAtom(self, atom: ast.AST) -> ast.AST:  # noqa: N802
+            found.append(atom)
+            return atom
+
+    Collect().visit(node)
+    yield from found
+
+
+def _check_atom(
+    atom: ast.AST, signature: Signature, statement: Statement, variable_sorts: dict[str, Sort]
+) -> None:
+    symbol = atom.symbol
+    while symbol.ast_type is ast.ASTType.UnaryOperation:
+        symbol = symbol.argument
+    begin = symbol.location.begin
+    here = statement.place(begin.line, begin.column)
+    if symbol.ast_type is not ast.ASTType.Function:
+        raise KnowledgeError(f"{here}: '{symbol}' is no literal; write predicate(argument, …)")
+    if symbol.name in signature.sorts:
+        sorts: tuple[str, ...] = (symbol.name,)
+    elif symbol.name in signature.predicates:
+        sorts = signature.predicates[symbol.name].sorts
+    else:
+        known = [*signature.predicates, *signature.sorts]
+        raise KnowledgeError(
+            f"{here}: '{symbol.name}' is not declared; {did_you_mean(symbol.name, known)}"
+        )
+    if len(symbol.arguments) != len(sorts):
+        shown = f" ({', '.join(sorts)})" if sorts else ""
+        raise KnowledgeError(
+            f"{here}: '{symbol.name}' takes {len(sorts)} argument{'s' * (len(sorts) != 1)}"
+            f"{shown}, got {len(symbol.arguments)}"
+        )
+    for argument, sort in zip(symbol.arguments, sorts, strict=True):
+        _check_argument(argument, signature.sorts[sort], symbol.name, statement, variable_sorts)
+
+
+def _check_argument(
+    argument: ast.AST,
+    sort: Sort,
+    predicate: str,
+    statement: Statement,
+    variable_sorts: dict[str, Sort],
+) -> None:
+    begin = argument.location.begin
+    here = statement.place(begin.line, begin.column)
+    if argument.ast_type is ast.ASTType.Variable and argument.name != "_":
+        known = variable_sorts.setdefault(argument.name, sort)
+        disjoint = known.name != sort.name and not (
+            set(known.members or ()) & set(sort.members or ())
+        )
+        if disjoint:
+            raise KnowledgeError(
+                f"{here}: '{argument.name}' is of sort '{known.name}' elsewhere in this axiom, "
+                f"but '{predicate}' takes '{sort.name}' here; use two variables"
+            )
+    elif argument.ast_type in (ast.ASTType.SymbolicTerm, ast.ASTType.Function):
+        value = str(argument)
+        if sort.members is None:
+            raise KnowledgeError(
+                f"{here}: '{predicate}' takes the {sort.name} of the picture here, got "
+                f"'{value}'; use a variable such as S"
+            )
+        if value not in sort.members:
+            raise KnowledgeError(
+                f"{here}: '{value}' is not of sort '{sort.name}', which '{predicate}' takes "
+                f"here; {did_you_mean(value, sort.members)}"
+            )
+
+
+def _check_safety(rules: list[tuple[Statement, ast.AST]]) -> None:
+    """Ask clingo whether every variable is bound by a positive condition."""
+    messages: list[str] = []
+    control = clingo.Control(logger=lambda _, m: messages.append(m))
+    # No instance of a rule is ever built: the added condition holds nowhere.
+    never = _parse_never()
+    try:
+        with ast.ProgramBuilder(control) as builder:
+            for _, rule in rules:
+                builder.add(rule.update(body=[*rule.body, never]))
+        control.ground([("base", [])])
+    except RuntimeError:
+        found = [pattern.search(m) for pattern in (_UNSAFE, _CLINGO_ERROR) for m in messages]
+        match = next(filter(None, found), None)
+        if match is None:
+            raise
+        line, column, what = int(match.group(1)), int(match.group(2)), match.group(3)
+        begun = [
+            own for own, _ in rules if (own.location.line, own.location.column) <= (line, column)
+        ]
+        place = begun[-1].place(line, column)
+        if match.re is _CLINGO_ERROR:
+            raise KnowledgeError(f"{place}: {one_line(what)}; remove it") from None
+        if what.startswith("#Anon"):
+            what = "_"
+        raise KnowledgeError(
+            f"{place}: nothing says what '{what}' ranges over; use it in a condition without "
+            "'not', a sort such as structure(S) for instance"
+        ) from None
+
+
+def _parse_never() -> ast.AST:
+    found: list[ast.AST] = []
+    ast.parse_string(":- never__.", found.append)
+    never: ast.AST = found[1].body[0]
+    return never

@@ -1,0 +1,291 @@
+"""Decide scenes: ground once, solve under assumptions, remember by feature vector."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cached_property
+from typing import Literal as OneOf
+
+import clingo
+
+from seewhy.knowledge.axiom import AxiomKind
+from seewhy.knowledge.batch import SCENES, Batch, speaks_of_one_scene
+from seewhy.knowledge.grounding import Grounding
+from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.program import program_text
+from seewhy.knowledge.scene import FeatureVector, SceneSchema
+
+Minimality = OneOf["cardinality", "inclusion"]
+_WORTH_A_BATCH = 32  # new scenes for which grounding several copies pays
+_REMEMBERED = 2_000  # whole answer sets kept for explanations; classes are all kept
+
+
+class Verdict(StrEnum):
+    """Why a scene is decided or not."""
+
+    BELIEVED = "believed"
+    SILENT = "silent"
+    SEVERAL = "several classes"
+    CONTRADICTION = "contradiction"
+    NO_ANSWER_SET = "no answer set"
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What the knowledge says about a scene: a class, or None with the reason."""
+
+    label: str | None
+    verdict: Verdict
+
+
+@dataclass(frozen=True)
+class AnswerSet:
+    """One preferred answer set, or the conflicting beliefs where there is none.
+
+    Attributes
+    ----------
+    holds : frozenset of clingo.Symbol
+        The literals believed; a negative symbol is believed false.
+    firings : mapping of str to list
+        Axiom identifier → the values of its variables, for every instance that fires.
+    exceptions : tuple
+        (axiom identifier, values) of the defaults that were given up for consistency.
+    conflict : bool
+        True if the answer set holds contradictory literals (there is no consistent one).
+    """
+
+    holds: frozenset[clingo.Symbol]
+    firings: dict[str, list[tuple[str, ...]]]
+    exceptions: tuple[tuple[str, tuple[str, ...]], ...]
+    conflict: bool
+
+
+class Reasoner:
+    """Beliefs about scenes under a domain's knowledge (section 3.2 of the paper).
+
+    A scene is classified when exactly one class is believed in every preferred answer set.
+    Defaults are given up only where the program is otherwise inconsistent, and minimally.
+
+    Departure from the paper: the program is not rewritten for every picture; it is grounded
+    once, and a picture's features are assumptions. The answer sets are the same.
+
+    Parameters
+    ----------
+    knowledge : Knowledge
+    schema : SceneSchema
+    minimality : {"cardinality", "inclusion"}
+        Which sets of exceptions are preferred: the smallest, or all from which none can be left
+        out.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> reasoner = Reasoner(domain.knowledge, domain.schema)
+    >>> reasoner.decide(domain.vector({"block_displaced": "yes"})).label
+    'unstable'
+    >>> reasoner.decide(domain.vector({})).verdict.value
+    'silent'
+    """
+
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        schema: SceneSchema,
+        *,
+        minimality: Minimality = "cardinality",
+    ) -> None:
+        self.knowledge = knowledge
+        self.schema = schema
+        self.minimality = minimality
+        self._decisions: dict[FeatureVector, Decision] = {}
+        self._answer_sets: dict[FeatureVector, AnswerSet | None] = {}
+        self._has_defaults = any(a.kind is AxiomKind.DEFAULT for a in knowledge.axioms)
+
+    @cached_property
+    def _plain(self) -> Grounding:
+        grounding = Grounding(program_text(self.knowledge, self.schema), self.schema)
+        grounding.configure(enum_mode="cautious")
+        return grounding
+
+    @cached_property
+    def _restoring(self) -> Grounding:
+        """The program with exceptions to defaults, for scenes that are inconsistent without."""
+        text = program_text(self.knowledge, self.schema, exceptions=True)
+        if self.minimality == "cardinality":
+            text += "#minimize { 1, I, V : exception(I, V) }.\n#show exception/2.\n"
+            arguments = ["--project=show"]
+        else:
+            # Subset-minimal models over the shown atoms: prefer them false, record each found.
+            text += "#show exception/2.\n"
+            arguments = ["--heuristic=Domain", "--enum-mode=domRec", "--dom-mod=false,show"]
+        return Grounding(text, self.schema, arguments=arguments)
+
+    @cached_property
+    def _explaining(self) -> Grounding:
+        text = program_text(self.knowledge, self.schema, exceptions=True, firings=True)
+        return Grounding(text, self.schema)
+
+    def forget(self) -> None:
+        """Drop everything remembered about scenes; the programs stay grounded."""
+        self._decisions.clear()
+        self._answer_sets.clear()
+
+    def decide(self, vector: FeatureVector) -> Decision:
+        """Classify one scene.
+
+        Raises
+        ------
+        ValueError
+            If ``vector`` does not fit the features.
+        """
+        known = self._decisions.get(vector)
+        if known is None:
+            known = self._decisions[vector] = self._decide(vector)
+        return known
+
+    def decide_all(self, vectors: Sequence[FeatureVector]) -> list[Decision]:
+        """Classify many scenes; equal feature vectors are solved once."""
+        decisions = self._decisions
+        # In the order given, so that nothing depends on how strings hash.
+        new = [vector for vector in dict.fromkeys(vectors) if vector not in decisions]
+        if len(new) >= _WORTH_A_BATCH and self._batch is not None:
+            self._decide_in_batches(new, self._batch)
+        for vector in new:
+            if vector not in decisions:
+                decisions[vector] = self._decide(vector)
+        return list(map(decisions.__getitem__, vectors))
+
+    @cached_property
+    def _batch(self) -> Batch | None:
+        if speaks_of_one_scene(self.knowledge, self.schema):
+            return Batch(self.knowledge, self.schema)
+        return None
+
+    def _decide_in_batches(self, vectors: Sequence[FeatureVector], batch: Batch) -> None:
+        """Decide what a batch can decide; the rest is left for :meth:`_decide`."""
+        for start in range(0, len(vectors), SCENES):
+            chunk = vectors[start : start + SCENES]
+            try:
+                outcomes = batch.outcomes(chunk)
+            except (KeyError, ValueError):
+                continue  # a vector does not fit; solving it alone says so
+            for vector, believed in zip(chunk, outcomes or (), strict=False):
+                if believed is not None:
+                    self._decisions[vector] = _decision(believed)
+                elif not self._has_defaults:
+                    self._decisions[vector] = Decision(None, Verdict.CONTRADICTION)
+
+    def _decide(self, vector: FeatureVector) -> Decision:
+        plain = self._plain
+        assumed = plain.assume(vector)
+        believed = plain.believed_classes([*assumed, plain.strict])
+        if believed is None and self._has_defaults:
+            believed = self._believed_with_exceptions(vector)
+        if believed is not None:
+            return _decision(believed)
+        consistent_otherwise = plain.believed_classes([*assumed, -plain.strict]) is not None
+        return Decision(
+            None, Verdict.CONTRADICTION if consistent_otherwise else Verdict.NO_ANSWER_SET
+        )
+
+    def _believed_with_exceptions(self, vector: FeatureVector) -> tuple[str, ...] | None:
+        """Return the classes believed under every minimal set of exceptions."""
+        explaining = self._explaining
+        atoms = explaining.with_predicate("exception")
+        believed: set[str] | None = None
+        for chosen in self.minimal_exceptions(vector):
+            fixed = [literal if s in chosen else -literal for s, literal in atoms.items()]
+            explaining.configure(enum_mode="cautious")
+            here = explaining.believed_classes(
+                [*explaining.assume(vector), explaining.strict, *fixed]
+            )
+            if here is not None:
+                believed = set(here) if believed is None else believed & set(here)
+        if believed is None:
+            return None
+        return tuple(name for name in self.schema.classes if name in believed)
+
+    def minimal_exceptions(self, vector: FeatureVector) -> list[frozenset[clingo.Symbol]]:
+        """Return the minimal sets of exceptions that restore consistency.
+
+        The empty set alone means that none is needed; an empty list that none suffices.
+        """
+        restoring = self._restoring
+        found: list[frozenset[clingo.Symbol]] = []
+
+        def on_model(model: clingo.Model) -> None:
+            if self.minimality == "inclusion" or model.optimality_proven:
+                found.append(frozenset(model.symbols(shown=True)))
+
+        if self.minimality == "cardinality":
+            restoring.configure(enum_mode="auto", opt_mode="optN")
+        else:
+            restoring.configure(enum_mode="domRec")
+        restoring.control.solve([*restoring.assume(vector), restoring.strict], on_model=on_model)
+        return sorted(set(found), key=lambda chosen: sorted(map(str, chosen)))
+
+    def answer_set(self, vector: FeatureVector) -> AnswerSet | None:
+        """Return the first preferred answer set with what fired in it.
+
+        Where the scene is contradictory, the contradictory beliefs are returned with
+        ``conflict`` set; None where there is no answer set at all.
+        """
+        if vector not in self._answer_sets:
+            if len(self._answer_sets) >= _REMEMBERED:
+                self._answer_sets.clear()
+            self._answer_sets[vector] = self._first_answer_set(vector)
+        return self._answer_sets[vector]
+
+    def _first_answer_set(self, vector: FeatureVector) -> AnswerSet | None:
+        explaining = self._explaining
+        exceptions = explaining.with_predicate("exception")
+        none = [-literal for literal in exceptions.values()]
+        assumed = explaining.assume(vector)
+        trials = [[*assumed, explaining.strict, *none]]
+        if self._has_defaults:
+            for chosen in self.minimal_exceptions(vector):
+                fixed = [lit if s in chosen else -lit for s, lit in exceptions.items()]
+                trials.append([*assumed, explaining.strict, *fixed])
+        trials.append([*assumed, -explaining.strict, *none])
+        for trial in trials:
+            explaining.configure(models=1, enum_mode="auto")
+            symbols = explaining.first_model(trial)
+            if symbols is not None:
+                return _answer_set(symbols)
+        return None
+
+    def believed(self, vector: FeatureVector) -> frozenset[clingo.Symbol]:
+        """Return the literals of the preferred answer set; empty where there is none."""
+        found = self.answer_set(vector)
+        return found.holds if found else frozenset()
+
+
+def _decision(believed: tuple[str, ...]) -> Decision:
+    """The decision where these classes are believed in every preferred answer set."""
+    if len(believed) == 1:
+        return Decision(believed[0], Verdict.BELIEVED)
+    return Decision(None, Verdict.SEVERAL if believed else Verdict.SILENT)
+
+
+def _answer_set(symbols: Iterable[clingo.Symbol]) -> AnswerSet:
+    holds: set[clingo.Symbol] = set()
+    firings: dict[str, list[tuple[str, ...]]] = {}
+    exceptions: list[tuple[str, tuple[str, ...]]] = []
+    conflict = False
+    for symbol in symbols:
+        if symbol.name == "holds":
+            holds.add(symbol.arguments[0])
+        elif symbol.name in ("fires", "exception"):
+            axiom, values = symbol.arguments[0].name, tuple(map(str, symbol.arguments[1].arguments))
+            if symbol.name == "fires":
+                firings.setdefault(axiom, []).append(values)
+            else:
+                exceptions.append((axiom, values))
+        elif symbol.name == "conflict":
+            conflict = True
+    for instances in firings.values():
+        instances.sort()
+    return AnswerSet(frozenset(holds), firings, tuple(sorted(exceptions)), conflict)

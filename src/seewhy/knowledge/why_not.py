@@ -1,0 +1,271 @@
+"""Why a literal is not believed: the axioms that could conclude it, and what fails in each."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import clingo
+
+from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, substitute, variables_in
+from seewhy.knowledge.evidence import Evidence, Say, evidence_of
+from seewhy.knowledge.ground import key_of, literal_of, term_of, terms_of
+from seewhy.knowledge.justification import Basis, Node
+from seewhy.knowledge.program import held, variable_tuple
+from seewhy.knowledge.reasoner import Reasoner
+from seewhy.knowledge.scene import FeatureVector
+from seewhy.knowledge.why import belief_node, condition_node, justify
+
+_NESTING = 4
+
+
+def why_not(reasoner: Reasoner, vector: FeatureVector, literal: Literal, *, say: Say = str) -> Node:
+    """Return why a literal is not believed: for every axiom that could conclude it, what failed.
+
+    The children are the axioms, the one with the fewest failed conditions first; their children
+    are all their conditions, each marked as holding or not.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> reasoner = Reasoner(domain.knowledge, domain.schema)
+    >>> node = why_not(reasoner, domain.vector({"block_displaced": "no"}),
+    ...                domain.classes["unstable"].literal)
+    >>> node.holds
+    False
+    """
+    return refuse(evidence_of(reasoner, vector, say=say), literal)
+
+
+def refuse(evidence: Evidence, literal: Literal, *, depth: int = 0) -> Node:
+    """Return why a literal is not believed; ``depth`` counts the literals it was needed for."""
+    literal = replace(literal, arguments=tuple(map(term_of, literal.arguments)))
+    if key_of(literal) in evidence.holds:
+        opposite = key_of(literal.complement) in evidence.holds
+        return Node(
+            literal=str(literal),
+            text=f"{evidence.say(literal)}, and also not" if opposite else evidence.say(literal),
+            basis=Basis.CONFLICT if opposite else Basis.FACT,
+            children=tuple(
+                node
+                for side in (literal, literal.complement)
+                if (node := justify(evidence, side)) is not None
+            ),
+        )
+    tried = _failures(evidence, literal, depth)
+    children = [node for _, node in sorted(tried, key=lambda pair: pair[0])]
+    return Node(
+        literal=str(literal),
+        text=f"it does not follow that {evidence.say(literal)}",
+        basis=Basis.REASONS if children else Basis.UNFOUNDED,
+        holds=False,
+        children=tuple(children),
+    )
+
+
+def _failures(
+    evidence: Evidence, literal: Literal, depth: int
+) -> list[tuple[tuple[int, int], Node]]:
+    """One node per axiom that could conclude the literal, with how far it is from it."""
+    candidates: list[tuple[int, Axiom, dict[str, str]]] = []
+    for position, axiom in enumerate(evidence.reasoner.knowledge.axioms):
+        bound = _unify(axiom.head, literal)
+        if bound is not None:
+            candidates.append((position, axiom, bound))
+    nearest = _nearest_instances(evidence, candidates, literal)
+    found: list[tuple[tuple[int, int], Node]] = []
+    for position, axiom, _ in candidates:
+        if axiom.identifier not in nearest:
+            continue
+        binding, held_conditions = nearest[axiom.identifier]
+        children: list[Node] = []
+        failed = 0
+        for number, condition in enumerate(axiom.body):
+            if number in held_conditions:
+                node = condition_node(evidence, condition, binding, frozenset())
+            else:
+                failed += 1
+                node = _failed_condition(evidence, condition, axiom, binding, depth)
+            if node is not None:
+                children.append(node)
+        if axiom.kind is AxiomKind.DEFAULT and failed == 0:
+            failed = 1
+            against = justify(evidence, literal.complement)
+            if against is not None:
+                children.append(against)
+        node = Node(
+            literal=str(literal),
+            text=evidence.say(literal),
+            basis=Basis.DEFAULT if axiom.kind is AxiomKind.DEFAULT else Basis.AXIOM,
+            holds=False,
+            axiom=axiom,
+            children=tuple(children),
+        )
+        found.append(((failed, position), node))
+    return found
+
+
+def _nearest_instances(
+    evidence: Evidence, candidates: list[tuple[int, Axiom, dict[str, str]]], literal: Literal
+) -> dict[str, tuple[dict[str, str], frozenset[int]]]:
+    """For every axiom the instance with the fewest failed conditions.
+
+    All conditions of all instances are evaluated by clingo over the beliefs as facts, so
+    that comparisons and aggregates mean here what they mean in the program.
+    """
+    lines = [f"holds({key})." for key in sorted(evidence.holds)]
+    for sort in evidence.signature.sorts.values():
+        members = (evidence.schema.scene,) if sort.members is None else sort.members
+        lines += [f"sort({sort.name}, {member})." for member in members]
+    for _, axiom, bound in candidates:
+        instance = f"{axiom.identifier}, {variable_tuple(axiom)}"
+        guards = _ranges(evidence, axiom, bound)
+        guards += [
+            f"{argument} = {value}"
+            for argument, value in zip(axiom.head.arguments, literal.arguments, strict=True)
+            if variables_in(argument)
+        ]
+        lines.append(f"instance({instance}){' :- ' if guards else ''}{'; '.join(guards)}.")
+        for number, condition in enumerate(axiom.body):
+            lines.append(
+                f"ok({instance}, {number}) :- instance({instance}), "
+                f"{held(condition.text, evidence.signature)}."
+            )
+    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+    control.add("base", [], "\n".join(lines))
+    control.ground([("base", [])])
+    instances: dict[tuple[str, tuple[str, ...]], set[int]] = {}
+    for atom in control.symbolic_atoms:
+        if atom.is_fact and atom.symbol.name in ("instance", "ok"):
+            name, values = atom.symbol.arguments[:2]
+            key = (name.name, tuple(map(str, values.arguments)))
+            satisfied = instances.setdefault(key, set())
+            if atom.symbol.name == "ok":
+                satisfied.add(atom.symbol.arguments[2].number)
+    axioms = {axiom.identifier: axiom for _, axiom, _ in candidates}
+    nearest: dict[str, tuple[dict[str, str], frozenset[int]]] = {}
+    ranked = sorted(instances.items(), key=lambda item: _distance(item, axioms))
+    for (identifier, given), satisfied in ranked:
+        if identifier not in nearest:
+            variables = axioms[identifier].variables
+            binding = dict(zip(variables, given, strict=True))
+            nearest[identifier] = (binding, frozenset(satisfied))
+    return nearest
+
+
+def _ranges(evidence: Evidence, axiom: Axiom, bound: dict[str, str]) -> list[str]:
+    """Conditions that let every variable range over its sort."""
+    sorts: dict[str, str] = {}
+    computed: list[tuple[set[str], str]] = []
+    for literal in (axiom.head, *(c.literal for c in axiom.body if c.literal)):
+        own = (
+            (literal.predicate,)
+            if literal.predicate in evidence.signature.sorts
+            else evidence.signature.predicates[literal.predicate].sorts
+        )
+        for argument, sort in zip(literal.arguments, own, strict=True):
+            if (argument,) == variables_in(argument):
+                sorts.setdefault(argument, sort)
+            else:
+                computed.append((set(variables_in(argument)), f"sort({sort}, {argument})"))
+    ranges = [f"sort({sort}, {name})" for name, sort in sorts.items() if name not in bound]
+    free = {name for name in axiom.variables if name not in sorts and name not in bound}
+    # A variable of no sort is computed: by 'N = …', or so that 'N+1' is of the sort.
+    for condition in axiom.body:
+        outside = re.sub(r"\{.*\}", "", condition.text)
+        if condition.literal is None and " = " in outside:
+            computed.append((set(variables_in(outside)), held(condition.text, evidence.signature)))
+    for names, text in computed:
+        if names & free:
+            ranges.append(text)
+            free -= names
+    return ranges
+
+
+def _failed_condition(
+    evidence: Evidence, condition: Condition, axiom: Axiom, binding: dict[str, str], depth: int
+) -> Node | None:
+    if condition.literal is None:
+        text = substitute(condition.text, binding)
+        shared = set(variables_in(condition.text))
+        for other in axiom.body:
+            if (
+                other.literal is not None
+                and not other.absent
+                and shared & set(variables_in(other.text))
+                and (seen := evidence.seen(other.literal.substitute(binding))) is not None
+            ):
+                return Node(
+                    literal=text,
+                    text=f"{seen.text}, and not {text}",
+                    basis=Basis.COMPARISON,
+                    holds=False,
+                    feature=seen.feature,
+                    value=seen.value,
+                )
+        return Node(literal=text, text=text, basis=Basis.COMPARISON, holds=False)
+    literal = condition.literal.substitute(binding)
+    if condition.absent:
+        matching = evidence.matching(literal)
+        believed = belief_node(evidence, literal_of(matching[0]), frozenset()) if matching else None
+        return Node(
+            literal=f"not {literal}",
+            text=believed.text if believed else evidence.say(literal),
+            basis=believed.basis if believed else Basis.ABSENCE,
+            holds=False,
+            axiom=believed.axiom if believed else None,
+            feature=believed.feature if believed else None,
+            value=believed.value if believed else None,
+            children=believed.children if believed else (),
+        )
+    feature = evidence.schema.feature_of(literal)
+    if feature is not None:
+        value = evidence.vector[feature]
+        if value is None:
+            return Node(
+                literal=str(literal),
+                text=f"it is not known whether {evidence.say(literal)}",
+                basis=Basis.FEATURE,
+                holds=False,
+                feature=feature,
+            )
+        return Node(
+            literal=str(literal),
+            text=evidence.say(evidence.schema.features[feature][value]),
+            basis=Basis.FEATURE,
+            holds=False,
+            feature=feature,
+            value=value,
+        )
+    if depth >= _NESTING or any(terms_of(a) != {term_of(a)} or a == "_" for a in literal.arguments):
+        return Node(str(literal), evidence.say(literal), Basis.UNFOUNDED, holds=False)
+    return refuse(evidence, literal, depth=depth + 1)
+
+
+def _distance(
+    item: tuple[tuple[str, tuple[str, ...]], set[int]], axioms: dict[str, Axiom]
+) -> tuple[int, int, tuple[str, ...]]:
+    """Fewest failed conditions first; among those, failed comparisons rather than literals.
+
+    A comparison that fails with the picture's own value says more than a literal that would
+    hold for another value.
+    """
+    (identifier, values), satisfied = item
+    body = axioms[identifier].body
+    failed = [number for number in range(len(body)) if number not in satisfied]
+    return len(failed), sum(body[n].literal is not None for n in failed), values
+
+
+def _unify(head: Literal, target: Literal) -> dict[str, str] | None:
+    """Bind the variables of an axiom's head so that it becomes the target, if it can."""
+    if (head.predicate, head.positive) != (target.predicate, target.positive):
+        return None
+    binding: dict[str, str] = {}
+    for argument, value in zip(head.arguments, target.arguments, strict=True):
+        if (argument,) == variables_in(argument):
+            if binding.setdefault(argument, value) != value:
+                return None
+        elif not variables_in(argument) and term_of(argument) != value:
+            return None
+    return binding

@@ -1,0 +1,227 @@
+"""A trained model on disk: one folder, without pickle, written whole or not at all."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seewhy.dialogue.reference import Experience
+from seewhy.domain import FILES, Domain, load_domain
+from seewhy.errors import ModelError, SeeWhyError
+from seewhy.files import write_whole
+from seewhy.induction.tree import DecisionTree
+from seewhy.knowledge.reasoner import Minimality
+
+if TYPE_CHECKING:
+    from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
+    from seewhy.perception.extractor import FeatureExtractor
+
+MANIFEST = "model.json"
+FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Model:
+    """Everything that training leaves behind.
+
+    ``answerer`` is None where the knowledge decided all training scenes rightly; ``trained_on``
+    holds digests of the pictures.
+    """
+
+    domain: Domain
+    extractor: FeatureExtractor
+    tree: DecisionTree
+    answerer: RecurrentAnswerer | None
+    experience: Experience
+    trained_on: frozenset[str]
+    minimality: Minimality
+    seed: int
+
+
+def write_model(model: Model, folder: Path) -> None:
+    """Write ``model`` to ``folder``; an older model there is replaced in one step.
+
+    Raises
+    ------
+    ModelError
+        If ``folder`` exists and is not a model.
+    """
+    check_target(folder)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+    try:
+        temporary.chmod(0o755)
+        (temporary / "domain").mkdir()
+        for name in FILES:
+            shutil.copyfile(model.domain.folder / name, temporary / "domain" / name)
+        model.extractor.save(temporary / "perception")
+        model.tree.save(temporary / "induction")
+        if model.answerer is not None:
+            model.answerer.save(temporary / "dialogue")
+        write_whole(temporary / "experience.json", _experience_text(model))
+        write_whole(temporary / MANIFEST, json.dumps(_manifest(model, temporary), indent=1))
+        old = _set_aside(folder)
+        if folder.exists():
+            shutil.rmtree(old, ignore_errors=True)
+            folder.rename(old)
+        try:
+            temporary.rename(folder)
+        except BaseException:
+            if old.exists():
+                old.rename(folder)
+            raise
+        shutil.rmtree(old, ignore_errors=True)
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
+def _set_aside(folder: Path) -> Path:
+    """Where an earlier model stands for the moment in which a new one takes its place."""
+    return folder.with_name(f".{folder.name}-old")
+
+
+def check_target(folder: Path) -> None:
+    """Raise a ModelError if a model cannot be written to ``folder``."""
+    if folder.is_file() or (
+        folder.is_dir() and any(folder.iterdir()) and not (folder / MANIFEST).is_file()
+    ):
+        raise ModelError(
+            f"{folder}: exists and is not a model; choose another folder for the model"
+        )
+
+
+def read_model(folder: Path) -> Model:
+    """Read what :func:`write_model` wrote.
+
+    Raises
+    ------
+    ModelError
+        If the folder is missing, incomplete, edited, or of another format.
+    """
+    manifest = _read_manifest(folder)
+    _check_files(folder, manifest["files"])
+    try:
+        domain = load_domain(folder / "domain")
+    except SeeWhyError as problem:
+        raise ModelError(f"{folder}: the model's domain cannot be read: {problem}") from None
+    if domain.name != manifest["domain"]:
+        raise ModelError(
+            f"{folder}: the model was trained for the domain '{manifest['domain']}', but its "
+            f"domain folder is '{domain.name}'; train it again"
+        )
+    from seewhy.perception.extractor import FeatureExtractor
+
+    extractor = FeatureExtractor.load(folder / "perception")
+    expected = {key: feature.values for key, feature in domain.features.items()}
+    if dict(extractor.values) != expected:
+        raise ModelError(
+            f"{folder}: the networks recognise other features than the model's domain names; "
+            "train it again"
+        )
+    answerer = None
+    if manifest["answers"]:
+        from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
+
+        answerer = RecurrentAnswerer.load(folder / "dialogue")
+    experience = json.loads((folder / "experience.json").read_text(encoding="utf-8"))
+    return Model(
+        domain=domain,
+        extractor=extractor,
+        tree=DecisionTree.load(folder / "induction"),
+        answerer=answerer,
+        experience={tuple(row["features"]): row["classes"] for row in experience},
+        trained_on=frozenset(manifest["trained_on"]),
+        minimality=manifest["minimality"],
+        seed=manifest["seed"],
+    )
+
+
+def _experience_text(model: Model) -> str:
+    rows = [
+        {"features": list(vector), "classes": dict(counts)}
+        for vector, counts in sorted(model.experience.items(), key=lambda row: str(row[0]))
+    ]
+    return json.dumps(rows, indent=1)
+
+
+def _manifest(model: Model, folder: Path) -> dict[str, Any]:
+    from importlib.metadata import version
+
+    manifest = {
+        "format": FORMAT,
+        "seewhy": version("seewhy"),
+        "domain": model.domain.name,
+        "minimality": model.minimality,
+        "seed": model.seed,
+        "answers": model.answerer is not None,
+        "trained_on": sorted(model.trained_on),
+        "files": {
+            path.relative_to(folder).as_posix(): _digest(path)
+            for path in sorted(folder.rglob("*"))
+            if path.is_file()
+        },
+    }
+    return {**manifest, "digest": _digest_of(manifest)}
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _digest_of(manifest: dict[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(manifest, sort_keys=True).encode()).hexdigest()
+
+
+def _read_manifest(folder: Path) -> dict[str, Any]:
+    earlier = _set_aside(folder)
+    if not folder.is_dir() and earlier.is_dir():
+        raise ModelError(
+            f"{folder}: a newer model was being written when the program was killed; rename "
+            f"{earlier} to {folder} to have the earlier one back, or train again"
+        )
+    if not folder.is_dir():
+        raise ModelError(f"{folder}: there is no such model; 'seewhy train' makes one")
+    path = folder / MANIFEST
+    if not path.is_file():
+        raise ModelError(
+            f"{folder}: is not a model, it has no {MANIFEST}; give the folder that 'seewhy "
+            "train --out' wrote"
+        )
+    try:
+        manifest: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        found = manifest["format"]
+        for key in ("domain", "minimality", "seed", "answers", "trained_on", "files"):
+            manifest[key]
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise ModelError(f"{path}: cannot be read; train the model again") from None
+    if found != FORMAT:
+        raise ModelError(
+            f"{path}: the model has format {found}, this version reads {FORMAT}; train it again"
+        )
+    digest = manifest.pop("digest", None)
+    if digest != _digest_of(manifest):
+        raise _changed(path)
+    return manifest
+
+
+def _check_files(folder: Path, files: dict[str, str]) -> None:
+    for name, digest in files.items():
+        path = folder / name
+        if not path.is_file():
+            raise ModelError(
+                f"{folder}: the model is incomplete, {name} is missing; train it again"
+            )
+        if _digest(path) != digest:
+            raise _changed(path)
+
+
+def _changed(path: Path) -> ModelError:
+    return ModelError(
+        f"{path}: has changed since the model was trained; undo the change or train the model "
+        "again (knowledge is edited in the domain's own folder)"
+    )

@@ -1,0 +1,137 @@
+"""Where training stands, on disk after every epoch.
+
+One safetensors file a feature; its header carries the position as JSON, so that tensors and
+position are replaced in one step.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from safetensors import SafetensorError, safe_open
+from safetensors.torch import save_file
+
+from seewhy.files import whole_file
+from seewhy.perception.network import GrowingNetwork
+from seewhy.perception.options import TrainingOptions
+
+__all__ = ["Position", "Weights", "checkpoint_file", "fingerprint", "read", "write"]
+
+FORMAT = 1
+
+Weights = dict[str, torch.Tensor]
+
+
+@dataclass
+class Position:
+    """Where training stands between two epochs: all but the tensors."""
+
+    stage: Literal["growing", "settling", "finished"] = "growing"
+    depth: int = 1
+    epoch: int = 0  # finished in this stage, at this depth
+    epochs_run: int = 0
+    since_best: int = 0
+    best: list[float] = field(default_factory=lambda: [-1.0, math.inf])  # accuracy, loss
+    chosen_depth: int = 0
+    chosen: list[float] = field(default_factory=lambda: [-1.0, math.inf])
+    flat_growths: int = 0
+
+
+def checkpoint_file(folder: Path | str, feature: str) -> Path:
+    """The file of a feature, always in the folder itself.
+
+    Examples
+    --------
+    >>> checkpoint_file("training", "lean").name
+    'lean.checkpoint.safetensors'
+    """
+    # A name that is no plain file name keeps apart from its neighbours by its digest.
+    plain = re.fullmatch(r"[A-Za-z0-9_]+", feature)
+    name = feature if plain else f"feature-{hashlib.sha256(feature.encode()).hexdigest()[:12]}"
+    return Path(folder) / f"{name}.checkpoint.safetensors"
+
+
+def fingerprint(
+    pictures: npt.NDArray[np.uint8],
+    labels: Sequence[str | None],
+    *,
+    feature: str,
+    values: Sequence[str],
+    options: TrainingOptions,
+    groups: Sequence[object] | None,
+    start_from: GrowingNetwork | None,
+) -> str:
+    """What must agree for a checkpoint to be gone on with."""
+    digest = hashlib.sha256(np.ascontiguousarray(pictures).data)
+    described = [
+        FORMAT,
+        pictures.shape,
+        list(labels),
+        feature,
+        list(values),
+        asdict(options),
+        None if groups is None else [repr(group) for group in groups],
+    ]
+    digest.update(json.dumps(described, sort_keys=True).encode())
+    if start_from is not None:
+        digest.update(_digest(start_from.state_dict()).encode())
+    return digest.hexdigest()
+
+
+def write(file: Path, fingerprint: str, position: Position, tensors: Mapping[str, Weights]) -> None:
+    """Write a position and its tensors, each under the name of the part it belongs to."""
+    flat = {
+        f"{part}.{name}": tensor.detach().cpu().contiguous().clone()
+        for part, of in tensors.items()
+        for name, tensor in of.items()
+    }
+    header = {
+        "fingerprint": fingerprint,
+        "position": json.dumps(asdict(position), sort_keys=True),
+        "digest": _digest(flat),
+    }
+    with whole_file(file) as temporary:
+        save_file(flat, temporary, metadata=header)
+
+
+def read(file: Path, fingerprint: str) -> tuple[Position, dict[str, Weights]] | None:
+    """What :func:`write` wrote, or None where there is nothing that could be gone on with."""
+    # A process killed while it wrote leaves its unfinished file behind.
+    for leftover in file.parent.glob(f".{file.stem}-*{file.suffix}"):
+        leftover.unlink(missing_ok=True)
+    if not file.is_file():
+        return None
+    try:
+        with safe_open(file, framework="pt") as opened:
+            header = opened.metadata() or {}
+            if header.get("fingerprint") != fingerprint:
+                return None
+            position = Position(**json.loads(header["position"]))
+            flat = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
+        if _digest(flat) != header["digest"]:
+            return None
+    except (SafetensorError, OSError, ValueError, KeyError, TypeError):
+        return None
+    parts: dict[str, Weights] = {}
+    for key, tensor in flat.items():
+        part, name = key.split(".", maxsplit=1)
+        parts.setdefault(part, {})[name] = tensor
+    return position, parts
+
+
+def _digest(tensors: Weights) -> str:
+    """Of names and numbers; safetensors itself does not notice a changed number."""
+    digest = hashlib.sha256()
+    for name in sorted(tensors):
+        digest.update(name.encode() + tensors[name].cpu().contiguous().numpy().tobytes())
+    return digest.hexdigest()

@@ -1,0 +1,324 @@
+"""From pictures to the probabilities of each feature's values."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import torch
+from pydantic import BaseModel, ConfigDict, ValidationError
+from safetensors import SafetensorError
+from safetensors.torch import load, save
+
+from seewhy.errors import DatasetError, ModelError
+from seewhy.files import write_whole
+from seewhy.perception.events import FeatureRecord, Progress
+from seewhy.perception.network import GrowingNetwork
+from seewhy.perception.options import TrainingOptions
+from seewhy.perception.parallel import train_networks
+from seewhy.perception.picture import SMALLEST_SIDE
+
+__all__ = ["FeatureExtractor", "fit_extractor"]
+
+DESCRIPTION = "perception.json"
+WEIGHTS = "perception.safetensors"
+FORMAT = 1
+
+Pictures = npt.NDArray[np.uint8]
+
+
+class FeatureExtractor:
+    """One network for each feature; made by :func:`fit_extractor` or :meth:`load`.
+
+    Parameters
+    ----------
+    networks : mapping of str to GrowingNetwork
+        The network of each feature, all for pictures of one size.
+    values : mapping of str to sequence of str
+        The feature's values, in the order of the network's logits.
+    records : mapping of str to FeatureRecord
+        What came of training each.
+
+    Attributes
+    ----------
+    size : int
+        Side of the pictures, in pixels.
+    values : dict of str to tuple of str
+        The values of each feature.
+
+    Notes
+    -----
+    Source: Riley and Sridharan (2019), feature extraction. Departure: the features carry
+    probabilities, calibrated on validation pictures, beside the most probable value.
+    """
+
+    def __init__(
+        self,
+        networks: Mapping[str, GrowingNetwork],
+        *,
+        values: Mapping[str, Sequence[str]],
+        records: Mapping[str, FeatureRecord],
+    ) -> None:
+        self.networks = {name: network.eval() for name, network in networks.items()}
+        self.values = {name: tuple(values[name]) for name in networks}
+        self.records = {name: records[name] for name in networks}
+        self.size = next(iter(self.networks.values())).size
+
+    def probabilities(self, pictures: Pictures) -> dict[str, npt.NDArray[np.float64]]:
+        """Probabilities of each feature's values.
+
+        Parameters
+        ----------
+        pictures : ndarray of uint8, shape (n, size, size, 3)
+            As :func:`seewhy.perception.picture.as_picture` makes them. One picture of shape
+            (size, size, 3) counts as n = 1.
+
+        Returns
+        -------
+        dict of str to ndarray of float, shape (n, number of values)
+            Columns in the order of :attr:`values`; rows sum to 1.
+
+        Raises
+        ------
+        DatasetError
+            The array has another shape or type.
+        """
+        batch = _checked(pictures[None] if pictures.ndim == 3 else pictures, size=self.size)
+        found: dict[str, npt.NDArray[np.float64]] = {}
+        with torch.inference_mode():
+            for name, network in self.networks.items():
+                parts = [
+                    network.probabilities(torch.from_numpy(batch[i : i + 256])).double().numpy()
+                    for i in range(0, len(batch), 256)
+                ]
+                empty = np.empty((0, len(self.values[name])))
+                found[name] = np.concatenate(parts) if parts else empty
+        return found
+
+    def summary(self) -> dict[str, dict[str, object]]:
+        """What came of training each feature: the fields of FeatureRecord by name."""
+        return {name: asdict(record) for name, record in self.records.items()}
+
+    def save(self, folder: Path | str) -> None:
+        """Write ``perception.safetensors`` and ``perception.json`` into ``folder``."""
+        tensors = {
+            f"{feature}/{name}": tensor.contiguous().clone()
+            for feature, network in self.networks.items()
+            for name, tensor in network.state_dict().items()
+        }
+        content = save(tensors)
+        description = _Description(
+            format=FORMAT,
+            size=self.size,
+            digest=hashlib.sha256(content).hexdigest(),
+            features={
+                name: _Feature(
+                    values=self.values[name],
+                    dense=network.dense,
+                    dropout=network.dropout,
+                    record=self.records[name],
+                )
+                for name, network in self.networks.items()
+            },
+        )
+        write_whole(Path(folder) / WEIGHTS, content)
+        write_whole(Path(folder) / DESCRIPTION, description.model_dump_json(indent=2) + "\n")
+
+    @classmethod
+    def load(cls, folder: Path | str) -> FeatureExtractor:
+        """Read what :meth:`save` wrote.
+
+        Raises
+        ------
+        ModelError
+            A file is missing, damaged, or does not belong to the other; the text names it.
+        """
+        weights_file, description_file = Path(folder) / WEIGHTS, Path(folder) / DESCRIPTION
+        remedy = "train the model again, or copy its folder again from where it is whole"
+        try:
+            description = _Description.model_validate_json(description_file.read_bytes())
+            content = weights_file.read_bytes()
+        except ValidationError as error:
+            first = error.errors()[0]
+            where = ".".join(str(part) for part in first["loc"]) or "its text"
+            raise ModelError(
+                f"{description_file} is damaged ({where}: {first['msg']}): {remedy}"
+            ) from None
+        except OSError as error:
+            missing = error.filename or folder
+            raise ModelError(f"{missing} cannot be read ({error.strerror}): {remedy}") from None
+        if description.format != FORMAT:
+            raise ModelError(
+                f"{description_file} has format {description.format}, this version of SeeWhy "
+                f"reads {FORMAT}: train the model again"
+            )
+        if hashlib.sha256(content).hexdigest() != description.digest:
+            raise ModelError(
+                f"{weights_file} is damaged or belongs to another {DESCRIPTION}: {remedy}"
+            )
+        networks: dict[str, GrowingNetwork] = {}
+        try:
+            tensors = load(content)
+            for name, feature in description.features.items():
+                network = GrowingNetwork(
+                    size=description.size,
+                    values=len(feature.values),
+                    depth=feature.record.depth,
+                    dropout=feature.dropout,
+                    dense=feature.dense,
+                )
+                start = f"{name}/"
+                network.load_state_dict(
+                    {k[len(start) :]: v for k, v in tensors.items() if k.startswith(start)}
+                )
+                networks[name] = network
+        except (SafetensorError, RuntimeError, ValueError):
+            raise ModelError(
+                f"{weights_file} does not hold the networks that {description_file} describes: "
+                f"{remedy}"
+            ) from None
+        return cls(
+            networks,
+            values={name: feature.values for name, feature in description.features.items()},
+            records={name: feature.record for name, feature in description.features.items()},
+        )
+
+
+def fit_extractor(
+    pictures: Pictures,
+    labels: Mapping[str, Sequence[str | None]],
+    *,
+    values: Mapping[str, Sequence[str]],
+    options: TrainingOptions | Mapping[str, TrainingOptions] | None = None,
+    groups: Sequence[object] | None = None,
+    checkpoints: Path | None = None,
+    start_from: FeatureExtractor | None = None,
+    workers: int = -1,
+    on_progress: Progress | None = None,
+) -> FeatureExtractor:
+    """Train one network for each feature.
+
+    Parameters
+    ----------
+    pictures : ndarray of uint8, shape (n, size, size, 3)
+        As :func:`seewhy.perception.picture.as_picture` makes them.
+    labels : mapping of str to sequence of str or None, length n
+        Each feature's value in each picture; None where it is unknown.
+    values : mapping of str to sequence of str
+        All values that each feature can have.
+    options : TrainingOptions or mapping of str to TrainingOptions, optional
+        For all features, or for each (the defaults for those without).
+    groups : sequence, length n, optional
+        Pictures of one group are never divided between training and validation.
+    checkpoints : Path, optional
+        A folder in which interrupted training finds where it was. Remove it when the extractor
+        is saved.
+    start_from : FeatureExtractor, optional
+        Earlier networks to train on instead of growing new ones; features that it lacks grow.
+    workers : int, default -1
+        Features trained at the same time, each in a process of its own; -1: one a core. The
+        weights do not depend on it.
+    on_progress : callable, optional
+        Called with a :class:`seewhy.perception.events.TrainingEvent` after every epoch.
+
+    Returns
+    -------
+    FeatureExtractor
+
+    Raises
+    ------
+    DatasetError
+        The pictures or labels do not fit together, or a feature has no label at all.
+
+    Notes
+    -----
+    Source: Riley and Sridharan (2019), feature extraction; the departures are listed at
+    :class:`~seewhy.perception.network.GrowingNetwork` and
+    :func:`~seewhy.perception.training.train_network`.
+
+    Examples
+    --------
+    >>> pictures = np.zeros((40, 16, 16, 3), dtype=np.uint8)
+    >>> pictures[::2] = 200
+    >>> extractor = fit_extractor(
+    ...     pictures, {"light": ["on", "off"] * 20}, values={"light": ["on", "off"]}
+    ... )
+    >>> bool(extractor.probabilities(pictures[:1])["light"][0, 0] > 0.8)
+    True
+    """
+    batch = _checked(pictures)
+    if not len(batch):
+        raise DatasetError("there is no picture to learn from: add labelled pictures")
+    if not labels:
+        raise DatasetError("there is no feature to learn: name at least one in the domain")
+    for name, column in labels.items():
+        if name not in values:
+            raise DatasetError(f"the values of {name} are not given: list them in the domain")
+        if len(column) != len(batch):
+            raise DatasetError(
+                f"{name} must have one label a picture ({len(batch)}), got {len(column)}"
+            )
+    if groups is not None and len(groups) != len(batch):
+        raise DatasetError(
+            f"groups must have one entry a picture ({len(batch)}), got {len(groups)}"
+        )
+
+    chosen = {
+        name: options
+        if isinstance(options, TrainingOptions)
+        else (options or {}).get(name, TrainingOptions())
+        for name in labels
+    }
+    trained = train_networks(
+        batch,
+        labels,
+        values=values,
+        options=chosen,
+        groups=groups,
+        checkpoints=checkpoints,
+        start_from=None if start_from is None else start_from.networks,
+        workers=workers,
+        on_progress=on_progress,
+    )
+    return FeatureExtractor(
+        {name: network for name, (network, _) in trained.items()},
+        values=values,
+        records={name: record for name, (_, record) in trained.items()},
+    )
+
+
+class _Feature(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    values: tuple[str, ...]
+    dense: int
+    dropout: float
+    record: FeatureRecord
+
+
+class _Description(BaseModel):
+    """The JSON beside the weights."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    format: int
+    size: int
+    digest: str
+    features: dict[str, _Feature]
+
+
+def _checked(pictures: Pictures, *, size: int | None = None) -> Pictures:
+    """The pictures, if they are an array that the networks take."""
+    side = "size" if size is None else size
+    shape = pictures.shape
+    square = pictures.ndim == 4 and shape[1] == shape[2] and shape[3] == 3
+    if pictures.dtype != np.uint8 or not square or (size is not None and shape[1] != size):
+        raise DatasetError(
+            f"pictures must be uint8 of shape (n, {side}, {side}, 3), got {pictures.dtype} of "
+            f"shape {shape}: make them with as_picture"
+        )
+    if shape[1] < SMALLEST_SIDE:
+        raise DatasetError(f"pictures must be at least {SMALLEST_SIDE} pixels wide, got {shape[1]}")
+    return np.ascontiguousarray(pictures)

@@ -1,0 +1,401 @@
+"""How one feature's network is trained: a loop that one reads in one sitting."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import torch
+import torch.nn.functional as functional
+
+from seewhy.perception import checkpoint
+from seewhy.perception.augmentation import augment
+from seewhy.perception.calibration import fitted_temperature
+from seewhy.perception.checkpoint import Position, Weights
+from seewhy.perception.events import FeatureRecord, Kind, Progress, TrainingEvent
+from seewhy.perception.labels import labelled, value_weights
+from seewhy.perception.network import GrowingNetwork
+from seewhy.perception.optimisation import (
+    load_optimizer,
+    new_optimizer,
+    one_cycle,
+    optimizer_tensors,
+)
+from seewhy.perception.options import TrainingOptions
+from seewhy.perception.randomness import seed_of, seeded
+from seewhy.perception.validation import split
+
+__all__ = ["train_network"]
+
+ENOUGH_PICTURES = 1000  # what `max_epochs` is meant for; fewer pictures get more epochs
+FLAT_GROWTHS = 2  # growths without gain that end the growing: one alone may be bad luck
+COOLING_STARTS = 0.7  # of the planned epochs; from here on steps are small
+MINIMAL_GAIN = 0.005  # in accuracy, for a growth to count as one that helped
+
+Pictures = npt.NDArray[np.uint8]
+Indices = npt.NDArray[np.int64]
+
+
+def train_network(
+    pictures: Pictures,
+    labels: Sequence[str | None],
+    *,
+    feature: str,
+    values: Sequence[str],
+    options: TrainingOptions,
+    groups: Sequence[object] | None = None,
+    checkpoints: Path | None = None,
+    start_from: GrowingNetwork | None = None,
+    on_progress: Progress | None = None,
+) -> tuple[GrowingNetwork, FeatureRecord]:
+    """Grow and train the network of one feature.
+
+    A network of one convolution is trained for a few epochs; while its validation accuracy is
+    below the threshold and still improves, a convolution is added and the whole is trained
+    again. The depth found is then trained until it no longer improves, and the weights that did
+    best on the validation pictures are kept.
+
+    Parameters
+    ----------
+    pictures : ndarray of uint8, shape (n, size, size, 3)
+        The pictures.
+    labels : sequence of str or None, length n
+        The feature's value in each picture; pictures with None are left out.
+    feature : str
+        Its name, for messages, checkpoints and seeds.
+    values : sequence of str
+        All values that the feature can have; the order of the logits.
+    options : TrainingOptions
+        See there.
+    groups : sequence, length n, optional
+        Pictures of one group (of one scene, say) are never divided between training and
+        validation.
+    checkpoints : Path, optional
+        A folder. After every epoch the state is written to one file in it, and a call with the
+        same data and options goes on from there and ends with the same weights as a call that
+        was never interrupted. A file of other data or options, or a damaged one, is written
+        over.
+    start_from : GrowingNetwork, optional
+        Its convolutions (and its head, where values and size agree) are trained on with half the
+        epochs and a third of the learning rate; nothing grows.
+    on_progress : callable, optional
+        Called with a :class:`TrainingEvent` after the checkpoint of each epoch is written.
+
+    Returns
+    -------
+    network : GrowingNetwork
+        In evaluation mode, on the CPU, with its temperature fitted.
+    record : FeatureRecord
+        What came of it.
+
+    Raises
+    ------
+    DatasetError
+        No picture is labelled, or a label is none of the values.
+
+    Notes
+    -----
+    Source: Riley and Sridharan (2019), feature extraction. Departures: AdamW with a one-cycle
+    learning rate and augmented pictures; the paper grows until the threshold, whereas here the
+    depth found is trained on beyond it; growing also ends after two growths without gain.
+
+    Examples
+    --------
+    >>> pictures = np.zeros((20, 16, 16, 3), dtype=np.uint8)
+    >>> pictures[::2] = 200
+    >>> network, record = train_network(
+    ...     pictures,
+    ...     ["on", "off"] * 10,
+    ...     feature="light",
+    ...     values=["on", "off"],
+    ...     options=TrainingOptions(max_epochs=2, growing_epochs=1),
+    ... )
+    >>> record.layers
+    'conv 3→8, pool, dense 64, dropout 0.5, logits 2'
+    """
+    chosen, targets = labelled(labels, feature=feature, values=values)
+    if len(np.unique(targets)) == 1:
+        return _constant(pictures[chosen], targets, feature, values, options, on_progress)
+
+    training = _Training(
+        pictures[chosen],
+        targets,
+        feature=feature,
+        values=len(values),
+        options=options,
+        groups=None if groups is None else [groups[i] for i in chosen],
+        start_from=start_from,
+    )
+    file, found, own = None, None, ""
+    if checkpoints is not None:
+        file = checkpoint.checkpoint_file(checkpoints, feature)
+        own = checkpoint.fingerprint(
+            pictures,
+            labels,
+            feature=feature,
+            values=values,
+            options=options,
+            groups=groups,
+            start_from=start_from,
+        )
+        found = checkpoint.read(file, own)
+    if found is None:
+        training.begin()
+    else:
+        training.resume(*found)
+
+    if training.position.stage == "finished" and on_progress is not None:
+        on_progress(training.event("done", training.position.best[0]))
+    while training.position.stage != "finished":
+        if training.epochs_are_left():
+            event = training.train_epoch()
+        elif training.position.stage == "growing":
+            event = training.grow_or_settle()
+        else:
+            event = training.finish()
+        if file is not None:
+            checkpoint.write(file, own, training.position, training.tensors())
+        if on_progress is not None:
+            on_progress(event)
+
+    network = training.network.to("cpu").eval()
+    return network, FeatureRecord(
+        layers=network.layers,
+        depth=network.depth,
+        parameters=network.parameters_count,
+        epochs=training.position.epochs_run,
+        validation_accuracy=training.position.best[0],
+        threshold=options.threshold,
+        temperature=float(network.temperature),
+        training_pictures=len(training.train),
+        validation_pictures=len(training.validation),
+    )
+
+
+class _Training:
+    """A network, the pictures it learns from, and where its training stands."""
+
+    def __init__(
+        self,
+        pictures: Pictures,
+        targets: Indices,
+        *,
+        feature: str,
+        values: int,
+        options: TrainingOptions,
+        groups: Sequence[object] | None,
+        start_from: GrowingNetwork | None,
+    ) -> None:
+        self.feature, self.options, self.start_from = feature, options, start_from
+        self.train, self.validation = split(
+            targets.tolist(),
+            share=options.validation_share,
+            seed=seed_of(options.seed, feature, "split"),
+            groups=groups,
+        )
+        self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
+        self.x = torch.from_numpy(np.ascontiguousarray(pictures)).to(self.device)
+        self.y = torch.from_numpy(targets).to(self.device)
+        # With too few pictures to spare any, those of training must do.
+        judged = self.validation if len(self.validation) else self.train
+        self.judged = torch.from_numpy(judged).to(self.device)
+        self.loss_weights = value_weights(targets[self.train], values, options.balance).to(
+            self.device
+        )
+
+        more = min(4.0, max(1.0, ENOUGH_PICTURES / len(self.train)))
+        settling = math.ceil(options.max_epochs * more * (0.5 if start_from else 1.0))
+        growing = math.ceil(options.growing_epochs * more)
+        self.planned = {"growing": growing, "settling": settling, "finished": settling}
+        self.peak_rate = options.learning_rate / (3.0 if start_from else 1.0)
+
+        with self.seeded("first"):
+            self.network = GrowingNetwork(
+                size=pictures.shape[1], values=values, dropout=options.dropout
+            )
+        self.network.standardise_by(pictures[self.train])
+        self.position = Position()
+        self.best: Weights = {}  # of this depth
+        self.chosen: Weights = {}  # of the best depth before
+
+    def begin(self) -> None:
+        """Take over the weights to start from, if any."""
+        if self.start_from is not None:
+            with self.seeded("adopt"):
+                self.network.adopt(self.start_from)
+        self.network.to(self.device)
+        self.optimizer = new_optimizer(self.network, self.options)
+        if self.start_from is not None:
+            self.position.stage, self.position.depth = "settling", self.network.depth
+            # What was there is kept unless training on does better.
+            self.position.best, self.best = self.score(), self.weights()
+
+    def resume(self, position: Position, tensors: dict[str, Weights]) -> None:
+        """Go on from a checkpoint."""
+        self.position = position
+        with self.seeded("resume"):
+            self.network = self.network.of_depth(position.depth)
+        self.network.load_state_dict(tensors["network"])
+        self.network.to(self.device)
+        self.best, self.chosen = tensors.get("best", {}), tensors.get("chosen", {})
+        self.optimizer = new_optimizer(self.network, self.options)
+        load_optimizer(self.optimizer, tensors.get("optimizer", {}))
+
+    def tensors(self) -> dict[str, Weights]:
+        """What :meth:`resume` needs beside the position."""
+        network = dict(self.network.state_dict())
+        if self.position.stage == "finished":
+            return {"network": network}
+        return {
+            "network": network,
+            "best": self.best,
+            "chosen": self.chosen,
+            "optimizer": optimizer_tensors(self.optimizer),
+        }
+
+    def epochs_are_left(self) -> bool:
+        """Whether this stage has epochs to go; out of patience, it skips to its last ones."""
+        position, planned = self.position, self.planned[self.position.stage]
+        if position.since_best >= self.options.patience:
+            # Stopping here would leave the weights as the large steps tossed them: cool down first.
+            cooling = math.ceil(COOLING_STARTS * planned)
+            position.epoch = cooling if position.epoch < cooling else planned
+            position.since_best = 0
+        return position.epoch < planned
+
+    def train_epoch(self) -> TrainingEvent:
+        """Pass once over the training pictures, each varied anew."""
+        position, options = self.position, self.options
+        with self.seeded(position.stage, position.depth, position.epoch):
+            order = torch.from_numpy(self.train)[torch.randperm(len(self.train))].to(self.device)
+            batches = torch.tensor_split(order, math.ceil(len(order) / options.batch_size))
+            self.network.train()
+            for i, batch in enumerate(batches):
+                progress = (position.epoch + i / len(batches)) / self.planned[position.stage]
+                for group in self.optimizer.param_groups:
+                    group["lr"] = self.peak_rate * one_cycle(progress)
+                logits = self.network(augment(self.x[batch], options))
+                loss = functional.cross_entropy(logits, self.y[batch], weight=self.loss_weights)
+                self.optimizer.zero_grad(set_to_none=True)
+                loss.backward()  # type: ignore[no-untyped-call]
+                self.optimizer.step()
+        position.epoch += 1
+        position.epochs_run += 1
+        position.since_best += position.stage == "settling"
+        accuracy, mean_loss = self.score()
+        if (accuracy, -mean_loss) > (position.best[0], -position.best[1]):
+            position.best, position.since_best = [accuracy, mean_loss], 0
+            self.best = self.weights()
+        return self.event("epoch", accuracy)
+
+    def grow_or_settle(self) -> TrainingEvent:
+        """Add a convolution, or go back to the best depth if the accuracy suffices or stays."""
+        position = self.position
+        self.network.load_state_dict(self.best)
+        if position.best[0] >= position.chosen[0] + MINIMAL_GAIN:
+            position.chosen, position.chosen_depth = position.best, position.depth
+            self.chosen, position.flat_growths = self.best, 0
+        else:
+            position.flat_growths += 1
+        position.epoch = 0
+        if (
+            position.best[0] >= self.options.threshold
+            or position.depth >= self.network.deepest
+            or position.flat_growths >= FLAT_GROWTHS
+        ):
+            kind: Kind = "settled"
+            position.stage, position.depth = "settling", position.chosen_depth
+            with self.seeded("settle"):
+                self.network = self.network.of_depth(position.depth).to(self.device)
+            self.network.load_state_dict(self.chosen)
+            position.best, self.best = position.chosen, self.chosen
+            accuracy = position.best[0]
+        else:
+            kind = "grown"
+            accuracy = position.best[0]
+            with self.seeded("grow", position.depth):
+                self.network.grow()
+            position.depth, position.best = self.network.depth, [-1.0, math.inf]
+        self.optimizer = new_optimizer(self.network, self.options)
+        return self.event(kind, accuracy)
+
+    def finish(self) -> TrainingEvent:
+        """Keep the best weights and calibrate them."""
+        self.network.load_state_dict(self.best)
+        self.position.stage = "finished"
+        logits, targets = self.judged_logits(), self.y[self.judged]
+        self.network.temperature.fill_(fitted_temperature(logits.cpu(), targets.cpu()))
+        return self.event("done", self.position.best[0])
+
+    def judged_logits(self) -> torch.Tensor:
+        """Logits of the pictures by which the network is judged."""
+        self.network.eval()
+        with torch.inference_mode():
+            return torch.cat([self.network(self.x[i]) for i in torch.split(self.judged, 256)])
+
+    def score(self) -> list[float]:
+        """Accuracy and mean loss on the pictures by which the network is judged."""
+        logits, targets = self.judged_logits(), self.y[self.judged]
+        accuracy = (logits.argmax(dim=1) == targets).double().mean()
+        return [float(accuracy), float(functional.cross_entropy(logits.double(), targets))]
+
+    def weights(self) -> Weights:
+        """A copy of the network's weights."""
+        return {name: tensor.clone() for name, tensor in self.network.state_dict().items()}
+
+    def seeded(self, *place: object) -> AbstractContextManager[None]:
+        """Randomness of its own for a place in training, so that resuming changes nothing."""
+        return seeded(self.device, self.options.seed, self.feature, *place)
+
+    def event(self, kind: Kind, accuracy: float) -> TrainingEvent:
+        """What just happened, in numbers and words."""
+        position, layers = self.position, self.network.layers
+        planned = self.planned[position.stage]
+        scored = f"{accuracy:.1%} on validation"
+        words = {
+            "epoch": f"epoch {position.epoch} of {planned}, {scored}",
+            "grown": f"{scored}, grows to {layers}",
+            "settled": f"{scored}, stays with {layers}",
+            "done": f"{scored} with {layers}",
+        }
+        message = f"{self.feature}: {words[kind]}"
+        return TrainingEvent(
+            self.feature, self.network.depth, position.epoch, planned, accuracy, kind, message
+        )
+
+
+def _constant(
+    pictures: Pictures,
+    targets: Indices,
+    feature: str,
+    values: Sequence[str],
+    options: TrainingOptions,
+    on_progress: Progress | None,
+) -> tuple[GrowingNetwork, FeatureRecord]:
+    """Where only one value occurs nothing can be learned from the pictures: answer it always."""
+    with seeded(torch.device("cpu"), options.seed, feature, "first"):
+        network = GrowingNetwork(
+            size=pictures.shape[1], values=len(values), dropout=options.dropout
+        )
+    network.standardise_by(pictures)
+    # One more picture of each value is supposed, so that the others stay possible.
+    counts = np.bincount(targets, minlength=len(values)) + 1.0
+    network.always(torch.as_tensor(np.log(counts / counts.sum())))
+    if on_progress is not None:
+        text = f"{feature} is {values[int(targets[0])]} in every picture: nothing to learn"
+        on_progress(TrainingEvent(feature, 1, 0, 0, 1.0, "done", text))
+    return network.eval(), FeatureRecord(
+        layers=network.layers,
+        depth=1,
+        parameters=network.parameters_count,
+        epochs=0,
+        validation_accuracy=1.0,
+        threshold=options.threshold,
+        temperature=1.0,
+        training_pictures=len(targets),
+        validation_pictures=0,
+    )

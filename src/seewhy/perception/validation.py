@@ -1,0 +1,71 @@
+"""Which pictures are kept for validation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = ["split"]
+
+
+def split(
+    labels: Sequence[object],
+    *,
+    share: float,
+    seed: int,
+    groups: Sequence[object] | None = None,
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Divide pictures into those to train on and those to validate on.
+
+    Every label gives its share, groups stay whole, and every label keeps at least one group for
+    training: what scikit-learn's splitters refuse (a label that occurs once) is common in sets
+    of a few dozen pictures.
+
+    Parameters
+    ----------
+    labels : sequence, length n
+        What to stratify by.
+    share : float
+        Share for validation, 0..0.5.
+    seed : int
+        Another seed, another split.
+    groups : sequence, length n, optional
+        Group of each picture; without it every picture is a group.
+
+    Returns
+    -------
+    train, validation : ndarray of int64
+        Indices, ascending.
+
+    Examples
+    --------
+    >>> train, validation = split(["a"] * 8 + ["b"] * 4, share=0.25, seed=0)
+    >>> len(train), len(validation)
+    (9, 3)
+    """
+    members: dict[object, list[int]] = {}
+    for i, group in enumerate(range(len(labels)) if groups is None else groups):
+        members.setdefault(group, []).append(i)
+    # A group stands for its most frequent label (the first of equals).
+    by_label: dict[object, list[list[int]]] = {}
+    for indices in members.values():
+        own = [labels[i] for i in indices]
+        by_label.setdefault(max(own, key=own.count), []).append(indices)
+
+    rng = np.random.default_rng(seed)
+    validation: list[int] = []
+    for label in sorted(by_label, key=str):
+        candidates = by_label[label]
+        wanted = share * sum(len(indices) for indices in candidates)
+        taken = 0
+        for position in rng.permutation(len(candidates))[1:]:  # the first stays for training
+            indices = candidates[position]
+            # Take a group when that brings the count nearer to what is wanted.
+            if taken + len(indices) / 2 <= wanted:
+                validation += indices
+                taken += len(indices)
+    inside = np.zeros(len(labels), dtype=bool)
+    inside[validation] = True
+    return np.flatnonzero(~inside), np.flatnonzero(inside)

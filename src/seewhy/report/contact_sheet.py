@@ -1,0 +1,47 @@
+"""A contact sheet: many pictures of a dataset with their annotation."""
+
+from __future__ import annotations
+
+from PIL import Image, ImageDraw, ImageFont
+
+from seewhy.dataset import Dataset
+from seewhy.perception.picture import read_picture
+
+_LINE = 13
+
+
+def draw_contact_sheet(
+    dataset: Dataset, *, columns: int = 8, rows: int = 5, size: int = 128
+) -> Image.Image:
+    """Draw scenes spread evenly over the dataset, class and feature values below each.
+
+    Raises
+    ------
+    PictureError
+        If a file is not a picture.
+    """
+    features = list(dataset.domain.features)
+    number = min(columns * rows, len(dataset))
+    chosen = [dataset.scenes[i * len(dataset) // number] for i in range(number)]
+    columns = min(columns, number)
+    below = _LINE * (1 + (len(features) + 1) // 2) + 8
+    width, height = columns * (size + 8) + 8, -(-number // columns) * (size + below) + 8
+    sheet = Image.new("RGB", (width, height), "white")
+    draw = ImageDraw.Draw(sheet)
+    font = ImageFont.load_default(size=11)
+    for position, scene in enumerate(chosen):
+        x = 8 + position % columns * (size + 8)
+        y = 8 + position // columns * (size + below)
+        sheet.paste(Image.fromarray(read_picture(scene.picture, size=size)), (x, y))
+        values = [
+            f"{key.replace('_', ' ')[:9]} {value or '?'}"
+            for key, value in zip(features, scene.vector, strict=True)
+        ]
+        lines = [
+            f"{scene.label}",
+            *(", ".join(values[i : i + 2]) for i in range(0, len(values), 2)),
+        ]
+        for number_of_line, line in enumerate(lines):
+            fill = "#111111" if number_of_line == 0 else "#555555"
+            draw.text((x, y + size + 2 + number_of_line * _LINE), line, fill=fill, font=font)
+    return sheet

@@ -1,0 +1,249 @@
+"""A small domain of coloured tiles, its pictures, and a model trained on them in seconds."""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+# The program words its help for the width of the screen; tests want one width.
+os.environ["COLUMNS"] = "100"
+os.environ.pop("FORCE_COLOR", None)
+# Networks as small as these are several times slower on two threads than on one.
+os.environ["OMP_NUM_THREADS"] = "1"
+
+from PIL import Image, ImageDraw
+
+from seewhy.agent import Agent
+from seewhy.dataset import Dataset
+from seewhy.domain import Domain, load_domain
+from seewhy.knowledge.scene import FeatureVector
+from seewhy.perception import extractor, parallel
+from seewhy.reply import Classification, FeatureReading
+
+DOMAIN = """\
+[domain]
+name = "tiles"
+title = "Tiles"
+scene = "tile"
+subject = "the tile"
+
+[pictures]
+size = 16
+shift = 0.05
+
+[features.colour]
+name = "colour"
+threshold = 0.9
+
+[features.colour.values]
+red = { say = "{it} is red", change = "paint it red" }
+green = { say = "{it} is green", change = "paint it green" }
+blue = { say = "{it} is blue", change = "paint it blue" }
+
+[features.round]
+name = "shape"
+threshold = 0.9
+
+[features.round.values]
+yes = { say = "{it} is round", words = ["round"], change = "make it round" }
+no = { say = "{it} has corners", words = ["cornered"], change = "give it corners" }
+
+[classes.good]
+literal = "good(T)"
+say = "good"
+
+[classes.bad]
+literal = "-good(T)"
+say = "bad"
+words = ["bad", "poor"]
+"""
+
+KNOWLEDGE = """\
+#sort tile.
+#sort hue = {red, green, blue}.
+#static colour(tile, hue).
+#static round(tile).
+#static good(tile).
+
+%% a red tile is good
+good(T) if colour(T, red).
+
+%% a blue tile with corners is bad
+-good(T) if colour(T, blue), not round(T).
+"""
+
+QUESTIONS = """\
+fillers = ["please"]
+
+[[question]]
+asks = "class"
+patterns = ["what can you say about {it}"]
+
+[[question]]
+asks = "is_class"
+patterns = ["is {it} {class}"]
+
+[[question]]
+asks = "why_not_class"
+patterns = ["why is {it} not {class}"]
+
+[[question]]
+asks = "why_class"
+patterns = ["why is {it} {class}", "what makes {it} {class}"]
+
+[[question]]
+asks = "change_to_class"
+patterns = ["what would make {it} {class}"]
+
+[[question]]
+asks = "feature_value"
+feature = "colour"
+patterns = ["what colour is {it}", "which colour does {it} have"]
+
+[[question]]
+asks = "feature_is"
+feature = "round"
+value = "yes"
+patterns = ["is {it} round"]
+
+[[question]]
+asks = "explain"
+patterns = ["please explain this answer", "explain"]
+"""
+
+RGB = {"red": (210, 40, 30), "green": (30, 170, 60), "blue": (40, 60, 210)}
+TRUTH = {
+    ("red", "yes"): "good",
+    ("red", "no"): "good",
+    ("green", "yes"): "good",
+    ("green", "no"): "bad",
+    ("blue", "yes"): "good",
+    ("blue", "no"): "bad",
+}
+WORN = {6, 42}
+"""Numbers of red tiles that are bad all the same: here the knowledge is wrong."""
+
+
+def draw_tile(colour: str, is_round: str, number: int, *, size: int = 64) -> Image.Image:
+    """A disc or a square on a light ground; its place depends on the number."""
+    image = Image.new("RGB", (size, size), (225, 225, 220))
+    left, top = 8 + number % 5, 8 + number % 7
+    box = (left, top, left + size * 2 // 3, top + size * 2 // 3)
+    draw = ImageDraw.Draw(image)
+    (draw.ellipse if is_round == "yes" else draw.rectangle)(box, fill=RGB[colour])
+    return image
+
+
+def write_domain(folder: Path, **texts: str) -> Path:
+    """Write the domain of tiles; ``texts`` replace its files (without their endings)."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {"domain": DOMAIN, "knowledge": KNOWLEDGE, "questions": QUESTIONS, **texts}
+    for name, ending in (("domain", "toml"), ("knowledge", "al"), ("questions", "toml")):
+        (folder / f"{name}.{ending}").write_text(files[name], encoding="utf-8")
+    return folder
+
+
+def write_tiles(folder: Path, *, count: int = 60) -> Path:
+    """Write pictures of tiles and their scenes.csv, every third of them for testing."""
+    (folder / "images").mkdir(parents=True)
+    kinds = list(product(RGB, ("yes", "no")))
+    with (folder / "scenes.csv").open("w", newline="", encoding="utf-8") as stream:
+        rows = csv.writer(stream, lineterminator="\n")
+        rows.writerow(["image", "class", "colour", "round", "split"])
+        for number in range(count):
+            colour, is_round = kinds[(number + number // 6) % 6]
+            draw_tile(colour, is_round, number).save(folder / "images" / f"{number:03d}.png")
+            label = "bad" if number in WORN else TRUTH[colour, is_round]
+            split = "test" if number % 3 == 2 else "train"
+            rows.writerow([f"images/{number:03d}.png", label, colour, is_round, split])
+    return folder
+
+
+@pytest.fixture(scope="session")
+def tiles_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The domain folder; do not write to it."""
+    return write_domain(tmp_path_factory.mktemp("domain") / "tiles")
+
+
+@pytest.fixture(scope="session")
+def tiles(tiles_folder: Path) -> Domain:
+    return load_domain(tiles_folder)
+
+
+@pytest.fixture(scope="session")
+def tiles_data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of pictures; do not write to it."""
+    return write_tiles(tmp_path_factory.mktemp("data") / "pictures")
+
+
+@pytest.fixture(scope="session")
+def dataset(tiles: Domain, tiles_data: Path) -> Dataset:
+    return Dataset.load(tiles_data, tiles)
+
+
+@contextmanager
+def one_process() -> Iterator[None]:
+    """Train here instead of in other processes, which would take seconds to start."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(extractor, "train_networks", _train_networks_here)
+        yield
+
+
+def _train_networks_here(*args: Any, **options: Any) -> Any:
+    return parallel.train_networks(*args, **{**options, "workers": 1})
+
+
+@pytest.fixture
+def in_one_process() -> Iterator[None]:
+    with one_process():
+        yield
+
+
+@pytest.fixture(scope="session")
+def agent(tiles: Domain, dataset: Dataset) -> Agent:
+    """An agent trained on the tiles; do not train it again."""
+    with one_process():
+        return Agent(tiles, seed=3).fit(dataset)
+
+
+@pytest.fixture(scope="session")
+def model_folder(agent: Agent, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The agent on disk; do not write to it."""
+    folder = tmp_path_factory.mktemp("models") / "model"
+    agent.save(folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def structures() -> Domain:
+    return load_domain("structure_stability")
+
+
+@pytest.fixture(scope="session")
+def reasoning(structures: Domain) -> Agent:
+    """An agent of the structures without networks: it answers about given classifications."""
+    return Agent(structures)
+
+
+def seen(agent: Agent, *values: str | None, probability: float = 0.9) -> Classification:
+    """The classification of a scene whose features are given, as the agent decides it."""
+    vector: FeatureVector = tuple(values)
+    label, method, verdict = agent._decide(vector)
+    readings = {
+        key: FeatureReading(value or "", probability)
+        for key, value in zip(agent.domain.features, vector, strict=True)
+    }
+    return Classification(label, method, vector, readings, verdict.value)
+
+
+@pytest.fixture
+def fresh_data(tmp_path: Path) -> Path:
+    """A few pictures of tiles that a test may spoil."""
+    return write_tiles(tmp_path / "pictures", count=6)

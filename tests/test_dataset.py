@@ -1,0 +1,251 @@
+"""Datasets: a table beside pictures, read with errors that name file, line and remedy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from conftest import write_tiles
+from seewhy.agent import Agent
+from seewhy.dataset import Dataset
+from seewhy.dataset_domain import domain_of
+from seewhy.domain import Domain
+from seewhy.errors import DatasetError, PictureError
+from seewhy.report.contact_sheet import draw_contact_sheet
+
+HEAD = "image,class,colour,round\n"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    write_tiles(tmp_path / "p", count=3)
+    return tmp_path / "p"
+
+
+def load(folder: Path, domain: Domain, text: str | bytes) -> Dataset:
+    data = text.encode() if isinstance(text, str) else text
+    (folder / "scenes.csv").write_bytes(data)
+    return Dataset.load(folder, domain)
+
+
+def message(folder: Path, domain: Domain, text: str | bytes) -> str:
+    with pytest.raises(DatasetError) as problem:
+        load(folder, domain, text)
+    return str(problem.value).replace(str(folder), "DIR")
+
+
+ROW = "images/000.png,good,red,yes\n"
+
+
+@pytest.mark.parametrize(
+    ("table", "expected"),
+    [
+        (
+            "image,class,color,round\n",
+            "DIR/scenes.csv:1: 'color' is no feature of the domain 'tiles'; did you mean 'colour'?",
+        ),
+        (
+            "image,class,colour,round,weight\n",
+            "DIR/scenes.csv:1: 'weight' is no feature of the domain 'tiles'; it must be one of: "
+            "image, class, split, group, colour, round",
+        ),
+        (
+            "image,class,colour\n",
+            "DIR/scenes.csv:1: the column 'round' is missing; the domain 'tiles' needs image, "
+            "class, colour, round",
+        ),
+        (
+            "class,colour,round\n",
+            "DIR/scenes.csv:1: the column 'image' is missing; the domain 'tiles' needs image, "
+            "class, colour, round",
+        ),
+        (
+            "image,class,colour,round,colour\n",
+            "DIR/scenes.csv:1: the column 'colour' stands twice; remove one",
+        ),
+        (
+            "",
+            "DIR/scenes.csv:1: the table is empty; its first line names the columns image, class, "
+            "colour, round",
+        ),
+        (HEAD, "DIR/scenes.csv: the table has no rows; add one per picture"),
+        (HEAD + "\n,,,\n", "DIR/scenes.csv: the table has no rows; add one per picture"),
+        (
+            HEAD + ROW + "images/001.png,good,gren,yes\n",
+            "DIR/scenes.csv:3: 'gren' is no value of 'colour'; did you mean 'green'?",
+        ),
+        (
+            HEAD + ROW + "images/001.png,good,red,maybe\n",
+            "DIR/scenes.csv:3: 'maybe' is no value of 'round'; it must be one of: yes, no",
+        ),
+        (
+            HEAD + ROW + "images/001.png,godo,red,yes\n",
+            "DIR/scenes.csv:3: 'godo' is no class of the domain 'tiles'; did you mean 'good'?",
+        ),
+        (
+            HEAD + "images/nothing.png,good,red,yes\n",
+            "DIR/scenes.csv:2: there is no picture 'images/nothing.png' in DIR; correct the path "
+            "or remove the row",
+        ),
+        (
+            HEAD + "images,good,red,yes\n",
+            "DIR/scenes.csv:2: there is no picture 'images' in DIR; correct the path or remove "
+            "the row",
+        ),
+        (
+            HEAD + ",good,red,yes\n",
+            "DIR/scenes.csv:2: the cell 'image' is empty; name the picture's file",
+        ),
+        (
+            HEAD + "images/000.png,good,red,yes,1\n",
+            "DIR/scenes.csv:2: the row has more cells than there are columns; remove some",
+        ),
+        (
+            "image,class,colour,round,split\nimages/000.png,good,red,yes,training\n",
+            "DIR/scenes.csv:2: split must be 'train', 'test' or empty, got 'training'",
+        ),
+        (
+            HEAD.encode() + b"images/000.png,good,r\xf6d,yes\n",
+            "DIR/scenes.csv: is not UTF-8 text; save it as CSV in UTF-8",
+        ),
+        (
+            (HEAD + ROW).encode("utf-16"),
+            "DIR/scenes.csv: is not UTF-8 text; save it as CSV in UTF-8",
+        ),
+        (
+            HEAD + '"' + "x" * 200_000 + '",good,red,yes\n',
+            "DIR/scenes.csv: is no table (field larger than field limit (131072)); save it as CSV",
+        ),
+    ],
+)
+def test_a_wrong_table(folder: Path, tiles: Domain, table: str | bytes, expected: str) -> None:
+    assert message(folder, tiles, table) == expected
+
+
+def test_the_line_is_the_one_in_the_file(folder: Path, tiles: Domain) -> None:
+    """Empty lines and cells with line breaks count as an editor counts them."""
+    table = HEAD + "\n" + ROW + 'images/001.png,good,red,"y\nes"\n'
+    assert message(folder, tiles, table).startswith("DIR/scenes.csv:5: 'y\nes' is no value")
+
+
+def test_no_folder_and_no_table(folder: Path, tiles: Domain) -> None:
+    with pytest.raises(DatasetError) as problem:
+        Dataset.load(folder / "nowhere", tiles)
+    assert str(problem.value) == (
+        f"{folder}/nowhere: there is no such folder; give one with a scenes.csv"
+    )
+    with pytest.raises(DatasetError) as problem:
+        Dataset.load(folder / "images", tiles)
+    assert str(problem.value) == (
+        f"{folder}/images: the folder has no scenes.csv; it lists the pictures with the columns "
+        "image, class, colour, round"
+    )
+
+
+def test_bom_crlf_spaces_and_quotes_are_read(folder: Path, tiles: Domain) -> None:
+    table = (
+        "\ufeffimage , class,colour,round\r\n"
+        'images/000.png, good ,"red",yes\r\n'
+        "\r\n"
+        "images/001.png,bad,,no\r\n"
+    )
+    dataset = load(folder, tiles, table)
+    assert dataset.vectors == [("red", "yes"), (None, "no")]
+    assert dataset.labels == ["good", "bad"]
+    assert [scene.picture.name for scene in dataset.scenes] == ["000.png", "001.png"]
+
+
+def test_columns_in_any_order_and_short_rows(folder: Path, tiles: Domain) -> None:
+    table = "round,image,group,class,colour\nyes,images/000.png,a,good\nno,images/001.png,,bad,red"
+    dataset = load(folder, tiles, table)
+    assert dataset.vectors == [(None, "yes"), ("red", "no")]
+    assert dataset.groups == ["a", "1"]
+
+
+def test_splits(folder: Path, tiles: Domain) -> None:
+    table = "image,class,colour,round,split\n" + "".join(
+        f"images/00{n}.png,good,red,yes,{split}\n" for n, split in enumerate(["train", "", "test"])
+    )
+    dataset = load(folder, tiles, table)
+    assert [s.picture.name for s in dataset.of_split("train").scenes] == ["000.png"]
+    assert [s.picture.name for s in dataset.of_split("test").scenes] == ["002.png"]
+    without = load(folder, tiles, HEAD + ROW)
+    assert without.of_split("train") is without.of_split("test") is without
+    only = load(
+        folder, tiles, "image,class,colour,round,split\nimages/000.png,good,red,yes,train\n"
+    )
+    with pytest.raises(DatasetError) as problem:
+        only.of_split("test")
+    assert str(problem.value) == (
+        f"{folder}/scenes.csv: no row has split = test; add some, or leave the column out"
+    )
+
+
+def test_one_class_is_too_few_for_training(folder: Path, tiles: Domain) -> None:
+    dataset = load(folder, tiles, HEAD + ROW + "images/001.png,good,green,no\n")
+    with pytest.raises(DatasetError) as problem:
+        Agent(tiles).fit(dataset)
+    assert str(problem.value) == (
+        f"{folder}/scenes.csv: all 2 rows are of class 'good'; training needs scenes of at least "
+        "two classes"
+    )
+
+
+def test_a_dataset_of_another_domain(dataset: Dataset, structures: Domain) -> None:
+    with pytest.raises(DatasetError) as problem:
+        Agent(structures).fit(dataset)
+    assert str(problem.value) == (
+        f"{dataset.folder}: the dataset is of the domain 'tiles', the agent of "
+        "'structure_stability'; load it with the agent's domain"
+    )
+
+
+def test_pictures_are_read_once_per_size(folder: Path, tiles: Domain) -> None:
+    dataset = Dataset.load(folder, tiles)
+    read: list[int] = []
+    small = dataset.pictures(16, on_progress=read.append)
+    assert small.shape == (3, 16, 16, 3)
+    assert read == [1, 2, 3]
+    assert dataset.pictures(16, on_progress=read.append) is small
+    assert dataset.pictures(20).shape == (3, 20, 20, 3)
+    assert dataset.take([2, 0]).pictures(16).tolist() == small[[2, 0]].tolist()
+    assert read == [1, 2, 3]
+
+
+def test_a_file_that_is_no_picture_is_named(folder: Path, tiles: Domain) -> None:
+    dataset = Dataset.load(folder, tiles)
+    (folder / "images" / "001.png").write_text("no picture")
+    with pytest.raises(PictureError, match=r"001\.png is not a picture of a known type"):
+        dataset.pictures(16)
+
+
+def test_digests_tell_pictures_apart(folder: Path, tiles: Domain) -> None:
+    digests = Dataset.load(folder, tiles).picture_digests()
+    assert len(set(digests)) == 3
+    assert digests == Dataset.load(folder, tiles).picture_digests()
+
+
+def test_a_contact_sheet_shows_every_scene_once(folder: Path, tiles: Domain) -> None:
+    dataset = Dataset.load(folder, tiles)
+    sheet = draw_contact_sheet(dataset, columns=2, rows=2, size=32)
+    assert sheet.size[0] == 2 * 40 + 8
+    assert draw_contact_sheet(dataset, columns=8, rows=5, size=32).size[0] == 3 * 40 + 8
+    assert draw_contact_sheet(dataset, columns=1, rows=1, size=32).size[0] == 40 + 8
+
+
+def test_the_domain_is_found_from_the_columns(folder: Path) -> None:
+    (folder / "scenes.csv").write_text(
+        "\ufeffimage,class,num_blocks,base, lean,block_displaced,split\n", encoding="utf-8"
+    )
+    assert domain_of(folder).name == "structure_stability"
+    (folder / "scenes.csv").write_text(HEAD)
+    with pytest.raises(DatasetError, match="the columns fit none of the bundled domains"):
+        domain_of(folder)
+    (folder / "scenes.csv").write_bytes(b"")
+    with pytest.raises(DatasetError, match="the columns fit none of the bundled domains"):
+        domain_of(folder)
+    with pytest.raises(
+        DatasetError, match=r"there is no dataset here, a folder with a scenes\.csv"
+    ):
+        domain_of(folder / "images")

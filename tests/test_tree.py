@@ -1,0 +1,248 @@
+"""The decision tree: sound paths, sentences, and files that are checked when they are read."""
+
+from __future__ import annotations
+
+import json
+from itertools import product
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from seewhy.domain import Domain
+from seewhy.errors import ModelError
+from seewhy.induction.sentence import say_path
+from seewhy.induction.tree import DecisionTree, PathCondition, TreeNode, TreePath
+
+FEATURES = {
+    "count": ["1", "2", "3", "4"],
+    "hue": ["red", "green", "blue"],
+    "lean": ["yes", "no"],
+    "level": ["-1", "0", "1"],
+}
+VECTORS = st.tuples(*(st.sampled_from(values) for values in FEATURES.values()))
+PARTLY_KNOWN = st.tuples(*(st.sampled_from([*values, None]) for values in FEATURES.values()))
+
+
+def holds(path: TreePath, vector: tuple[str | None, ...]) -> bool:
+    values = dict(zip(FEATURES, vector, strict=True))
+    return all(values[c.feature] in c.values for c in path.conditions)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.tuples(VECTORS, st.sampled_from(["up", "down", "aside"])), min_size=1))
+def test_every_scene_satisfies_its_path_and_no_other(
+    scenes: list[tuple[tuple[str, ...], str]],
+) -> None:
+    vectors, labels = [v for v, _ in scenes], [label for _, label in scenes]
+    tree = DecisionTree(FEATURES).fit(vectors, labels)
+    paths = tree.paths()
+    assert sum(path.support for path in paths) == len(scenes)
+    for vector in vectors:
+        assert [path for path in paths if holds(path, vector)] == [tree.path(vector)]
+        assert tree.path(vector).label == tree.classify(vector)
+    for path in paths:
+        here = [label for vector, label in scenes if holds(path, vector)]
+        assert len(here) == path.support
+        assert here.count(path.label) / len(here) == pytest.approx(path.precision)
+        assert len({c.feature for c in path.conditions}) == len(path.conditions)
+        for condition in path.conditions:
+            assert set(condition.values) < set(FEATURES[condition.feature])
+            assert condition.values
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.tuples(PARTLY_KNOWN, st.sampled_from(["up", "down"])), min_size=1))
+def test_unknown_values_are_classified_and_said(
+    scenes: list[tuple[tuple[str | None, ...], str]],
+) -> None:
+    tree = DecisionTree(FEATURES).fit([v for v, _ in scenes], [label for _, label in scenes])
+    paths = tree.paths()
+    assert sum(path.support for path in paths) == len(scenes)
+    for vector, _ in scenes:
+        assert tree.path(vector) in paths
+        assert sum(tree.probability(vector).values()) == pytest.approx(1.0)
+    # Numbers always keep a value; only of a category can none be left.
+    for path in paths:
+        assert all(c.values for c in path.conditions if c.feature in ("count", "level", "lean"))
+
+
+def test_categories_are_never_ordered() -> None:
+    """The middle one of three categories is told from the other two by one condition."""
+    scenes = [("1", hue, "no", "0") for hue in FEATURES["hue"]] * 10
+    labels = ["up", "down", "up"] * 10
+    assert DecisionTree(FEATURES).fit(scenes, labels).paths() == (
+        TreePath((PathCondition("hue", ("red", "blue")),), "up", 20, 1.0),
+        TreePath((PathCondition("hue", ("green",)),), "down", 10, 1.0),
+    )
+
+
+def test_numbers_are_compared() -> None:
+    scenes = [(count, "red", "no", "0") for count in FEATURES["count"]] * 10
+    assert DecisionTree(FEATURES).fit(scenes, ["up", "up", "up", "down"] * 10).paths() == (
+        TreePath((PathCondition("count", ("1", "2", "3")),), "up", 30, 1.0),
+        TreePath((PathCondition("count", ("4",)),), "down", 10, 1.0),
+    )
+
+
+def test_noise_is_pruned() -> None:
+    vectors = [(*own,) for own in product(*FEATURES.values())] * 3
+    labels = ["down" if vector[2] == "yes" else "up" for vector in vectors]
+    labels[5], labels[70] = "down", "up"
+    tree = DecisionTree(FEATURES).fit(vectors, labels)
+    assert [path.conditions for path in tree.paths()] == [
+        (PathCondition("lean", ("no",)),),
+        (PathCondition("lean", ("yes",)),),
+    ]
+
+
+def test_the_nodes_are_those_of_the_paths() -> None:
+    scenes = [(count, "red", lean, "0") for count in FEATURES["count"] for lean in ("yes", "no")]
+    labels = ["down" if c in "34" and lean == "yes" else "up" for c, _, lean, _ in scenes]
+    tree = DecisionTree(FEATURES).fit(scenes * 5, labels * 5)
+    root = tree.root()
+    assert root is not None
+
+    def leaves(node: TreeNode) -> list[TreeNode]:
+        return [leaf for own in node.branches for leaf in leaves(own)] or [node]
+
+    def well_formed(node: TreeNode) -> bool:
+        return (node.feature is None) == (not node.branches) and (
+            not node.branches
+            or (
+                sum(own.support for own in node.branches) == node.support
+                and all(map(well_formed, node.branches))
+            )
+        )
+
+    assert well_formed(root)
+    assert [(n.label, n.support, n.precision) for n in leaves(root)] == [
+        (path.label, path.support, path.precision) for path in tree.paths()
+    ]
+
+
+def test_the_same_seed_grows_the_same_tree() -> None:
+    vectors = list(product(*FEATURES.values()))
+    labels = ["up" if (i * 7) % 5 < 2 else "down" for i in range(len(vectors))]
+    one = DecisionTree(FEATURES).fit(vectors, labels, seed=4)
+    other = DecisionTree(FEATURES).fit(vectors, labels, seed=4)
+    assert one.paths() == other.paths()
+
+
+# On disk --------------------------------------------------------------------------------------
+
+
+def small_tree() -> DecisionTree:
+    scenes = [(count, hue, "no", "0") for count in "1234" for hue in FEATURES["hue"]]
+    labels = ["up" if c < "3" and hue != "red" else "down" for c, hue, _, _ in scenes]
+    return DecisionTree(FEATURES).fit(scenes, labels)
+
+
+def test_a_saved_tree_is_the_same(tmp_path: Path) -> None:
+    tree = small_tree()
+    tree.save(tmp_path)
+    loaded = DecisionTree.load(tmp_path)
+    assert (loaded.paths(), loaded.classes) == (tree.paths(), tree.classes)
+    for vector in product(*FEATURES.values()):
+        assert loaded.probability(vector) == tree.probability(vector)
+
+
+def test_an_unfitted_tree(tmp_path: Path) -> None:
+    tree = DecisionTree(FEATURES).fit([], [])
+    assert (tree.fitted, tree.classes, tree.paths(), tree.root()) == (False, (), (), None)
+    with pytest.raises(ValueError, match="the tree is not fitted; call fit with at least one"):
+        tree.classify(("1", "red", "no", "0"))
+    tree.save(tmp_path)
+    assert not DecisionTree.load(tmp_path).fitted
+
+
+@pytest.mark.parametrize("name", ["tree.json", "tree.skops"])
+def test_a_missing_file_is_named(tmp_path: Path, name: str) -> None:
+    small_tree().save(tmp_path)
+    (tmp_path / name).unlink()
+    with pytest.raises(ModelError) as problem:
+        DecisionTree.load(tmp_path)
+    assert str(problem.value) == (
+        f"{tmp_path}: the model is incomplete, {name} is missing; train it again"
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("tree.json", b""),
+        ("tree.json", b"[]"),
+        ("tree.json", b'{"features": 3, "fitted": true}'),
+        ("tree.json", b'{"features": {"count": ["1"]}, "fitted": true}'),
+        ("tree.json", b"\xff\xfe"),
+        ("tree.skops", b""),
+        ("tree.skops", b"no archive"),
+    ],
+)
+def test_a_damaged_file_is_no_tree(tmp_path: Path, name: str, content: bytes) -> None:
+    small_tree().save(tmp_path)
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(ModelError, match=r"the decision tree cannot be read .*; train it again"):
+        DecisionTree.load(tmp_path)
+
+
+def test_another_object_is_no_tree(tmp_path: Path) -> None:
+    import skops.io
+    from sklearn.tree import DecisionTreeRegressor
+
+    small_tree().save(tmp_path)
+    skops.io.dump(DecisionTreeRegressor().fit([[0], [1]], [0, 1]), tmp_path / "tree.skops")
+    with pytest.raises(ModelError, match="it holds no decision tree"):
+        DecisionTree.load(tmp_path)
+
+
+def test_a_tree_of_other_features_is_refused(tmp_path: Path) -> None:
+    """Its nodes ask about columns that the features do not have."""
+    small_tree().save(tmp_path)
+    described = json.loads((tmp_path / "tree.json").read_text())
+    described["features"] = {"count": FEATURES["count"]}
+    (tmp_path / "tree.json").write_text(json.dumps(described))
+    with pytest.raises(ModelError, match="its nodes do not form a tree"):
+        DecisionTree.load(tmp_path)
+
+
+# In words -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("path", "text"),
+    [
+        (
+            TreePath((), "stable", 40, 0.875),
+            "the structure is stable unless something says otherwise (0 of 4 features tested, "
+            "88 % of 40 structures)",
+        ),
+        (
+            TreePath((PathCondition("block_displaced", ("yes",)),), "unstable", 7, 1.0),
+            "if a block is displaced, then it is unstable (1 of 4 features tested, 100 % of 7 "
+            "structures)",
+        ),
+        (
+            TreePath(
+                (
+                    PathCondition("num_blocks", ("3", "4", "5")),
+                    PathCondition("base", ("narrow",)),
+                    PathCondition("block_displaced", ("no",)),
+                ),
+                "stable",
+                212,
+                0.941,
+            ),
+            "if the structure has three to five blocks, it has a narrow base, and no block is "
+            "displaced, then it is stable (3 of 4 features tested, 94 % of 212 structures)",
+        ),
+        (
+            TreePath((PathCondition("base", ()),), "stable", 2, 0.5),
+            "if the width of the base is not known, then it is stable (1 of 4 features tested, "
+            "50 % of 2 structures)",
+        ),
+    ],
+)
+def test_a_path_as_a_sentence(structures: Domain, path: TreePath, text: str) -> None:
+    assert say_path(structures, path) == text
