@@ -2,8 +2,8 @@
 
 They train the recurrent network and score every answer. Where the knowledge, given the annotated
 features, decides the scene rightly, the relevant features are those of its justification.
-Elsewhere they are the smallest set of the scene's feature values that makes its class as certain,
-among all annotated scenes, as any set of them does.
+Elsewhere they are the smallest set of the scene's feature values that says as much about its class,
+among all annotated scenes, as all of them do.
 """
 
 from __future__ import annotations
@@ -43,10 +43,12 @@ def experience_of(vectors: Sequence[FeatureVector], labels: Sequence[str]) -> Ex
 def relevant_features(
     experience: Experience, features: Sequence[str], vector: FeatureVector, label: str
 ) -> tuple[str, ...]:
-    """Return the smallest set of features whose values make a class as certain as any set does.
+    """Return the smallest set of features that says as much about a class as all of them.
 
-    "As certain" leaves out differences of less than 0.02 in the share of scenes of the class; of
-    sets of one size, the one with the largest share, then the most scenes, is taken.
+    Knowing the scene's values of these features, its class is as certain among the annotated
+    scenes as knowing all its values (the shares differ by at most 0.02), and no further value
+    changes that. Of several such sets of one size, the one that most scenes agree with is taken.
+    Where no annotated scene has all the values, every known feature is relevant.
 
     Examples
     --------
@@ -55,31 +57,35 @@ def relevant_features(
     >>> relevant_features(seen, ["first", "second"], ("a", "x"), "up")
     ('first',)
     """
-    if not experience:
-        return ()
     known = [n for n, value in enumerate(vector) if value is not None]
+    if not known:
+        return ()
     agrees = np.array(
-        [
-            [own == wanted for own, wanted in zip(other, vector, strict=True)]
-            for other in experience
-        ],
-        dtype=bool,
-    )
+        [[other[n] == vector[n] for n in known] for other in experience], dtype=bool
+    ).reshape(-1, len(known))
     totals = np.array([sum(counts.values()) for counts in experience.values()])
     of_class = np.array([counts.get(label, 0) for counts in experience.values()])
-    shares: list[tuple[int, float, int, tuple[int, ...]]] = []
-    for size in range(1, len(known) + 1):
-        for chosen in combinations(known, size):
-            alike = agrees[:, chosen].all(axis=1)
+    everything = frozenset(range(len(known)))
+    certain: float | None = None
+    sufficient: dict[frozenset[int], int] = {}
+    for size in range(len(known), 0, -1):
+        for chosen in map(frozenset, combinations(everything, size)):
+            alike = agrees[:, sorted(chosen)].all(axis=1)
             total = int(totals[alike].sum())
-            share = float(of_class[alike].sum() / total) if total else 0.0
-            shares.append((size, share, total, chosen))
-    if not shares:
-        return ()
-    certain = max(share for _, share, _, _ in shares) - _AS_CERTAIN
-    enough = [row for row in shares if row[1] >= certain]
-    _, _, _, best = min(enough, key=lambda row: (row[0], -row[1], -row[2], row[3]))
-    return tuple(features[n] for n in best)
+            if total == 0:
+                continue
+            share = float(of_class[alike].sum() / total)
+            certain = share if size == len(known) else certain
+            if (
+                certain is not None
+                and abs(share - certain) <= _AS_CERTAIN
+                and all(chosen | {n} in sufficient for n in everything - chosen)
+            ):
+                sufficient[chosen] = total
+    if not sufficient:
+        return tuple(features[n] for n in known)
+    best = min(sufficient, key=lambda own: (len(own), -sufficient[own], sorted(own)))
+    return tuple(features[known[n]] for n in sorted(best))
 
 
 class ReferenceAnswers:

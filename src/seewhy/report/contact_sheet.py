@@ -24,7 +24,7 @@ def draw_contact_sheet(
     number = min(columns * rows, len(dataset))
     chosen = [dataset.scenes[i * len(dataset) // number] for i in range(number)]
     columns = min(columns, number)
-    below = _LINE * (1 + (len(features) + 1) // 2) + 8
+    below = _LINE * (1 + len(features)) + 8
     width, height = columns * (size + 8) + 8, -(-number // columns) * (size + below) + 8
     sheet = Image.new("RGB", (width, height), "white")
     draw = ImageDraw.Draw(sheet)
@@ -34,13 +34,10 @@ def draw_contact_sheet(
         y = 8 + position // columns * (size + below)
         sheet.paste(Image.fromarray(read_picture(scene.picture, size=size)), (x, y))
         values = [
-            f"{key.replace('_', ' ')[:9]} {value or '?'}"
+            f"{key.replace('_', ' ')}: {value or '?'}"
             for key, value in zip(features, scene.vector, strict=True)
         ]
-        lines = [
-            f"{scene.label}",
-            *(", ".join(values[i : i + 2]) for i in range(0, len(values), 2)),
-        ]
+        lines = [scene.label, *values]
         for number_of_line, line in enumerate(lines):
             fill = "#111111" if number_of_line == 0 else "#555555"
             draw.text((x, y + size + 2 + number_of_line * _LINE), line, fill=fill, font=font)
