@@ -68,7 +68,7 @@ def image(tmp_path: Path) -> Path:
         ("new", "Write a working domain folder"),
         ("check", "Check a domain folder"),
         ("demo", "Make pictures, train, evaluate, ask"),
-        ("data", "Make, look at"),
+        ("data", "Make datasets and look at them."),
         ("data make", "Make pictures with the domain's own source"),
         ("data show", "Write a contact sheet"),
     ],
@@ -143,6 +143,7 @@ def test_ask(run: Run, model_folder: Path, image: Path) -> None:
     assert (result.code, result.err) == (0, "")
     assert re.sub(r"\d\.\d\d", "#", result.out) == (
         "The tile is blue, and it has corners.\n\n"
+        "asked: why is the tile bad?\n"
         "seen: colour blue (#), round no (#)\n"
         "by: knowledge\n"
         "because:\n"

@@ -165,13 +165,16 @@ def test_sixteen_bit_is_scaled_not_clipped(tmp_path: Path, kind: str) -> None:
     else:
         Image.fromarray(grey).save(path)
     found = read_picture(path, size=40)
+    assert found.shape == (40, 40, 3)
     assert (found[:, :20] == 77).all()
     assert (found[:, 20:] == 200).all()
 
 
 def test_floating_point_file(tmp_path: Path) -> None:
     Image.fromarray(np.full((20, 20), 0.5, dtype=np.float32)).save(tmp_path / "a.tiff")
-    assert (read_picture(tmp_path / "a.tiff", size=20) == 128).all()
+    found = read_picture(tmp_path / "a.tiff", size=20)
+    assert found.shape == (20, 20, 3)
+    assert (found == 128).all()
 
 
 def test_palette(tmp_path: Path) -> None:

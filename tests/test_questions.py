@@ -271,3 +271,22 @@ def test_a_wrong_template_is_named_with_its_line(
     with pytest.raises(DomainError) as problem:
         Questions(load_domain(folder))
     assert str(problem.value) == f"{folder}/questions.toml:{message}"
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "complaint"),
+    [
+        ("domain", r"(?m)^subject = .*$", 'subject = ""', "subject = '' has no word"),
+        ("questions", r"(?m)^fillers = .*$", 'fillers = ["!"]', "'!' in the fillers has no word"),
+        ("questions", r"\Z", '\n[synonyms]\ngood = [""]\n', "'' in the synonyms of 'good' has no"),
+    ],
+)
+def test_phrases_without_a_word_are_refused(
+    tmp_path: Path, name: str, old: str, new: str, complaint: str
+) -> None:
+    folder = write_domain(tmp_path / "tiles")
+    file = folder / f"{name}.toml"
+    file.write_text(re.sub(old, lambda _: new, file.read_text(), count=1))
+    domain = load_domain(str(folder))
+    with pytest.raises(DomainError, match=re.escape(complaint)):
+        Questions(domain)

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from seewhy.errors import DomainError, KnowledgeError
 from seewhy.knowledge.axiom import Literal
@@ -42,12 +43,28 @@ class PictureTable(_Table):
     shift: float = Field(default=0.05, ge=0.0, le=0.5)
 
 
+def _with_letters(word: str) -> str:
+    if not any(character.isalnum() for character in word):
+        raise ValueError(f"must have a letter or a digit, got '{word}'")
+    return word
+
+
+def _with_it_alone(text: str) -> str:
+    if set("{}") & set(_with_letters(text).replace("{it}", "")):
+        raise ValueError(f"{{it}} is the only slot that there is, got '{text}'")
+    return text
+
+
+Word = Annotated[str, AfterValidator(_with_letters)]
+Clause = Annotated[str, AfterValidator(_with_it_alone)]
+
+
 class ValueTable(_Table):
     """``[features.NAME.values.VALUE]``: how a value is said, asked for and brought about."""
 
-    say: str
-    words: tuple[str, ...] = ()
-    change: str | None = None
+    say: Clause
+    words: tuple[Word, ...] = ()
+    change: Clause | None = None
 
 
 class FeatureTable(_Table):
@@ -63,8 +80,8 @@ class ClassTable(_Table):
     """``[classes.NAME]``: one class, the literal that stands for it, and its words."""
 
     literal: str
-    say: str
-    words: tuple[str, ...] = ()
+    say: Word
+    words: tuple[Word, ...] = ()
 
 
 class DomainFile(_Table):
@@ -242,6 +259,7 @@ def load_domain(name: str | Path) -> Domain:
     features = {k: _feature(k, t, table, knowledge, place) for k, t in table.features.items()}
     classes = {k: _class(k, t, table, knowledge, place) for k, t in table.classes.items()}
     _check_classes(classes, place)
+    _check_shared_words(classes, features, place)
     domain = Domain(
         name=table.domain.name,
         title=table.domain.title,
@@ -267,6 +285,29 @@ class _Place:
 
     def at(self, *keys: str) -> str:
         return f"{self.path}:{line_of(self.path.read_text(encoding='utf-8-sig'), keys)}"
+
+
+def _check_shared_words(
+    classes: Mapping[str, SceneClass], features: Mapping[str, Feature], place: _Place
+) -> None:
+    """Refuse a word that stands for two classes, or for two values of one feature."""
+    spoken: dict[str, str] = {}
+    for key, own in classes.items():
+        for word in own.words:
+            if spoken.setdefault(word.casefold(), key) != key:
+                raise DomainError(
+                    f"{place.at('classes', key)}: '{word}' stands for '{key}' and for "
+                    f"'{spoken[word.casefold()]}'; let it stand for one"
+                )
+    for name, feature in features.items():
+        values: dict[str, str] = {}
+        for value, words in feature.words.items():
+            for word in words:
+                if values.setdefault(word.casefold(), value) != value:
+                    raise DomainError(
+                        f"{place.at('features', name, 'values', value)}: '{word}' stands for "
+                        f"'{value}' and for '{values[word.casefold()]}'; let it stand for one"
+                    )
 
 
 def _check_scene(table: DomainFile, knowledge: Knowledge, place: _Place) -> None:

@@ -15,10 +15,12 @@ from seewhy.dataset import Dataset
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.question import Questions
 from seewhy.domain import Domain
+from seewhy.errors import KnowledgeError
 from seewhy.evaluation import AxiomRecord, axiom_records
 from seewhy.knowledge.consistency import never_applies
-from seewhy.knowledge.reasoner import Reasoner
+from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.picture_source import load_source
 
 MOST_VECTORS = 20_000
 
@@ -54,14 +56,22 @@ def check_domain(domain: Domain, data: Path | None = None) -> DomainReport:
 
     Raises
     ------
-    DomainError, DatasetError
-        If the questions or the dataset are wrong.
+    DomainError, DatasetError, KnowledgeError
+        If the questions, the source of pictures or the dataset are wrong, or if no picture has
+        an answer set.
     """
     questions = Questions(domain)
     answer_templates(domain)
     reasoner = Reasoner(domain.knowledge, domain.schema)
     vectors = feature_vectors(domain)
     counted = Counter(decision.verdict.value for decision in reasoner.decide_all(vectors))
+    if counted[Verdict.NO_ANSWER_SET.value] == len(vectors):
+        raise KnowledgeError(
+            f"{domain.knowledge.file}: no picture has an answer set: some axiom needs, through "
+            "'not', that its own conclusion is not believed; look for 'p if not p'"
+        )
+    if domain.source is not None:
+        load_source(domain)
     warnings = [
         f"{axiom.location}: no feature vector satisfies the conditions of '{axiom}'"
         for axiom in never_applies(domain.knowledge, domain.schema)

@@ -46,6 +46,7 @@ def print_reply(reply: Reply) -> None:
     seen = ", ".join(
         f"{name} {own.value} ({own.probability:.2f})" for name, own in reply.features.items()
     )
+    say(f"asked: {reply.question.text}?")
     say(f"seen: {seen}")
     say(f"by: {reply.method}")
     say("because:")

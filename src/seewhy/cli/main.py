@@ -24,7 +24,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.add_typer(data.app, name="data", help="Make, look at and check datasets.")
+app.add_typer(data.app, name="data", help="Make datasets and look at them.")
 app.command("train")(train.train)
 app.command("evaluate")(evaluate.evaluate)
 app.command("ask")(ask.ask)

@@ -104,6 +104,7 @@ class Questions:
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
+        _check_words(domain)
         self._subject = _tokens(domain.subject)[-1]
         self._synonyms = self._read_synonyms()
         self._known: dict[tuple[str, ...], Question] = {}
@@ -182,6 +183,9 @@ class Questions:
         for known, question in self._known.items():
             if frozenset(known) - _LIGHT_STEMS != weighty:
                 continue
+            # What a "not" denies is told by its place alone.
+            if "not" in weighty and _after_not(words) != _after_not(known):
+                continue
             score = fuzz.ratio(" ".join(words), " ".join(known))
             if score > best:
                 best, queries = score, {question.query: question}
@@ -191,7 +195,12 @@ class Questions:
 
     def _readings(self, tokens: Sequence[str]) -> list[str]:
         """The texts that the words may stand for, with unknown words mended."""
-        spellings = [self._spellings(token) for token in tokens]
+        # A word is not mended into one that the question has already: "is the table stable".
+        spellings = [
+            [word for word in self._spellings(token) if word == token or word not in tokens]
+            or [token]
+            for token in tokens
+        ]
         readings = product(*spellings)
         return [" ".join(words) for words in islice(readings, _MOST_READINGS)]
 
@@ -258,6 +267,7 @@ class Questions:
             place = f"{path}:{_line(path, number)}"
             asks = _check_table(table, domain, place)
             for pattern in table.patterns:
+                _check_pattern(pattern, place)
                 slots = _slots(table, asks, domain, pattern, place)
                 for variant in _optional(pattern):
                     for filled in slots:
@@ -275,15 +285,57 @@ class Questions:
                         )
 
 
+def _check_pattern(pattern: str, place: str) -> None:
+    """Raise a DomainError where a pattern has an unknown slot or brackets that do not pair."""
+    plain = re.sub(r"\{(it|class|value)\}", "word", pattern)
+    if "{" in plain or "}" in plain:
+        raise DomainError(
+            f"{place}: '{pattern}' has a slot that does not exist; there are {{it}}, {{class}} and "
+            "{value}"
+        )
+    if re.search(r"[\[\]]", re.sub(r"\[[^\[\]]*\]", "", plain)):
+        raise DomainError(
+            f"{place}: the brackets of '{pattern}' do not pair; [...] is what may be left out"
+        )
+
+
+def _check_words(domain: Domain) -> None:
+    """Raise a DomainError where a subject, synonym or filler is not made of words."""
+    if not _tokens(domain.subject):
+        raise DomainError(
+            f"{domain.folder / 'domain.toml'}: subject = '{domain.subject}' has no word; "
+            'write one such as "the apple"'
+        )
+    questions = domain.questions
+    phrases = {f"synonyms of '{key}'": (key, *own) for key, own in questions.synonyms.items()}
+    phrases["fillers"] = tuple(questions.fillers)
+    for where, own in phrases.items():
+        for phrase in own:
+            if not _tokens(phrase):
+                raise DomainError(
+                    f"{domain.folder / 'questions.toml'}: '{phrase}' in the {where} has no word; "
+                    "remove it"
+                )
+
+
 _LIGHT_STEMS = frozenset(_STEM(word) for word in _LIGHT)
 
 
 def _tokens(text: str) -> list[str]:
     plain = unicodedata.normalize("NFKD", text).casefold().replace("’", "'")
     plain = "".join(c for c in plain if not unicodedata.combining(c))
-    words = re.findall(r"[\w']+", plain.replace("_", " "))
+    words = re.findall(r"(?<!\w)-\d+|[\w']+", plain.replace("_", " "))
     expanded = " ".join(_CONTRACTIONS.get(word, word) for word in words)
     return [word.strip("'") for word in expanded.split() if word.strip("'")]
+
+
+def _after_not(words: Sequence[str]) -> tuple[str, ...]:
+    """The word behind every "not"."""
+    return tuple(
+        next((w for w in words[n + 1 :] if w not in _LIGHT_STEMS), "")
+        for n, word in enumerate(words)
+        if word == "not"
+    )
 
 
 def _optional(pattern: str) -> Iterator[str]:

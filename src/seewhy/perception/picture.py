@@ -171,7 +171,7 @@ def _square(image: Image.Image, *, size: int, name: str) -> Picture:
 def _rgb(image: Image.Image) -> Image.Image:
     """The image in red, green and blue, what is transparent laid on white."""
     if image.mode.startswith(("I", "F")):
-        return _from_array(_unit_range(np.asarray(image), mode=image.mode))
+        return _from_array(_unit_range(np.asarray(image), mode=image.mode)).convert("RGB")
     if image.has_transparency_data:
         image = image.convert("RGBA")
         white = Image.new("RGBA", image.size, "white")
