@@ -7,102 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from conftest import DOMAIN, KNOWLEDGE, QUESTIONS
 from seewhy.domain import Domain, bundled_domains, domain_folder, load_domain
 from seewhy.errors import DomainError, KnowledgeError, SeeWhyError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.toml_file import line_of
 
-DOMAIN = """\
-[domain]
-name = "tiles"
-title = "Tiles"
-scene = "tile"
-subject = "the tile"
-
-[pictures]
-size = 16
-shift = 0.05
-
-[features.colour]
-name = "colour"
-threshold = 0.9
-
-[features.colour.values]
-red = { say = "{it} is red", change = "paint it red" }
-green = { say = "{it} is green", change = "paint it green" }
-blue = { say = "{it} is blue", change = "paint it blue" }
-
-[features.round]
-name = "shape"
-threshold = 0.9
-
-[features.round.values]
-yes = { say = "{it} is round", words = ["round"], change = "make it round" }
-no = { say = "{it} has corners", words = ["cornered"], change = "give it corners" }
-
-[classes.good]
-literal = "good(T)"
-say = "good"
-
-[classes.bad]
-literal = "-good(T)"
-say = "bad"
-words = ["bad", "poor"]
-"""
-
-KNOWLEDGE = """\
-#sort tile.
-#sort hue = {red, green, blue}.
-#static colour(tile, hue).
-#static round(tile).
-#static good(tile).
-
-%% a red tile is good
-good(T) if colour(T, red).
-
-%% a blue tile with corners is bad
--good(T) if colour(T, blue), not round(T).
-"""
-
-QUESTIONS = """\
-fillers = ["please"]
-
-[[question]]
-asks = "class"
-patterns = ["what can you say about {it}"]
-
-[[question]]
-asks = "is_class"
-patterns = ["is {it} {class}"]
-
-[[question]]
-asks = "why_not_class"
-patterns = ["why is {it} not {class}"]
-
-[[question]]
-asks = "why_class"
-patterns = ["why is {it} {class}", "what makes {it} {class}"]
-
-[[question]]
-asks = "change_to_class"
-patterns = ["what would make {it} {class}"]
-
-[[question]]
-asks = "feature_value"
-feature = "colour"
-patterns = ["what colour is {it}", "which colour does {it} have"]
-
-[[question]]
-asks = "feature_is"
-feature = "round"
-value = "yes"
-patterns = ["is {it} round"]
-
-[[question]]
-asks = "explain"
-patterns = ["please explain this answer", "explain"]
-"""
 FILES = {"domain.toml": DOMAIN, "knowledge.al": KNOWLEDGE, "questions.toml": QUESTIONS}
 BUNDLED = "structure_stability"
 

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 import torch
-from pydantic import ValidationError
-from safetensors import SafetensorError
-from safetensors.torch import load, save
 
 from seewhy.dialogue.recurrent_network import FORMAT, Description, Encoding, Network
 from seewhy.errors import DatasetError, ModelError
-from seewhy.files import write_whole
+from seewhy.weights import REMEDY, read_weights, write_weights
 
 __all__ = ["RecurrentAnswerer"]
 
@@ -142,11 +138,12 @@ class RecurrentAnswerer:
 
     def save(self, folder: Path | str) -> None:
         """Write ``answers.safetensors`` and ``answers.json`` into ``folder``."""
-        content = save({k: v.contiguous() for k, v in self._network.state_dict().items()})
-        digest = hashlib.sha256(content).hexdigest()
-        description = self._description.model_copy(update={"digest": digest})
-        write_whole(Path(folder) / WEIGHTS, content)
-        write_whole(Path(folder) / DESCRIPTION, description.model_dump_json(indent=2) + "\n")
+        write_weights(
+            self._network.state_dict(),
+            self._description,
+            weights=Path(folder) / WEIGHTS,
+            described=Path(folder) / DESCRIPTION,
+        )
 
     @classmethod
     def load(cls, folder: Path | str) -> RecurrentAnswerer:
@@ -157,35 +154,15 @@ class RecurrentAnswerer:
         ModelError
             A file is missing, damaged, or does not belong to the other; the text names it.
         """
-        weights_file, description_file = Path(folder) / WEIGHTS, Path(folder) / DESCRIPTION
-        remedy = "train the model again, or copy its folder again from where it is whole"
-        try:
-            description = Description.model_validate_json(description_file.read_bytes())
-            content = weights_file.read_bytes()
-        except ValidationError as error:
-            first = error.errors()[0]
-            where = ".".join(str(part) for part in first["loc"]) or "its text"
-            raise ModelError(
-                f"{description_file} is damaged ({where}: {first['msg']}): {remedy}"
-            ) from None
-        except OSError as error:
-            missing = error.filename or folder
-            raise ModelError(f"{missing} cannot be read ({error.strerror}): {remedy}") from None
-        if description.format != FORMAT:
-            raise ModelError(
-                f"{description_file} has format {description.format}, this version of SeeWhy "
-                f"reads {FORMAT}: train the model again"
-            )
-        if hashlib.sha256(content).hexdigest() != description.digest:
-            raise ModelError(
-                f"{weights_file} is damaged or belongs to another {DESCRIPTION}: {remedy}"
-            )
+        weights, described = Path(folder) / WEIGHTS, Path(folder) / DESCRIPTION
+        description, tensors = read_weights(
+            Description, number=FORMAT, weights=weights, described=described
+        )
         try:
             network = Network(description)
-            network.load_state_dict(load(content))
-        except (SafetensorError, RuntimeError, ValueError):
+            network.load_state_dict(tensors)
+        except (RuntimeError, ValueError):
             raise ModelError(
-                f"{weights_file} does not hold the network that {description_file} describes: "
-                f"{remedy}"
+                f"{weights} does not hold the network that {described} describes: {REMEDY}"
             ) from None
         return cls(network, description)

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 import torch
 import torch.nn.functional as functional
-from pydantic import BaseModel, ConfigDict
 from torch import nn
 from torch.nn.utils.rnn import pack_padded_sequence
 
 from seewhy.errors import DatasetError
+from seewhy.weights import Described
 
 __all__ = ["FORMAT", "PADDING", "UNKNOWN", "Description", "Encoded", "Encoding", "Network"]
 
@@ -22,11 +22,9 @@ Encoded = tuple[torch.Tensor, torch.Tensor, torch.Tensor]
 """Words (n, longest), lengths (n) and scenes (n, one-hot)."""
 
 
-class Description(BaseModel):
+class Description(Described):
     """The JSON beside the weights: shapes, and the meaning of every number."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    format: int
     layers: int
     width: int
     embedding: int
@@ -36,7 +34,6 @@ class Description(BaseModel):
     answers: tuple[str, ...]
     held_out_accuracy: float
     held_out: int
-    digest: str
 
 
 class Network(nn.Module):

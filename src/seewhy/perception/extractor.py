@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -10,17 +9,15 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 import torch
-from pydantic import BaseModel, ConfigDict, ValidationError
-from safetensors import SafetensorError
-from safetensors.torch import load, save
+from pydantic import BaseModel, ConfigDict
 
 from seewhy.errors import DatasetError, ModelError
-from seewhy.files import write_whole
 from seewhy.perception.events import FeatureRecord, Progress
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.parallel import train_networks
 from seewhy.perception.picture import SMALLEST_SIDE
+from seewhy.weights import REMEDY, Described, read_weights, write_weights
 
 __all__ = ["FeatureExtractor", "fit_extractor"]
 
@@ -106,15 +103,14 @@ class FeatureExtractor:
     def save(self, folder: Path | str) -> None:
         """Write ``perception.safetensors`` and ``perception.json`` into ``folder``."""
         tensors = {
-            f"{feature}/{name}": tensor.contiguous().clone()
+            f"{feature}/{name}": tensor
             for feature, network in self.networks.items()
             for name, tensor in network.state_dict().items()
         }
-        content = save(tensors)
         description = _Description(
             format=FORMAT,
+            digest="",
             size=self.size,
-            digest=hashlib.sha256(content).hexdigest(),
             features={
                 name: _Feature(
                     values=self.values[name],
@@ -125,8 +121,12 @@ class FeatureExtractor:
                 for name, network in self.networks.items()
             },
         )
-        write_whole(Path(folder) / WEIGHTS, content)
-        write_whole(Path(folder) / DESCRIPTION, description.model_dump_json(indent=2) + "\n")
+        write_weights(
+            tensors,
+            description,
+            weights=Path(folder) / WEIGHTS,
+            described=Path(folder) / DESCRIPTION,
+        )
 
     @classmethod
     def load(cls, folder: Path | str) -> FeatureExtractor:
@@ -137,32 +137,12 @@ class FeatureExtractor:
         ModelError
             A file is missing, damaged, or does not belong to the other; the text names it.
         """
-        weights_file, description_file = Path(folder) / WEIGHTS, Path(folder) / DESCRIPTION
-        remedy = "train the model again, or copy its folder again from where it is whole"
-        try:
-            description = _Description.model_validate_json(description_file.read_bytes())
-            content = weights_file.read_bytes()
-        except ValidationError as error:
-            first = error.errors()[0]
-            where = ".".join(str(part) for part in first["loc"]) or "its text"
-            raise ModelError(
-                f"{description_file} is damaged ({where}: {first['msg']}): {remedy}"
-            ) from None
-        except OSError as error:
-            missing = error.filename or folder
-            raise ModelError(f"{missing} cannot be read ({error.strerror}): {remedy}") from None
-        if description.format != FORMAT:
-            raise ModelError(
-                f"{description_file} has format {description.format}, this version of SeeWhy "
-                f"reads {FORMAT}: train the model again"
-            )
-        if hashlib.sha256(content).hexdigest() != description.digest:
-            raise ModelError(
-                f"{weights_file} is damaged or belongs to another {DESCRIPTION}: {remedy}"
-            )
+        weights, described = Path(folder) / WEIGHTS, Path(folder) / DESCRIPTION
+        description, tensors = read_weights(
+            _Description, number=FORMAT, weights=weights, described=described
+        )
         networks: dict[str, GrowingNetwork] = {}
         try:
-            tensors = load(content)
             for name, feature in description.features.items():
                 network = GrowingNetwork(
                     size=description.size,
@@ -176,10 +156,9 @@ class FeatureExtractor:
                     {k[len(start) :]: v for k, v in tensors.items() if k.startswith(start)}
                 )
                 networks[name] = network
-        except (SafetensorError, RuntimeError, ValueError):
+        except (RuntimeError, ValueError):
             raise ModelError(
-                f"{weights_file} does not hold the networks that {description_file} describes: "
-                f"{remedy}"
+                f"{weights} does not hold the networks that {described} describes: {REMEDY}"
             ) from None
         return cls(
             networks,
@@ -299,13 +278,10 @@ class _Feature(BaseModel):
     record: FeatureRecord
 
 
-class _Description(BaseModel):
+class _Description(Described):
     """The JSON beside the weights."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    format: int
     size: int
-    digest: str
     features: dict[str, _Feature]
 
 
