@@ -37,6 +37,7 @@ figures: $(INSTALLED)
 	$(VENV)/bin/seewhy data make structure_stability --count 2500 --seed 0 --out runs/pictures
 	$(VENV)/bin/seewhy data show runs/pictures --rows 2 --columns 7 --out docs/pictures/contact_sheet.png
 	$(VENV)/bin/seewhy check structure_stability --data runs/pictures
+	$(VENV)/bin/python experiments/count_structures.py runs/pictures
 	$(VENV)/bin/seewhy train structure_stability --data runs/pictures --out runs/model
 	$(VENV)/bin/seewhy evaluate runs/model --data runs/pictures
 	$(VENV)/bin/seewhy ask runs/model runs/pictures/images/000056.png "what is making this structure unstable?" --picture docs/pictures/answer.svg

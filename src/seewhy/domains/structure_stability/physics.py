@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import lru_cache
 
 import mujoco
@@ -34,14 +33,6 @@ LONGEST = 1.5
 
 _STEP = 0.003
 _REST = 0.006  # Speed in m/s (and, for 2 cm of a block, the turning) below which all is at rest.
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """The end of a release: `stable`, and after how many simulated `seconds` that was known."""
-
-    stable: bool
-    seconds: float
 
 
 def build_model(structure: Structure) -> tuple[mujoco.MjModel, mujoco.MjData]:
@@ -79,8 +70,8 @@ def release(
     *,
     push: float = PUSH,
     nudge: float = NUDGE,
-) -> Outcome:
-    """Lets the structure go as a hand does, and watches whether a block moves.
+) -> bool:
+    """Lets the structure go as a hand does; True where no block moves, which is stable.
 
     The hand leaves the structure with a push in a random direction that grows with height, because
     fingers let go of a tower near its top, and each block with a small speed of its own, because
@@ -105,10 +96,10 @@ def release(
         # The trace of the relative rotation is 1 + 2 cos(angle).
         cosine = (np.einsum("nij,nij->n", matrices, upright) - 1.0) / 2.0
         if far or cosine.min() < cos_turned:
-            return Outcome(False, step * _STEP)
+            return False
         velocity = data.qvel.reshape(count, 6)
         fastest = max(np.abs(velocity[:, :3]).max(), 0.02 * np.abs(velocity[:, 3:]).max())
         quiet = quiet + 1 if fastest < _REST else 0
         if quiet >= 4:
-            return Outcome(True, step * _STEP)
-    return Outcome(True, LONGEST)
+            return True
+    return True

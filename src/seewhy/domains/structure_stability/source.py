@@ -29,9 +29,9 @@ def draw(
     """
     rng = np.random.default_rng([seed, index])
     structure = random_structure(rng)
-    outcome = release(structure, rng)
+    stable = release(structure, rng)
     picture = render(structure, random_view(structure, rng), size=size)
-    return picture, annotate(structure), "stable" if outcome.stable else "unstable"
+    return picture, annotate(structure), "stable" if stable else "unstable"
 
 
 def draw_structure(structure: Structure, *, seed: int = 0, size: int = 112) -> NDArray[np.uint8]:
