@@ -10,7 +10,7 @@ import numpy as np
 
 from seewhy.domains.structure_stability.structure import Structure
 
-__all__ = ["MOVED", "TURNED", "Outcome", "build_model", "release"]
+__all__ = ["MOVED", "TURNED", "build_model", "release"]
 
 TABLE_HALF = (0.55, 0.20, 0.011)
 """Half the length, depth and thickness of the table top, in metres."""
