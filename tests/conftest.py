@@ -247,3 +247,14 @@ def seen(agent: Agent, *values: str | None, probability: float = 0.9) -> Classif
 def fresh_data(tmp_path: Path) -> Path:
     """A few pictures of tiles that a test may spoil."""
     return write_tiles(tmp_path / "pictures", count=6)
+
+
+@pytest.fixture(scope="session")
+def photographs() -> Path:
+    """An archive or folder with the Training half of BelgiumTS; skips where there is none."""
+    beside = Path(__file__).parents[2] / "shared" / "data" / "BelgiumTSC_Training.zip"
+    named = os.environ.get("SEEWHY_BELGIUMTS")
+    path = Path(named) if named else beside
+    if not path.exists():
+        pytest.skip("the photographs of BelgiumTS are not here; SEEWHY_BELGIUMTS names an archive")
+    return path

@@ -262,17 +262,20 @@ def test_forms_without_reasons(structures: Domain, kind: AnswerType, text: str) 
         (
             'yes = "yes, {reason}"',
             "2: the answer 'yes' uses a slot that does not exist; there are {it}, {reasons}, "
-            "{changes}, {asked}, {class}, {explanation}",
+            "{changes}, {asked}, {class}, {explanation}, {scene}, {required}, {belief}, {name}, "
+            "{value}",
         ),
         (
             'yes = "yes, {it.name}"',
             "2: the answer 'yes' uses a slot that does not exist; there are {it}, {reasons}, "
-            "{changes}, {asked}, {class}, {explanation}",
+            "{changes}, {asked}, {class}, {explanation}, {scene}, {required}, {belief}, {name}, "
+            "{value}",
         ),
         (
             'yes = "yes, {"',
             "2: the answer 'yes' uses a slot that does not exist; there are {it}, {reasons}, "
-            "{changes}, {asked}, {class}, {explanation}",
+            "{changes}, {asked}, {class}, {explanation}, {scene}, {required}, {belief}, {name}, "
+            "{value}",
         ),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import chain, combinations
 
 import pytest
@@ -84,11 +85,24 @@ def test_the_first_axiom_without_use_is_refused_and_no_other(world: World) -> No
 @given(world=worlds())
 @thorough
 def test_an_axiom_that_never_applies_fires_in_no_scene(world: World) -> None:
+    # A class that no axiom concludes may be told, see the next test: here each has one.
+    concluding = [
+        Rule(str(literal).replace("(scene)", "(S)"), ("f(S)", "not f(S)"))
+        for literal in world.schema.classes.values()
+    ]
+    world = replace(world, rules=(*world.rules, *concluding))
     found = never_applies(world.knowledge, world.schema)
     assert [int(axiom.identifier[1:]) - 1 for axiom in found] == [
         number
         for number, rule in enumerate(world.rules)
         if not any(fires(world, rule, vector, strict=False) for vector in world.vectors)
+    ]
+
+
+def test_what_follows_from_a_class_that_only_a_tree_can_tell_applies() -> None:
+    knowledge, schema = domain("goods(S) if good(S).\ngoods(S) if torn(S), not torn(S).")
+    assert [str(own) for own in never_applies(knowledge, schema)] == [
+        "goods(S) if torn(S), not torn(S)."
     ]
 
 

@@ -247,7 +247,7 @@ WRONG = {
         'subject = "the tile"',
         'subject = "the tile"\nzzz = 1',
         "{+1}: 'domain.zzz' is not known here; it must be one of: name, title, scene, subject, "
-        "source",
+        "source, reading, known_share",
     ),
     "missing key": ('title = "Tiles"\n', "", "1: 'domain.title' is missing; add it"),
     "missing words of a value": (

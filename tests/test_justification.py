@@ -544,6 +544,7 @@ def test_the_tree_as_values_for_json() -> None:
         "feature": None,
         "value": None,
         "probability": None,
+        "overruled": None,
         "children": [
             {
                 "literal": "block_displaced(structure)",
@@ -554,6 +555,7 @@ def test_the_tree_as_values_for_json() -> None:
                 "feature": "block_displaced",
                 "value": "yes",
                 "probability": 0.9712,
+                "overruled": None,
                 "children": [],
             }
         ],

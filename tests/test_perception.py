@@ -830,5 +830,5 @@ def test_damaged_description(trained: FeatureExtractor, tmp_path: Path) -> None:
         FeatureExtractor.load(tmp_path)
 
     file.write_text(json.dumps({**whole, "format": 99}))
-    with pytest.raises(ModelError, match="has format 99, this version of SeeWhy reads 1"):
+    with pytest.raises(ModelError, match="has format 99, this version of SeeWhy reads 2"):
         FeatureExtractor.load(tmp_path)

@@ -15,33 +15,35 @@ from seewhy.dialogue.question import Asks, Question, Questions
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience, ReferenceAnswers, experience_of
 from seewhy.domain import Domain
-from seewhy.errors import DatasetError, NotFittedError
+from seewhy.errors import DatasetError, DomainError, NotFittedError
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree, TreePath
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.reasoner import Minimality, Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.knowledge.why import contradiction
-from seewhy.reply import Classification, FeatureReading, Reply
+from seewhy.reading import (
+    READINGS,
+    ConsistentReading,
+    Reading,
+    ReadingRule,
+    open_vectors,
+    read_separately,
+    reading_rule,
+)
+from seewhy.refusal import refusal_threshold
+from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
 from seewhy.wording import say_literal
 
 if TYPE_CHECKING:
     from PIL import Image
 
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
-    from seewhy.perception.extractor import FeatureExtractor
+    from seewhy.perception.extractor import FeatureExtractor, Seen
+    from seewhy.perception.familiarity import Familiarity
 
     Picture = Path | str | Image.Image | np.ndarray[Any, Any]
 
 Progress = Callable[[Any], None]
-
-_UNDECIDED = {
-    Verdict.SILENT: "no axiom concludes a class",
-    Verdict.SEVERAL: "it concludes more than one class",
-    Verdict.CONTRADICTION: "it contradicts itself here",
-    Verdict.NO_ANSWER_SET: "no set of beliefs agrees with all axioms",
-    Verdict.BELIEVED: "",
-}
 
 
 class Agent:
@@ -59,6 +61,24 @@ class Agent:
         :class:`~seewhy.knowledge.reasoner.Reasoner`.
     seed : int
         Two agents with the same seed and data agree.
+    reading : {"argmax", "consistent"}, optional
+        How the features of a picture are read: each its most probable value, as in the paper, or
+        together the most probable vector that fits what is known
+        (:class:`~seewhy.reading.ConsistentReading`). What the domain says where left out.
+    gate : float, optional
+        Scenes of which some network is less sure than this (0 to 1) are classified by the tree,
+        whatever the knowledge says of them, and also train it: the paper's threshold on the
+        confidence of extraction. None or 0: the knowledge is always asked first.
+    known_share : float, optional
+        Below 1: the share of pictures like those of training that is answered; of pictures less
+        like them the agent says that it does not know them (see :mod:`seewhy.refusal` and
+        :class:`~seewhy.perception.familiarity.Familiarity`). 1 answers
+        every picture. What the domain says where left out.
+
+    Raises
+    ------
+    DomainError
+        If an option is none of those, or out of its range.
 
     Source: Riley and Sridharan (2019), figure 1 and section 3. Departures are listed in
     docs/departures.md.
@@ -72,10 +92,21 @@ class Agent:
     """
 
     def __init__(
-        self, domain: Domain, *, minimality: Minimality = "cardinality", seed: int = 0
+        self,
+        domain: Domain,
+        *,
+        minimality: Minimality = "cardinality",
+        seed: int = 0,
+        reading: str | None = None,
+        gate: float | None = None,
+        known_share: float | None = None,
     ) -> None:
         self.domain = domain
         self.seed = seed
+        self.reading = reading_rule(domain.reading if reading is None else reading)
+        self.gate = gate or None
+        self.known_share = domain.known_share if known_share is None else known_share
+        self._check_options()
         self.minimality: Minimality = minimality
         self.reasoner = Reasoner(domain.knowledge, domain.schema, minimality=minimality)
         self.questions = Questions(domain)
@@ -86,6 +117,16 @@ class Agent:
         self.answerer: RecurrentAnswerer | None = None
         self.experience: Experience = {}
         self.trained_on: frozenset[str] = frozenset()
+        self.without: tuple[str, ...] = ()
+        self.familiarity: Familiarity | None = None
+        self.validation_scores: dict[ReadingRule, list[float]] = {}
+        self._consistent: ConsistentReading | None = None
+
+    def _check_options(self) -> None:
+        if self.gate is not None and not 0.0 < self.gate <= 1.0:
+            raise DomainError(f"gate must be 0 to 1, got {self.gate!r}")
+        if not 0.0 < self.known_share <= 1.0:
+            raise DomainError(f"known_share must be above 0, at most 1, got {self.known_share!r}")
 
     # Training -------------------------------------------------------------------------------
 
@@ -93,8 +134,13 @@ class Agent:
         self,
         dataset: Dataset,
         *,
+        without: Sequence[str] = (),
         start_from: Agent | None = None,
+        drawn: int | None = None,
+        answers: bool = True,
+        workers: int = -1,
         checkpoints: Path | None = None,
+        on_picture: Callable[[int], None] | None = None,
         on_progress: Progress | None = None,
     ) -> Agent:
         """Train on the scenes of a dataset (those with split "train", where there are splits).
@@ -102,67 +148,135 @@ class Agent:
         Parameters
         ----------
         dataset : Dataset
+        without : sequence of str
+            Classes whose pictures are left out. What the knowledge says of them stays, so that
+            they can be recognised all the same.
         start_from : Agent, optional
             Fine-tune this agent's networks instead of growing new ones.
+        drawn : int, optional
+            Before, the networks are trained on so many pictures that the domain's source draws:
+            photographs then refine what they know. As many as the domain says where left out; none
+            where the dataset was drawn itself or ``start_from`` is given.
+        answers : bool, default True
+            False leaves the recurrent network out, where only classes are of interest.
+        workers : int, default -1
+            Features trained at the same time; -1: one a core. The weights do not depend on it.
         checkpoints : Path, optional
             A folder in which an interrupted training finds where it was.
+        on_picture : callable, optional
+            Called with the number of pictures drawn so far.
         on_progress : callable, optional
             Called with a :class:`~seewhy.perception.training.TrainingEvent` after every epoch.
 
         Raises
         ------
         DatasetError
-            If the dataset is of another domain or of one class only.
+            If the dataset is of another domain or of one class only, or if a class to leave out
+            is none of the domain's.
         """
+        from seewhy.perception.domain_options import training_options
         from seewhy.perception.extractor import fit_extractor
         from seewhy.perception.options import TrainingOptions
+        from seewhy.perception.validation import split
+        from seewhy.pretraining import is_drawn, pretrained_extractor
 
         if dataset.domain.name != self.domain.name:
             raise DatasetError(
                 f"{dataset.folder}: the dataset is of the domain '{dataset.domain.name}', the "
                 f"agent of '{self.domain.name}'; load it with the agent's domain"
             )
-        scenes = dataset.of_split("train")
+        scenes = dataset.of_split("train").without_classes(without)
         scenes.require_two_classes()
         pictures = self.domain.pictures
+        pixels = scenes.pictures(pictures.size)
         values = {key: feature.values for key, feature in self.domain.features.items()}
         columns = list(zip(*scenes.vectors, strict=True))
+        validation = None
+        if self.known_share < 1.0:
+            # Only of pictures that no network was trained on is it known how well such fit.
+            _, validation = split(
+                scenes.labels,
+                share=TrainingOptions().validation_share,
+                seed=self.seed,
+                groups=scenes.groups,
+            )
+        earlier = start_from.extractor if start_from else None
+        if drawn is None:
+            drawn = 0 if earlier is not None or is_drawn(dataset) else self.domain.pictures.drawn
+        if drawn:
+            earlier = pretrained_extractor(
+                self.domain,
+                count=drawn,
+                seed=self.seed,
+                without=without,
+                workers=workers,
+                checkpoints=checkpoints,
+                on_picture=on_picture,
+                on_progress=on_progress,
+            )
         self.extractor = fit_extractor(
-            scenes.pictures(pictures.size),
+            pixels,
             dict(zip(values, columns, strict=True)),
             values=values,
-            options={
-                key: TrainingOptions(
-                    threshold=feature.threshold,
-                    flip=pictures.flip,
-                    shift=pictures.shift,
-                    seed=self.seed,
-                )
-                for key, feature in self.domain.features.items()
-            },
+            options=training_options(self.domain, seed=self.seed),
             groups=scenes.groups,
+            validation=validation,
             checkpoints=checkpoints,
-            start_from=start_from.extractor if start_from else None,
+            start_from=earlier,
+            workers=workers,
             on_progress=on_progress,
         )
         self.trained_on = frozenset(scenes.picture_digests())
-        return self.fit_induction(scenes.vectors, scenes.labels)
+        self.without = tuple(dict.fromkeys(without))
+        self.fit_induction(
+            scenes.vectors, scenes.labels, uncertain=self._uncertain(pixels), answers=answers
+        )
+        self.familiarity, self.validation_scores = None, {}
+        if validation is not None:
+            self._get_familiar(self.extractor.see(pixels), scenes.vectors, validation)
+        return self
 
-    def fit_induction(self, vectors: Sequence[FeatureVector], labels: Sequence[str]) -> Agent:
-        """Train the tree and the recurrent network on what the knowledge leaves open.
+    def _get_familiar(
+        self, seen: Seen, vectors: Sequence[FeatureVector], validation: np.ndarray[Any, Any]
+    ) -> None:
+        """Keep what the networks make of training pictures, and how like those the others are."""
+        from seewhy.perception.familiarity import fit_familiarity
+
+        known = np.setdiff1d(np.arange(len(vectors)), validation)
+        columns = zip(*(vectors[n] for n in known), strict=True)
+        self.familiarity = fit_familiarity(
+            {key: own[known] for key, own in seen.embeddings.items()},
+            dict(zip(seen.embeddings, columns, strict=True)),
+            seed=self.seed,
+        )
+        kept = seen.of(validation)
+        for rule in READINGS:
+            self.validation_scores[rule] = self._scores(kept, self._read(kept.probabilities, rule))
+
+    def fit_induction(
+        self,
+        vectors: Sequence[FeatureVector],
+        labels: Sequence[str],
+        *,
+        uncertain: Sequence[int] = (),
+        answers: bool = True,
+    ) -> Agent:
+        """Train the tree, and with ``answers`` the recurrent network, on what is left open.
 
         Only scenes whose annotated features the knowledge does not decide, or decides wrongly,
-        are used (section 3.3 of the paper).
+        are used (section 3.3 of the paper), and those at the positions ``uncertain``.
         """
         from seewhy.dialogue.learned import fit_learned_answers
 
         self.experience = experience_of(vectors, labels)
+        self._consistent = None
         decisions = self.reasoner.decide_all(vectors)
-        left = [n for n, own in enumerate(decisions) if own.label != labels[n]]
+        more = frozenset(uncertain)
+        left = [n for n, own in enumerate(decisions) if own.label != labels[n] or n in more]
         left_vectors, left_labels = [vectors[n] for n in left], [labels[n] for n in left]
         self.tree.fit(left_vectors, left_labels, seed=self.seed)
         self.answerer = None
-        if left:
+        if left and answers:
             self.answerer = fit_learned_answers(
                 self.domain,
                 self.questions,
@@ -180,23 +294,57 @@ class Agent:
 
     # Seeing ---------------------------------------------------------------------------------
 
-    def read(self, pictures: np.ndarray[Any, Any]) -> list[dict[str, FeatureReading]]:
-        """Return the most probable value of every feature, for pictures of the domain's size.
+    def read(self, pictures: np.ndarray[Any, Any]) -> list[Reading]:
+        """Return what the features of pictures of the domain's size are taken to be.
 
         ``pictures`` is uint8 of shape (scenes, size, size, 3).
         """
         if self.extractor is None:
             raise NotFittedError("the agent is not trained yet; call fit, or load a model")
+        return self._read(self.extractor.probabilities(pictures), self.reading)
+
+    def _read(
+        self, probabilities: Mapping[str, np.ndarray[Any, Any]], rule: ReadingRule
+    ) -> list[Reading]:
+        if rule == "argmax":
+            return read_separately(self.reasoner.schema, probabilities)
+        if self._consistent is None:
+            self._consistent = ConsistentReading(
+                self.reasoner,
+                open_vectors(self.reasoner, self.experience),
+                label_of=lambda vector: self._decide(vector)[0],
+            )
+        return self._consistent.read(probabilities)
+
+    def _read_and_score(self, pictures: np.ndarray[Any, Any]) -> tuple[list[Reading], list[float]]:
+        if self.extractor is None or self.familiarity is None:
+            readings = self.read(pictures)
+            return readings, [own.score for own in readings]
+        seen = self.extractor.see(pictures)
+        readings = self._read(seen.probabilities, self.reading)
+        return readings, self._scores(seen, readings)
+
+    def _scores(self, seen: Seen, readings: Sequence[Reading]) -> list[float]:
+        """How like pictures are to those of training that show the values read."""
+        assert self.familiarity is not None
+        values = {
+            key: [own.features[key].value for own in readings] for key in self.domain.features
+        }
+        return [float(own) for own in self.familiarity.likeness(seen.embeddings, values)]
+
+    def _uncertain(self, pictures: np.ndarray[Any, Any]) -> list[int]:
+        """The positions of the pictures of which some network is less sure than the gate."""
+        if self.gate is None or self.extractor is None:
+            return []
         probabilities = self.extractor.probabilities(pictures)
-        readings: list[dict[str, FeatureReading]] = []
-        for number in range(len(pictures)):
-            reading = {}
-            for key, feature in self.domain.features.items():
-                row = probabilities[key][number]
-                best = int(row.argmax())
-                reading[key] = FeatureReading(feature.values[best], float(row[best]))
-            readings.append(reading)
-        return readings
+        certainty = np.min([own.max(axis=1) for own in probabilities.values()], axis=0)
+        return [int(n) for n in np.flatnonzero(certainty < self.gate)]
+
+    @property
+    def unknown_below(self) -> float | None:
+        """The score below which a picture is not known; None where every picture is answered."""
+        scores = self.validation_scores.get(self.reading, [])
+        return refusal_threshold(scores, known_share=self.known_share)
 
     # Deciding -------------------------------------------------------------------------------
 
@@ -205,28 +353,57 @@ class Agent:
         return self._decide(self.domain.vector(features))[0]
 
     def _decide(self, vector: FeatureVector) -> tuple[str | None, str, Verdict]:
-        decision = self.reasoner.decide(vector)
-        if decision.label is not None:
-            return decision.label, "knowledge", decision.verdict
-        if self.tree.fitted:
-            return self.tree.classify(vector), "tree", decision.verdict
-        return None, "none", decision.verdict
+        return self._decide_all([vector])[vector]
+
+    def _decide_all(
+        self, vectors: Sequence[FeatureVector]
+    ) -> dict[FeatureVector, tuple[str | None, str, Verdict]]:
+        """The class of every feature vector, the method, and what the knowledge says."""
+        decisions = dict(zip(vectors, self.reasoner.decide_all(vectors), strict=True))
+        left = [vector for vector, own in decisions.items() if own.label is None]
+        by_tree: dict[FeatureVector, str] = {}
+        if left and self.tree.fitted:
+            by_tree = dict(zip(left, self.tree.classify_all(left), strict=True))
+        return {
+            vector: (own.label, "knowledge", own.verdict)
+            if own.label is not None
+            else (by_tree.get(vector), "tree" if vector in by_tree else "none", own.verdict)
+            for vector, own in decisions.items()
+        }
 
     def classify(self, image: Picture) -> Classification:
         """Classify one picture (a path, a Pillow image or an array)."""
         from seewhy.perception.picture import as_picture
 
-        pixels = as_picture(image, size=self.domain.pictures.size)
+        shown = self.domain.pictures
+        pixels = as_picture(image, size=shown.size, fit=shown.fit)
         return self.classify_all(pixels[None])[0]
 
     def classify_all(self, pictures: np.ndarray[Any, Any]) -> list[Classification]:
         """Classify pictures, uint8 of shape (scenes, size, size, 3)."""
+        readings, scores = self._read_and_score(pictures)
+        decided = self._decide_all([own.vector for own in readings])
+        uncertain = [own.vector for own in readings if self._below_gate(own)]
+        by_tree: dict[FeatureVector, str] = {}
+        if uncertain and self.tree.fitted:
+            by_tree = dict(zip(uncertain, self.tree.classify_all(uncertain), strict=True))
+        unknown_below = self.unknown_below
         found: list[Classification] = []
-        for reading in self.read(pictures):
-            vector = self.domain.vector({key: own.value for key, own in reading.items()})
-            label, method, verdict = self._decide(vector)
-            found.append(Classification(label, method, vector, reading, verdict.value))
+        for own, score in zip(readings, scores, strict=True):
+            label, method, verdict = decided[own.vector]
+            said, probability = verdict.value, own.probability if label is not None else None
+            if unknown_below is not None and score < unknown_below:
+                label, method, said, probability = None, "none", UNKNOWN, None
+            elif by_tree and self._below_gate(own):
+                label, method, said, probability = by_tree[own.vector], "tree", UNCERTAIN, None
+            found.append(
+                Classification(label, method, own.vector, own.features, said, probability, score)
+            )
         return found
+
+    def _below_gate(self, reading: Reading) -> bool:
+        gate = self.gate
+        return gate is not None and any(own.certainty < gate for own in reading.features.values())
 
     # Answering ------------------------------------------------------------------------------
 
@@ -260,20 +437,28 @@ class Agent:
             return self._explain(scene, question, previous)
         kind, justification = self._answer(scene, question)
         justification = justification.with_probabilities(
-            {key: (own.value, own.probability) for key, own in scene.features.items()}
+            {key: (own.value, own.probability) for key, own in scene.features.items()},
+            {key: own.overruled for key, own in scene.features.items() if own.overruled},
         )
         text = word_answer(self.domain, question, kind, vector=scene.vector, label=scene.label)
         return Reply(question, text, scene.method, justification, kind, scene)
 
     def _answer(self, scene: Classification, question: Question) -> tuple[AnswerType, Node]:
+        if scene.verdict == UNKNOWN:
+            return AnswerType("unknown"), self._unknown(scene)
         if scene.method == "knowledge" and scene.label is not None:
             reasoned = self.reasoned.answer(question, scene.vector, scene.label)
             return reasoned.kind, reasoned.justification
+        if question.asks is Asks.BELIEF_VALUE and scene.label is not None:
+            # What follows from the class need not be learned, whoever gave the class.
+            basis = self._tree_node(scene, scene.label, self.tree.path(scene.vector))
+            own = self.reasoned.belief(question, scene.vector, scene.label, basis=basis)
+            return own.kind, own.justification
         if scene.label is None or self.answerer is None:
             if question.feature is not None:
                 own = self.reasoned.feature(question, scene.vector)
                 return own.kind, own.justification
-            return AnswerType("undecided"), self._undecided(scene.vector)
+            return AnswerType("undecided"), self.reasoned.undecided(scene.vector)
         return self._learned(scene, question, scene.label)
 
     def _learned(
@@ -287,18 +472,23 @@ class Agent:
         ((kind, probability),) = learned_answers(
             self.domain, self.answerer, [(question, scene.vector, label, tested)]
         )
-        return kind, self._tree_node(scene.vector, label, path, kind, probability)
+        learned = Node(
+            literal=kind.identifier,
+            text="the answer was chosen by the recurrent network "
+            f"(p = {probability:.2f} among the answers that fit)",
+            basis=Basis.RECURRENT,
+        )
+        return kind, self._tree_node(scene, label, path, learned)
 
     def _tree_node(
         self,
-        vector: FeatureVector,
+        scene: Classification,
         label: str,
         path: TreePath,
-        kind: AnswerType,
-        probability: float,
+        *learned: Node,
     ) -> Node:
-        """The justification of a class that the tree gave and an answer that was learned."""
-        seen = tuple(self.reasoned.seen(vector, c.feature) for c in path.conditions)
+        """The justification of a class that the tree gave and of an answer that was learned."""
+        seen = tuple(self.reasoned.seen(scene.vector, c.feature) for c in path.conditions)
         sentence = say_path(self.domain, path)
         literal = self.domain.classes[label].literal
         return Node(
@@ -307,35 +497,36 @@ class Agent:
             basis=Basis.TREE,
             children=(
                 Node(str(literal), sentence, Basis.PATH, children=seen),
-                Node(
-                    literal=kind.identifier,
-                    text="the answer was chosen by the recurrent network "
-                    f"(p = {probability:.2f} among the answers that fit)",
-                    basis=Basis.RECURRENT,
-                ),
-                self._undecided(vector),
+                *learned,
+                self._not_asked(scene)
+                if scene.verdict == UNCERTAIN
+                else self.reasoned.undecided(scene.vector),
             ),
         )
 
-    def _undecided(self, vector: FeatureVector) -> Node:
-        """Why the knowledge does not decide a scene."""
-
-        def say(literal: Any) -> str:
-            return say_literal(self.domain, literal)
-
-        both = contradiction(self.reasoner, vector, say=say)
-        if both is not None:
-            return both
-        verdict = self.reasoner.decide(vector).verdict
-        children = tuple(
-            self.reasoned.why_not_class(vector, label) for label in self.domain.classes
-        )
+    def _not_asked(self, scene: Classification) -> Node:
+        """Why the knowledge is not asked about a scene whose reading is below the gate."""
+        least = min(scene.features, key=lambda key: scene.features[key].certainty)
         return Node(
             literal="undecided",
-            text=f"the knowledge does not decide: {_UNDECIDED[verdict]}",
+            text=f"the knowledge is not asked: the {self.domain.features[least].name} is seen "
+            f"with a probability of {scene.features[least].certainty:.2f} only, and "
+            f"{self.gate or 0.0:.2f} is demanded",
             basis=Basis.ABSENCE,
             holds=False,
-            children=children if verdict is Verdict.SILENT else (),
+        )
+
+    def _unknown(self, scene: Classification) -> Node:
+        """Why a picture is not known."""
+        score, least = scene.score or 0.0, self.unknown_below or 0.0
+        return Node(
+            literal="unknown",
+            text=f"what is seen is like nothing that is known: its likeness to pictures of "
+            f"training is {score:.3f}, and {self.known_share:.1%} of the pictures like those of "
+            f"training have at least {least:.3f}",
+            basis=Basis.ABSENCE,
+            holds=False,
+            children=tuple(self.reasoned.seen(scene.vector, key) for key in scene.features),
         )
 
     def _explain(self, scene: Classification, question: Question, previous: Reply | None) -> Reply:
@@ -369,22 +560,52 @@ class Agent:
             trained_on=self.trained_on,
             minimality=self.minimality,
             seed=self.seed,
+            reading=self.reading,
+            gate=self.gate,
+            known_share=self.known_share,
+            familiarity=self.familiarity,
+            validation_scores=self.validation_scores,
+            without=self.without,
         )
         write_model(model, Path(folder))
 
     @staticmethod
-    def load(folder: Path | str) -> Agent:
+    def load(
+        folder: Path | str,
+        *,
+        reading: str | None = None,
+        gate: float | None = None,
+        known_share: float | None = None,
+    ) -> Agent:
         """Read a model.
+
+        Parameters
+        ----------
+        folder : Path or str
+        reading, gate, known_share : optional
+            As for :class:`Agent`, instead of what the model was trained with; a gate of 0 is none.
 
         Raises
         ------
         ModelError
             If the folder is incomplete, was edited, or was made by another version.
+        DomainError
+            If an option is out of its range.
         """
         from seewhy.model import read_model
 
         model = read_model(Path(folder))
-        agent = Agent(model.domain, minimality=model.minimality, seed=model.seed)
+        agent = Agent(
+            model.domain,
+            minimality=model.minimality,
+            seed=model.seed,
+            reading=model.reading if reading is None else reading,
+            gate=model.gate if gate is None else gate,
+            known_share=model.known_share if known_share is None else known_share,
+        )
         agent.extractor, agent.tree, agent.answerer = model.extractor, model.tree, model.answerer
         agent.experience, agent.trained_on = model.experience, model.trained_on
+        agent.familiarity = model.familiarity
+        agent.validation_scores = dict(model.validation_scores)
+        agent.without = model.without
         return agent

@@ -123,6 +123,28 @@ class Dataset:
         """Return the scenes at some positions."""
         return replace(self, scenes=tuple(self.scenes[p] for p in positions))
 
+    def without_classes(self, classes: Sequence[str]) -> Dataset:
+        """Return the scenes of all other classes.
+
+        Raises
+        ------
+        DatasetError
+            If there is no such class, or if nothing is left.
+        """
+        for name in classes:
+            if name not in self.domain.classes:
+                raise DatasetError(
+                    f"'{name}' is no class of the domain '{self.domain.name}'; "
+                    f"{did_you_mean(name, self.domain.classes)}"
+                )
+        chosen = tuple(scene for scene in self.scenes if scene.label not in classes)
+        if not chosen:
+            raise DatasetError(
+                f"{self.folder / TABLE}: without the class{'es' * (len(set(classes)) > 1)} "
+                f"{', '.join(dict.fromkeys(classes))} nothing is left; leave out fewer"
+            )
+        return replace(self, scenes=chosen) if classes else self
+
     def require_two_classes(self) -> None:
         """Raise a DatasetError if all scenes are of one class."""
         if len(set(self.labels)) < 2:
@@ -156,7 +178,9 @@ class Dataset:
         if size not in self._pixels:
             pixels = np.empty((len(self), size, size, 3), dtype=np.uint8)
             for number, scene in enumerate(self.scenes):
-                pixels[number] = read_picture(scene.picture, size=size)
+                pixels[number] = read_picture(
+                    scene.picture, size=size, fit=self.domain.pictures.fit
+                )
                 if on_progress is not None:
                     on_progress(number + 1)
             self._pixels[size] = pixels

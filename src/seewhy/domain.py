@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated
+from typing import Annotated, get_args
+from typing import Literal as OneOf
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
@@ -15,10 +16,16 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.consistency import check_consistency
 from seewhy.knowledge.language import Knowledge, read_knowledge_file, read_literal
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
+from seewhy.knowledge.signature import PredicateKind
 from seewhy.nearest import did_you_mean
 from seewhy.toml_file import line_of, read_toml
 
 FILES = ("domain.toml", "knowledge.al", "questions.toml")
+
+ReadingRule = OneOf["argmax", "consistent"]
+"""How a picture's features are read; see :mod:`seewhy.reading`."""
+
+READINGS: tuple[ReadingRule, ...] = get_args(ReadingRule)
 
 
 class _Table(BaseModel):
@@ -26,21 +33,58 @@ class _Table(BaseModel):
 
 
 class DomainTable(_Table):
-    """``[domain]``: what the domain is called and which sort stands for the picture."""
+    """``[domain]``: what the domain is called, which sort stands for the picture, how it is read.
+
+    Below a ``known_share`` of 1, that share of the pictures like those of training is answered,
+    and of others it is said that they are not known.
+    """
 
     name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
     title: str
     scene: str
     subject: str
     source: str | None = None
+    reading: ReadingRule = "argmax"
+    known_share: float = Field(default=1.0, gt=0.0, le=1.0)
 
 
 class PictureTable(_Table):
-    """``[pictures]``: how pictures are shown to the networks."""
+    """``[pictures]``: how pictures are shown to the networks, and how they may be varied.
+
+    See :func:`seewhy.perception.picture.read_picture` for ``fit`` and
+    :class:`seewhy.perception.options.TrainingOptions` for the variations. Where there are
+    photographs to train on, ``drawn`` pictures of the source are trained on before.
+    """
 
     size: int = Field(default=56, ge=16, le=512)
+    fit: OneOf["pad", "stretch"] = "pad"
+    standard: OneOf["set", "picture"] = "set"
     flip: bool = False
     shift: float = Field(default=0.05, ge=0.0, le=0.5)
+    rotate: float = Field(default=0.0, ge=0.0, le=180.0)
+    scale: float = Field(default=0.0, ge=0.0, le=0.9)
+    shear: float = Field(default=0.0, ge=0.0, le=0.9)
+    brightness: float = Field(default=0.1, ge=0.0, le=0.9)
+    contrast: float = Field(default=0.1, ge=0.0, le=0.9)
+    colour: float = Field(default=0.1, ge=0.0, le=0.9)
+    noise: float = Field(default=2.0, ge=0.0, le=128.0)
+    drawn: int = Field(default=0, ge=0, le=1_000_000)
+
+
+Channels = Annotated[tuple[Annotated[int, Field(ge=1, le=4096)], ...], Field(min_length=1)]
+
+
+class NetworkTable(_Table):
+    """``[networks]``: how large the networks become and how long they are trained.
+
+    See :class:`seewhy.perception.options.TrainingOptions`.
+    """
+
+    depth: int = Field(default=1, ge=1, le=16)
+    channels: Channels = (8, 16, 32, 64)
+    dense: int = Field(default=64, ge=1, le=65_536)
+    epochs: int = Field(default=18, ge=1, le=10_000)
+    batch: int = Field(default=64, ge=1, le=65_536)
 
 
 def _with_letters(word: str) -> str:
@@ -55,8 +99,16 @@ def _with_it_alone(text: str) -> str:
     return text
 
 
+def _with_value(text: str) -> str:
+    rest = _with_letters(text).replace("{it}", "").replace("{value}", "")
+    if set("{}") & set(rest) or "{value}" not in text:
+        raise ValueError(f"must have the slot {{value}} and may have {{it}}, got '{text}'")
+    return text
+
+
 Word = Annotated[str, AfterValidator(_with_letters)]
 Clause = Annotated[str, AfterValidator(_with_it_alone)]
+BeliefClause = Annotated[str, AfterValidator(_with_value)]
 
 
 class ValueTable(_Table):
@@ -68,10 +120,15 @@ class ValueTable(_Table):
 
 
 class FeatureTable(_Table):
-    """``[features.NAME]``: one feature, recognised by a network of its own."""
+    """``[features.NAME]``: one feature, recognised by a network of its own.
+
+    ``channels`` and ``dense`` are those of ``[networks]`` where left out.
+    """
 
     name: str
     threshold: float = Field(default=0.9, gt=0.0, le=1.0)
+    channels: Channels | None = None
+    dense: int | None = Field(default=None, ge=1, le=65_536)
     change_cost: int = Field(default=1, ge=1, le=1000)
     values: dict[str, ValueTable] = Field(min_length=1)
 
@@ -84,13 +141,23 @@ class ClassTable(_Table):
     words: tuple[Word, ...] = ()
 
 
+class BeliefTable(_Table):
+    """``[beliefs.NAME]``: how a static that is no feature, and its values, are said."""
+
+    name: Word | None = None
+    say: BeliefClause | None = None
+    values: dict[str, Word] = {}
+
+
 class DomainFile(_Table):
     """The whole of ``domain.toml``."""
 
     domain: DomainTable
     pictures: PictureTable = PictureTable()
+    networks: NetworkTable = NetworkTable()
     features: dict[str, FeatureTable] = Field(min_length=1)
     classes: dict[str, ClassTable] = Field(min_length=2)
+    beliefs: dict[str, BeliefTable] = {}
 
 
 class QuestionTable(_Table):
@@ -99,6 +166,7 @@ class QuestionTable(_Table):
     asks: str
     feature: str | None = None
     value: str | None = None
+    predicate: str | None = None
     patterns: tuple[str, ...] = Field(min_length=1)
 
 
@@ -125,6 +193,8 @@ class Feature:
     words: Mapping[str, tuple[str, ...]]
     change: Mapping[str, str]
     threshold: float
+    channels: tuple[int, ...] | None
+    dense: int | None
     change_cost: int
     literals: Mapping[str, Literal]
 
@@ -140,6 +210,20 @@ class SceneClass:
 
 
 @dataclass(frozen=True)
+class Belief:
+    """A static ``key(scene, sort)`` that is no feature: its value is believed, not seen.
+
+    ``say`` has the slots {it} and {value}; ``words`` says each value, ``literals`` stands for it.
+    """
+
+    key: str
+    name: str
+    say: str
+    words: Mapping[str, str]
+    literals: Mapping[str, Literal]
+
+
+@dataclass(frozen=True)
 class Domain:
     """Everything that a domain folder says.
 
@@ -152,12 +236,20 @@ class Domain:
     features : mapping of str to Feature
         In the order of the file, which is the order of every feature vector.
     classes : mapping of str to SceneClass
+    beliefs : mapping of str to Belief
+        Every static of the scene and one sort that is no feature.
     knowledge : Knowledge
     questions : QuestionsFile
     pictures : PictureTable
+    networks : NetworkTable
     folder : Path
     source : str or None
         The importable module that makes pictures (``draw(seed=, index=, size=)``).
+    reading : {"argmax", "consistent"}
+        How the features of a picture are read, see :mod:`seewhy.reading`.
+    known_share : float
+        The share of pictures like those of training that is answered, see
+        :mod:`seewhy.refusal`; 1 answers every picture.
 
     Examples
     --------
@@ -174,11 +266,15 @@ class Domain:
     scene: str
     features: Mapping[str, Feature]
     classes: Mapping[str, SceneClass]
+    beliefs: Mapping[str, Belief]
     knowledge: Knowledge
     questions: QuestionsFile
     pictures: PictureTable
+    networks: NetworkTable
     folder: Path
     source: str | None
+    reading: ReadingRule = "argmax"
+    known_share: float = 1.0
 
     @property
     def schema(self) -> SceneSchema:
@@ -267,11 +363,15 @@ def load_domain(name: str | Path) -> Domain:
         scene=table.domain.scene,
         features=MappingProxyType(features),
         classes=MappingProxyType(classes),
+        beliefs=MappingProxyType(_beliefs(table, knowledge, place)),
         knowledge=knowledge,
         questions=questions,
         pictures=table.pictures,
+        networks=table.networks,
         folder=folder,
         source=table.domain.source,
+        reading=table.domain.reading,
+        known_share=table.domain.known_share,
     )
     check_consistency(knowledge, domain.schema)
     return domain
@@ -335,16 +435,19 @@ def _feature(
     key: str, table: FeatureTable, file: DomainFile, knowledge: Knowledge, place: _Place
 ) -> Feature:
     predicate = knowledge.signature.predicates.get(key)
-    here = place.at("features", key)
+
+    def here() -> str:
+        return place.at("features", key)
+
     scene = file.domain.scene
     if predicate is None:
         raise DomainError(
-            f"{here}: the feature '{key}' is not declared in knowledge.al; "
+            f"{here()}: the feature '{key}' is not declared in knowledge.al; "
             f"{did_you_mean(key, knowledge.signature.predicates)}"
         )
     if not predicate.sorts or predicate.sorts[0] != scene or len(predicate.sorts) > 2:
         raise DomainError(
-            f"{here}: the feature '{key}' must be declared as '#static {key}({scene}).' (yes or "
+            f"{here()}: the feature '{key}' must be declared as '#static {key}({scene}).' (yes or "
             f"no) or '#static {key}({scene}, SORT).', got '{predicate}' "
             f"({predicate.location})"
         )
@@ -367,7 +470,7 @@ def _feature(
     for value in literals:
         if value not in table.values:
             raise DomainError(
-                f"{here}: nothing says how '{key}' = '{value}' is said; add "
+                f"{here()}: nothing says how '{key}' = '{value}' is said; add "
                 f'[features.{key}.values.{value}] with say = "…"'
             )
     tables = {value: table.values[value] for value in literals}
@@ -379,9 +482,66 @@ def _feature(
         words=MappingProxyType({v: (*t.words, v) for v, t in tables.items()}),
         change=MappingProxyType({v: t.change for v, t in tables.items() if t.change}),
         threshold=table.threshold,
+        channels=table.channels,
+        dense=table.dense,
         change_cost=table.change_cost,
         literals=MappingProxyType(literals),
     )
+
+
+def _beliefs(file: DomainFile, knowledge: Knowledge, place: _Place) -> dict[str, Belief]:
+    """Every static of the scene and one sort that is no feature, with its words."""
+    scene = file.domain.scene
+    predicates = {
+        name: predicate
+        for name, predicate in knowledge.signature.predicates.items()
+        if predicate.kind is PredicateKind.STATIC
+        and len(predicate.sorts) == 2
+        and predicate.sorts[0] == scene
+        and name not in file.features
+    }
+    for key in file.beliefs:
+        if key in predicates:
+            continue
+        here = place.at("beliefs", key)
+        if key in file.features:
+            raise DomainError(
+                f"{here}: '{key}' is a feature, which is seen and not believed; say its values "
+                f"under [features.{key}.values] and remove [beliefs.{key}]"
+            )
+        declared = knowledge.signature.predicates.get(key)
+        if declared is None:
+            raise DomainError(
+                f"{here}: the belief '{key}' is not declared in knowledge.al; "
+                f"{did_you_mean(key, predicates)}"
+            )
+        raise DomainError(
+            f"{here}: the belief '{key}' must be declared as '#static {key}({scene}, SORT).', "
+            f"got '{declared}' ({declared.location})"
+        )
+    beliefs: dict[str, Belief] = {}
+    for key, predicate in predicates.items():
+        table = file.beliefs.get(key, BeliefTable())
+        members = knowledge.signature.members(predicate.sorts[1])
+        for value in table.values:
+            if value not in members:
+                raise DomainError(
+                    f"{place.at('beliefs', key, 'values', value)}: '{value}' is no value of "
+                    f"'{key}' in knowledge.al; {did_you_mean(value, members)}"
+                )
+        name = table.name or key.replace("_", " ")
+        beliefs[key] = Belief(
+            key=key,
+            name=name,
+            say=table.say or f"the {name} of {{it}} is {{value}}",
+            words=MappingProxyType(
+                {v: table.values.get(v, v.strip('"').replace("_", " ")) for v in members}
+            ),
+            literals=MappingProxyType(
+                {v: Literal(predicate=key, arguments=(scene, v)) for v in members}
+            ),
+        )
+    return beliefs
 
 
 def _check_classes(classes: Mapping[str, SceneClass], place: _Place) -> None:
@@ -399,22 +559,25 @@ def _check_classes(classes: Mapping[str, SceneClass], place: _Place) -> None:
 def _class(
     key: str, table: ClassTable, file: DomainFile, knowledge: Knowledge, place: _Place
 ) -> SceneClass:
-    here = place.at("classes", key, "literal")
+    def here() -> str:
+        # Finding a line reads the file anew: only where there is something to say about it.
+        return place.at("classes", key, "literal")
+
     scene = file.domain.scene
     try:
         literal = read_literal(table.literal)
     except KnowledgeError as problem:
-        raise DomainError(f"{here}: {problem}") from None
+        raise DomainError(f"{here()}: {problem}") from None
     predicates = knowledge.signature.predicates
     if literal.predicate not in predicates:
         raise DomainError(
-            f"{here}: the literal '{literal}' of class '{key}' uses '{literal.predicate}', which "
+            f"{here()}: the literal '{literal}' of class '{key}' uses '{literal.predicate}', which "
             f"knowledge.al does not declare; {did_you_mean(literal.predicate, predicates)}"
         )
     sorts = predicates[literal.predicate].sorts
     if len(sorts) != len(literal.arguments):
         raise DomainError(
-            f"{here}: '{literal.predicate}' takes {len(sorts)} "
+            f"{here()}: '{literal.predicate}' takes {len(sorts)} "
             f"argument{'s' * (len(sorts) != 1)}, got '{literal}'"
         )
     arguments = []
@@ -423,7 +586,7 @@ def _class(
         term = scene if sort == scene and argument[0].isupper() else argument
         if term not in members:
             raise DomainError(
-                f"{here}: '{argument}' is not of sort '{sort}' in the literal '{literal}'; "
+                f"{here()}: '{argument}' is not of sort '{sort}' in the literal '{literal}'; "
                 f"{did_you_mean(argument, members)}"
             )
         arguments.append(term)

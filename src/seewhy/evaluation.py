@@ -16,11 +16,14 @@ from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.pictures import determined_share
+from seewhy.reply import UNKNOWN
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
 
-EXPLANATORY = (Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS)
+EXPLANATORY = (
+    Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS, Asks.DIFFERENCE_TO_CLASS
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -49,13 +52,20 @@ class Evaluation:
     seen_in_training : int
         Scenes whose picture the model was trained on; their results prove nothing.
     classification_accuracy : float
+    class_accuracy : dict
+        Class → share of its scenes that were classified rightly, for the classes that occur.
+    without : tuple of str
+        Classes of which the model was shown no picture in training.
+    unknown : float
+        Share of the scenes of which the agent said that it does not know them.
     answer_accuracy : float
         The answer has the right form and mentions every relevant attribute with its value (the
         paper's measure).
     answer_accuracy_strict : float
         It mentions those and no other.
     explanation_accuracy, explanation_accuracy_strict : float
-        The same over the questions that ask why, why not, and what would have to change.
+        The same over the questions that ask why, why not, what would have to change, and how a
+        scene differs from a class.
     feature_accuracy : dict
         Feature → share of the scenes in which it was recognised.
     decided_by_knowledge : float
@@ -70,6 +80,9 @@ class Evaluation:
     scenes: int
     seen_in_training: int
     classification_accuracy: float
+    class_accuracy: dict[str, float]
+    without: tuple[str, ...]
+    unknown: float
     answer_accuracy: float
     answer_accuracy_strict: float
     explanation_accuracy: float
@@ -132,7 +145,7 @@ def evaluate(
         number = min(questions_per_scene, len(possible))
         for chosen in generator.choice(len(possible), size=number, replace=False):
             question = possible[int(chosen)]
-            asked = (question.query, own.vector)
+            asked = (question.query, own.vector, own.label, own.verdict)
             if asked not in known:
                 known[asked] = agent.answer(own, question).kind
             kind = known[asked]
@@ -149,6 +162,15 @@ def evaluate(
         scenes=len(scenes),
         seen_in_training=sum(digest in agent.trained_on for digest in scenes.picture_digests()),
         classification_accuracy=_share(right),
+        class_accuracy={
+            label: _share(
+                [r for r, true in zip(right, scenes.labels, strict=True) if true == label]
+            )
+            for label in agent.domain.classes
+            if label in scenes.labels
+        },
+        without=agent.without,
+        unknown=_share([own.verdict == UNKNOWN for own in classified]),
         answer_accuracy=_share([row[0] for row in scored]),
         answer_accuracy_strict=_share([row[1] for row in scored]),
         explanation_accuracy=_share([row[0] for row in scored if row[2]]),
@@ -184,7 +206,11 @@ def score_answer(
     """
     if kind.form != gold.form:
         return False, False
-    if kind.form == "change":
+    if kind.form == "belief":
+        # Two classes may have one response: what is believed counts, not from which class.
+        same = set(kind.values) == set(gold.values)
+        return same, same
+    if kind.form in ("change", "difference"):
         proposed = [frozenset(change) for change in kind.changes]
         accepted = {frozenset(change) for change in gold.changes}
         some = any(change in accepted for change in proposed)

@@ -6,12 +6,13 @@ import hashlib
 import json
 import shutil
 import tempfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seewhy.dialogue.reference import Experience
-from seewhy.domain import FILES, Domain, load_domain
+from seewhy.domain import FILES, Domain, ReadingRule, load_domain
 from seewhy.errors import ModelError, SeeWhyError
 from seewhy.files import write_whole
 from seewhy.induction.tree import DecisionTree
@@ -20,9 +21,15 @@ from seewhy.knowledge.reasoner import Minimality
 if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
     from seewhy.perception.extractor import FeatureExtractor
+    from seewhy.perception.familiarity import Familiarity
 
 MANIFEST = "model.json"
-FORMAT = 1
+FORMAT = 2
+
+_KEYS = (
+    *("domain", "minimality", "seed", "reading", "gate", "known_share", "validation_scores"),
+    *("without", "answers", "trained_on", "files"),
+)
 
 
 @dataclass(frozen=True)
@@ -30,7 +37,9 @@ class Model:
     """Everything that training leaves behind.
 
     ``answerer`` is None where the knowledge decided all training scenes rightly; ``trained_on``
-    holds digests of the pictures.
+    holds digests of the pictures, ``without`` the classes of which there were none on purpose,
+    ``validation_scores`` how like those of training the pictures kept for validation are, under
+    each way of reading; it and ``familiarity`` are empty where no picture is to be refused.
     """
 
     domain: Domain
@@ -41,6 +50,12 @@ class Model:
     trained_on: frozenset[str]
     minimality: Minimality
     seed: int
+    reading: ReadingRule
+    gate: float | None
+    known_share: float
+    familiarity: Familiarity | None
+    validation_scores: Mapping[ReadingRule, list[float]]
+    without: tuple[str, ...]
 
 
 def write_model(model: Model, folder: Path) -> None:
@@ -60,6 +75,8 @@ def write_model(model: Model, folder: Path) -> None:
         for name in FILES:
             shutil.copyfile(model.domain.folder / name, temporary / "domain" / name)
         model.extractor.save(temporary / "perception")
+        if model.familiarity is not None:
+            model.familiarity.save(temporary / "perception")
         model.tree.save(temporary / "induction")
         if model.answerer is not None:
             model.answerer.save(temporary / "dialogue")
@@ -115,6 +132,7 @@ def read_model(folder: Path) -> Model:
             f"domain folder is '{domain.name}'; train it again"
         )
     from seewhy.perception.extractor import FeatureExtractor
+    from seewhy.perception.familiarity import FAMILIARITY, Familiarity
 
     extractor = FeatureExtractor.load(folder / "perception")
     expected = {key: feature.values for key, feature in domain.features.items()}
@@ -123,6 +141,9 @@ def read_model(folder: Path) -> Model:
             f"{folder}: the networks recognise other features than the model's domain names; "
             "train it again"
         )
+    familiarity = None
+    if f"perception/{FAMILIARITY}" in manifest["files"]:
+        familiarity = Familiarity.load(folder / "perception")
     answerer = None
     if manifest["answers"]:
         from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
@@ -138,6 +159,12 @@ def read_model(folder: Path) -> Model:
         trained_on=frozenset(manifest["trained_on"]),
         minimality=manifest["minimality"],
         seed=manifest["seed"],
+        reading=manifest["reading"],
+        gate=manifest["gate"],
+        known_share=manifest["known_share"],
+        familiarity=familiarity,
+        validation_scores=manifest["validation_scores"],
+        without=tuple(manifest["without"]),
     )
 
 
@@ -158,6 +185,11 @@ def _manifest(model: Model, folder: Path) -> dict[str, Any]:
         "domain": model.domain.name,
         "minimality": model.minimality,
         "seed": model.seed,
+        "reading": model.reading,
+        "gate": model.gate,
+        "known_share": model.known_share,
+        "validation_scores": dict(model.validation_scores),
+        "without": list(model.without),
         "answers": model.answerer is not None,
         "trained_on": sorted(model.trained_on),
         "files": {
@@ -195,8 +227,9 @@ def _read_manifest(folder: Path) -> dict[str, Any]:
     try:
         manifest: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         found = manifest["format"]
-        for key in ("domain", "minimality", "seed", "answers", "trained_on", "files"):
-            manifest[key]
+        if found == FORMAT:
+            for key in _KEYS:
+                manifest[key]
     except (ValueError, KeyError, TypeError, RecursionError):
         raise ModelError(f"{path}: cannot be read; train the model again") from None
     if found != FORMAT:

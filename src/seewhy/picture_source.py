@@ -14,9 +14,9 @@ from seewhy.errors import DomainError
 
 
 class Draw(Protocol):
-    """Makes one picture: uint8 of shape (size, size, 3), its feature values, its class.
+    """Makes one picture: uint8 of shape (height, width, 3), its feature values, its class.
 
-    The picture must depend on the arguments only.
+    The longer side is ``size``. The picture must depend on the arguments only.
     """
 
     def __call__(

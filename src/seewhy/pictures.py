@@ -19,7 +19,7 @@ from seewhy.files import whole_file, write_whole
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.picture_source import draw_picture, load_source
 
-_MADE = "made.json"
+MADE = "made.json"
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def make_dataset(
     settings = {"domain": domain.name, "seed": seed, "size": size}
     (folder / "images").mkdir(parents=True, exist_ok=True)
     _check_settings(folder, settings)
-    write_whole(folder / _MADE, json.dumps(settings))
+    write_whole(folder / MADE, json.dumps(settings))
     known = _rows_of(folder, domain)
     tasks = (
         delayed(_make_picture)(
@@ -132,7 +132,7 @@ def _check_annotation(domain: Domain, features: dict[str, str], label: str) -> N
 
 
 def _check_settings(folder: Path, settings: dict[str, object]) -> None:
-    made = folder / _MADE
+    made = folder / MADE
     if made.is_file():
         text = made.read_text(encoding="utf-8", errors="replace")
         if text != json.dumps(settings):

@@ -10,13 +10,35 @@ from seewhy.dialogue.question import Question
 from seewhy.knowledge.justification import Node
 from seewhy.knowledge.scene import FeatureVector
 
+UNCERTAIN = "uncertain"
+"""The verdict where a network is less sure than the agent's gate."""
+
+UNKNOWN = "unknown"
+"""The verdict where the picture is unlike those that are known."""
+
 
 @dataclass(frozen=True)
 class FeatureReading:
-    """A feature's most probable value in a picture and its probability (0 to 1)."""
+    """What a feature of a picture is taken to be.
+
+    Attributes
+    ----------
+    value : str
+    probability : float
+        The network's probability of the value (0 to 1).
+    overruled : (str, float) or None
+        The more probable value that the network alone saw, with its probability, where it does
+        not fit what is known (see :class:`~seewhy.reading.ConsistentReading`).
+    """
 
     value: str
     probability: float
+    overruled: tuple[str, float] | None = None
+
+    @property
+    def certainty(self) -> float:
+        """The probability of the value that the network alone saw."""
+        return self.overruled[1] if self.overruled else self.probability
 
 
 @dataclass(frozen=True)
@@ -26,14 +48,25 @@ class Classification:
     Attributes
     ----------
     label : str or None
-        The class, or None where neither the knowledge nor a tree decides.
+        The class, or None where neither the knowledge nor a tree decides, or where the picture
+        is not known.
     method : str
         "knowledge", "tree" or "none".
     vector : FeatureVector
     features : mapping
         Feature name → FeatureReading.
     verdict : str
-        Why the knowledge decides, or does not ("silent", "contradiction", …).
+        Why the knowledge decides, or does not ("silent", "contradiction", …); "uncertain" where
+        it was not asked because a network was less sure than the agent's gate, "unknown" where
+        the picture is unlike those that are known.
+    probability : float or None
+        Of the class, see :class:`~seewhy.reading.Reading`; None where there is none, or where an
+        uncertain reading was sent to the tree.
+    score : float or None
+        How like the picture is to those of training, 0 to 1 (see
+        :class:`~seewhy.perception.familiarity.Familiarity`), compared with
+        :attr:`seewhy.Agent.unknown_below`; where the agent answers every picture because it was
+        trained to, the log-probability of what is read.
     """
 
     label: str | None
@@ -41,6 +74,8 @@ class Classification:
     vector: FeatureVector
     features: dict[str, FeatureReading]
     verdict: str
+    probability: float | None = None
+    score: float | None = None
 
 
 @dataclass(frozen=True)
@@ -86,10 +121,21 @@ class Reply:
             "text": self.text,
             "class": self.label,
             "method": self.method,
+            "class_probability": _rounded(self.classification.probability),
             "verdict": self.classification.verdict,
             "features": {
-                name: {"value": own.value, "probability": round(own.probability, 4)}
+                name: {
+                    "value": own.value,
+                    "probability": _rounded(own.probability),
+                    "overruled": None
+                    if own.overruled is None
+                    else {"value": own.overruled[0], "probability": _rounded(own.overruled[1])},
+                }
                 for name, own in self.features.items()
             },
             "justification": self.justification.to_dict(),
         }
+
+
+def _rounded(probability: float | None) -> float | None:
+    return None if probability is None else round(probability, 4)

@@ -22,7 +22,7 @@ def say_literal(domain: Domain, literal: Literal) -> str:
     'the structure leans to one side'
     """
     for own in domain.classes.values():
-        if own.literal == literal:
+        if own.literal.predicate == literal.predicate and own.literal == literal:
             return f"{domain.subject} is {own.say}"
     feature = domain.features.get(literal.predicate)
     if feature is not None:
@@ -32,8 +32,15 @@ def say_literal(domain: Domain, literal: Literal) -> str:
         for value, own_literal in feature.literals.items():
             if own_literal == literal.complement:
                 return f"it is not so that {feature.say[value].replace('{it}', domain.subject)}"
+    belief = domain.beliefs.get(literal.predicate)
+    if belief is not None and literal.arguments[0] == domain.scene:
+        value = belief.words.get(literal.arguments[1], literal.arguments[1])
+        said = belief.say.replace("{it}", domain.subject).replace("{value}", value)
+        return said if literal.positive else f"it is not so that {said}"
     words = literal.predicate.replace("_", " ")
-    about = [domain.subject if a == domain.scene else a for a in literal.arguments]
+    about = [
+        domain.subject if a == domain.scene else a.replace("_", " ") for a in literal.arguments
+    ]
     said = f"{words} ({', '.join(about)})" if about else words
     return said if literal.positive else f"not: {said}"
 

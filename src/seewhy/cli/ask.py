@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from seewhy.cli.options import ImageFile, Json, ModelFolder
+from seewhy.cli.options import Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -22,12 +22,16 @@ def ask(
         Path | None,
         typer.Option("--picture", help="Also draw the answer with its reasons to this .svg file."),
     ] = None,
+    reading: Reading = None,
+    gate: Gate = None,
+    known_share: KnownShare = None,
     json: Json = False,
 ) -> None:
     """Answer a question about a picture, with the reasons."""
     from seewhy.agent import Agent
 
-    reply = Agent.load(model).ask(image, question)
+    agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
+    reply = agent.ask(image, question)
     if picture is not None:
         from seewhy.report.card import draw_card
 
@@ -48,6 +52,13 @@ def print_reply(reply: Reply) -> None:
     )
     say(f"asked: {reply.question.text}?")
     say(f"seen: {seen}")
+    for name, own in reply.features.items():
+        if own.overruled is not None:
+            value, probability = own.overruled
+            say(
+                f"the knowledge overruled: {name} read as {value} (p = {probability:.2f}), "
+                f"{own.value} ({own.probability:.2f}) is what fits"
+            )
     say(f"by: {reply.method}")
     say("because:")
     for line in reply.justification.to_text().splitlines():

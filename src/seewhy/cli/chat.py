@@ -4,13 +4,20 @@ from __future__ import annotations
 
 import sys
 
-from seewhy.cli.options import ImageFile, Json, ModelFolder
+from seewhy.cli.options import Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
 from seewhy.cli.screen import complain, say
 
 _LEAVE = {"quit", "exit", "bye", "q"}
 
 
-def chat(model: ModelFolder, image: ImageFile, json: Json = False) -> None:
+def chat(
+    model: ModelFolder,
+    image: ImageFile,
+    reading: Reading = None,
+    gate: Gate = None,
+    known_share: KnownShare = None,
+    json: Json = False,
+) -> None:
     """Talk about a picture; an empty line or "quit" ends.
 
     With --json every answer is one line of JSON.
@@ -21,7 +28,7 @@ def chat(model: ModelFolder, image: ImageFile, json: Json = False) -> None:
     from seewhy.errors import QuestionError
     from seewhy.reply import Reply
 
-    agent = Agent.load(model)
+    agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
     scene = agent.classify(image)
     interactive = sys.stdin.isatty()
     if interactive and not json:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from seewhy.cli import data_import
 from seewhy.cli.options import DomainName, Json, Seed
 from seewhy.cli.screen import percent, print_json, progress, remark, say
 
@@ -114,3 +115,7 @@ def show(
     said = ", ".join(f"{own.classes[n].say} {percent(s)}" for n, s in shares.items())
     say(f"{len(dataset)} pictures ({said}); {percent(determined)} determined by their features")
     say(f"contact sheet: {target}")
+
+
+app.command("import")(data_import.import_)
+app.command("fetch")(data_import.fetch)

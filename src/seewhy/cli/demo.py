@@ -1,4 +1,4 @@
-"""`seewhy demo`: the whole way once, from simulated structures to answers with reasons."""
+"""`seewhy demo`: the whole way once, from a domain's own pictures to answers with reasons."""
 
 from __future__ import annotations
 
@@ -14,7 +14,11 @@ from seewhy.cli.screen import output, print_json, progress, say
 if TYPE_CHECKING:
     from seewhy.agent import Agent
     from seewhy.dataset import Dataset, Scene
-    from seewhy.reply import Reply
+    from seewhy.reply import Classification, Reply
+
+
+FEW_CLASSES = 4
+"""Of more classes, a picture is asked about its own and the nearest other one only."""
 
 
 def demo(
@@ -58,7 +62,8 @@ def demo(
         )
     if not quiet:
         shares = ", ".join(f"{n} {100 * s:.0f} %" for n, s in made.classes.items())
-        say(f"{shares}; the features determine {100 * made.determined:.1f} % of the outcomes")
+        said = shares if len(made.classes) <= FEW_CLASSES else f"{len(made.classes)} classes"
+        say(f"{said}; the features determine {100 * made.determined:.1f} % of the outcomes")
     heading("Training one network per feature")
     dataset = Dataset.load(out / "pictures", own)
     agent = trained_already(out / "model", dataset, seed=seed)
@@ -115,11 +120,14 @@ def _ask_everything(agent: Agent, scene: Scene) -> list[Reply]:
     from seewhy.dialogue.question import Asks
 
     own = agent.classify(scene.picture)
+    labels = _asked_about(agent, own)
     replies: list[Reply] = []
     explain = None
     for question in agent.questions.one_of_each():
         if question.asks is Asks.EXPLAIN:
             explain = question
+            continue
+        if question.label is not None and question.label not in labels:
             continue
         if (
             question.value is not None
@@ -139,6 +147,16 @@ def _ask_everything(agent: Agent, scene: Scene) -> list[Reply]:
         )
         replies.append(agent.answer(own, explain, previous=about))
     return replies
+
+
+def _asked_about(agent: Agent, own: Classification) -> set[str]:
+    """The classes to ask about: all of a few, or the picture's own and the nearest other one."""
+    classes = tuple(agent.domain.classes)
+    if len(classes) <= FEW_CLASSES:
+        return set(classes)
+    nearest = agent.reasoned.nearest_classes(own.vector, most=2)
+    other = next((label for label in nearest if label != own.label), classes[0])
+    return {other, *([own.label] if own.label is not None else [])}
 
 
 def _print_answers(answered: list[tuple[Scene, list[Reply]]]) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from seewhy.cli.options import DataFolder, Json, ModelFolder, Seed
+from seewhy.cli.options import DataFolder, Gate, Json, KnownShare, ModelFolder, Reading, Seed
 from seewhy.cli.screen import add_row, output, percent, print_json, progress, remark, table
 
 if TYPE_CHECKING:
@@ -20,6 +20,9 @@ def evaluate(
         int, typer.Option("--questions", min=1, help="Questions drawn for each picture.")
     ] = 8,
     seed: Seed = 0,
+    reading: Reading = None,
+    gate: Gate = None,
+    known_share: KnownShare = None,
     json: Json = False,
 ) -> None:
     """Evaluate a model on a dataset (on the rows with split = test, where there are splits)."""
@@ -27,7 +30,7 @@ def evaluate(
     from seewhy.dataset import Dataset
     from seewhy.evaluation import evaluate as evaluate_agent
 
-    agent = Agent.load(model)
+    agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
     dataset = Dataset.load(data, agent.domain)
     with progress() as bars:
         task = bars.add_task("looking at pictures", total=len(dataset.of_split("test")))
@@ -57,6 +60,8 @@ def print_evaluation(result: Evaluation) -> None:
     for method, share in result.accuracy_by_method.items():
         add_row(rows, f"  decided by {method}", percent(share))
     add_row(rows, "decided by knowledge", percent(result.decided_by_knowledge))
+    if result.unknown:
+        add_row(rows, "said not to be known", percent(result.unknown))
     add_row(rows, "answers (every relevant attribute)", percent(result.answer_accuracy))
     add_row(rows, "answers, strict (and no other)", percent(result.answer_accuracy_strict))
     add_row(rows, "explanatory answers", percent(result.explanation_accuracy))
@@ -65,7 +70,22 @@ def print_evaluation(result: Evaluation) -> None:
         add_row(rows, f"feature {name}", percent(share))
     output().print(f"{result.scenes} scenes", markup=False)
     output().print(rows)
+    print_classes(result)
     print_axioms(result)
+
+
+def print_classes(result: Evaluation, *, most: int = 12) -> None:
+    """Print the classes that no picture was shown of, and the least well recognised of the rest."""
+    shares = result.class_accuracy
+    worst = sorted(shares, key=lambda label: (label not in result.without, shares[label]))
+    rows = table("class", ">classified rightly")
+    for label in worst[: max(most, len(result.without))]:
+        note = " (left out of training)" if label in result.without else ""
+        add_row(rows, f"{label}{note}", percent(shares[label]))
+    more = len(worst) - most
+    if more > 0:
+        add_row(rows, f"{more} more, each at least", percent(shares[worst[-more]]))
+    output().print(rows)
 
 
 def print_axioms(result: Evaluation) -> None:

@@ -19,3 +19,26 @@ DataFolder = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Seed = Annotated[int, typer.Option("--seed", min=0, help="Settles every random choice.")]
+
+Reading = Annotated[
+    str | None,
+    typer.Option(
+        "--reading",
+        help="How features are read: each its most probable value (argmax), or together as fits "
+        "the knowledge best (consistent).",
+    ),
+]
+Gate = Annotated[
+    float | None,
+    typer.Option(
+        "--gate",
+        help="Let the tree classify pictures of which a network is less sure than this; 0: none.",
+    ),
+]
+KnownShare = Annotated[
+    float | None,
+    typer.Option(
+        "--known-share",
+        help="The share of pictures like those of training that is answered; 1: every picture is.",
+    ),
+]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from seewhy.cli.options import DataFolder, DomainName, Json, Seed
+from seewhy.cli.options import DataFolder, DomainName, Gate, Json, KnownShare, Reading, Seed
 from seewhy.cli.screen import add_row, output, percent, print_json, table
 from seewhy.cli.training import train_model
 
@@ -23,6 +23,27 @@ def train(
         Path | None,
         typer.Option("--from", help="Fine-tune the networks of this model instead of growing new."),
     ] = None,
+    drawn: Annotated[
+        int | None,
+        typer.Option(
+            "--drawn",
+            min=0,
+            help="Train on so many pictures of the domain's own source before, 0: on none "
+            "(what the domain says).",
+        ),
+    ] = None,
+    without: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--without-class",
+            metavar="CLASS",
+            help="Leave out the pictures of a class, to see whether the knowledge of it is enough; "
+            "more than once for several.",
+        ),
+    ] = None,
+    reading: Reading = None,
+    gate: Gate = None,
+    known_share: KnownShare = None,
     seed: Seed = 0,
     json: Json = False,
 ) -> None:
@@ -33,7 +54,18 @@ def train(
     from seewhy.domain import load_domain
 
     own = load_domain(domain)
-    agent = train_model(own, data, out, start_from=start_from, seed=seed)
+    agent = train_model(
+        own,
+        data,
+        out,
+        without=without or (),
+        start_from=start_from,
+        drawn=drawn,
+        seed=seed,
+        reading=reading,
+        gate=gate,
+        known_share=known_share,
+    )
     summary = agent.extractor.summary() if agent.extractor else {}
     if json:
         print_json(
@@ -42,6 +74,8 @@ def train(
                 "domain": own.name,
                 "networks": summary,
                 "tree_scenes": tree_scenes(agent),
+                "without": list(agent.without),
+                "unknown_below": agent.unknown_below,
             }
         )
         return
@@ -56,6 +90,7 @@ def train(
         )
     output().print(rows)
     print_learned(agent)
+    print_refusal(agent)
     output().print(f"model: {out}", markup=False)
 
 
@@ -85,3 +120,18 @@ def print_learned(agent: Agent) -> None:
             f"{percent(agent.answerer.held_out_accuracy)} right on held-out questions",
             markup=False,
         )
+
+
+def print_refusal(agent: Agent) -> None:
+    """Print of which pictures the agent will say that it does not know them, if of any."""
+    if agent.known_share == 1.0:
+        return
+    number = len(agent.validation_scores.get(agent.reading, []))
+    output().print(
+        f"every picture is answered: {number} pictures kept for validation are too few to refuse "
+        f"at most {percent(1.0 - agent.known_share)}"
+        if agent.unknown_below is None
+        else f"pictures that fit less than {percent(agent.known_share)} of those like the "
+        f"{number} kept for validation are said not to be known",
+        markup=False,
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,10 @@ if TYPE_CHECKING:
 
 
 def trained_already(folder: Path, dataset: Dataset, *, seed: int) -> Agent | None:
-    """Return the agent in ``folder`` if it came of this domain, these pictures and this seed."""
+    """Return the agent in ``folder`` if it came of this domain, these pictures and this seed.
+
+    One that was trained with other options than the domain's is not what is looked for.
+    """
     from seewhy.agent import Agent
     from seewhy.domain import FILES
     from seewhy.errors import ModelError
@@ -30,15 +34,31 @@ def trained_already(folder: Path, dataset: Dataset, *, seed: int) -> Agent | Non
         for name in FILES
     )
     same_pictures = agent.trained_on == frozenset(dataset.of_split("train").picture_digests())
-    return agent if same_domain and same_pictures and agent.seed == seed else None
+    plain = Agent(dataset.domain, seed=seed)
+    same_options = all(
+        getattr(agent, name) == getattr(plain, name)
+        for name in ("seed", "reading", "gate", "known_share", "without")
+    )
+    return agent if same_domain and same_pictures and same_options else None
 
 
 def train_model(
-    domain: Domain, data: Path, out: Path, *, start_from: Path | None = None, seed: int = 0
+    domain: Domain,
+    data: Path,
+    out: Path,
+    *,
+    without: Sequence[str] = (),
+    start_from: Path | None = None,
+    drawn: int | None = None,
+    seed: int = 0,
+    reading: str | None = None,
+    gate: float | None = None,
+    known_share: float | None = None,
 ) -> Agent:
     """Train an agent on the dataset in ``data`` and write it to ``out``.
 
-    Checkpoints lie beside ``out`` until the model is written.
+    The options are those of :class:`~seewhy.agent.Agent` and of its ``fit``. Checkpoints lie
+    beside ``out`` until the model is written.
     """
     from seewhy.agent import Agent
     from seewhy.dataset import Dataset
@@ -48,8 +68,9 @@ def train_model(
     dataset = Dataset.load(data, domain)
     earlier = Agent.load(start_from) if start_from else None
     checkpoints = out.with_name(f"{out.name}.training")
-    agent = Agent(domain, seed=seed)
+    agent = Agent(domain, seed=seed, reading=reading, gate=gate, known_share=known_share)
     with progress() as bars:
+        drawing = bars.add_task("drawing pictures", total=None, visible=False)
         tasks = {key: bars.add_task(key, total=None) for key in domain.features}
 
         def on_progress(event: TrainingEvent) -> None:
@@ -63,7 +84,15 @@ def train_model(
             if event.kind in ("grown", "done"):
                 remark(event.message)
 
-        agent.fit(dataset, start_from=earlier, checkpoints=checkpoints, on_progress=on_progress)
+        agent.fit(
+            dataset,
+            without=without,
+            start_from=earlier,
+            drawn=drawn,
+            on_picture=lambda done: bars.update(drawing, completed=done, visible=True),
+            checkpoints=checkpoints,
+            on_progress=on_progress,
+        )
     agent.save(out)
     shutil.rmtree(checkpoints, ignore_errors=True)
     return agent

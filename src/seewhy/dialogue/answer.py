@@ -21,11 +21,19 @@ from seewhy.wording import join_words, say_features, sentence
 
 Changes = tuple[tuple[str, str], ...]
 """What would have to change: (feature, new value) pairs."""
+SLOTS = (
+    "it", "reasons", "changes", "asked", "class", "explanation", "scene", "required", "belief",
+    "name", "value",
+)  # fmt: skip
+"""What the wording of an answer may speak of; see answers.toml."""
+_MOST_CLASSES_NAMED = 4
 
 
 @dataclass(frozen=True)
 class AnswerType:
     """The form of an answer, the features that it mentions, the changes that it proposes.
+
+    ``values`` are what is believed, where the answer tells the value of a static.
 
     Examples
     --------
@@ -36,11 +44,14 @@ class AnswerType:
     True
     >>> AnswerType(form="change", changes=((("lean", "no"),),)).identifier
     'change()[lean=no]'
+    >>> AnswerType(form="belief", values=("stop",)).identifier
+    'belief(){stop}'
     """
 
     form: str
     mentions: tuple[str, ...] = ()
     changes: tuple[Changes, ...] = ()
+    values: tuple[str, ...] = ()
 
     @property
     def identifier(self) -> str:
@@ -49,19 +60,26 @@ class AnswerType:
             f"[{'&'.join(f'{feature}={value}' for feature, value in change)}]"
             for change in self.changes
         )
-        return f"{self.form}({','.join(self.mentions)}){alternatives}"
+        believed = f"{{{'|'.join(self.values)}}}" if self.values else ""
+        return f"{self.form}({','.join(self.mentions)}){alternatives}{believed}"
 
     @staticmethod
     def parse(identifier: str) -> AnswerType:
         """Return the type that an identifier names."""
         form, rest = identifier.split("(", 1)
-        mentions, _, alternatives = rest.partition(")")
+        mentions, _, rest = rest.partition(")")
+        alternatives, _, believed = rest.partition("{")
         changes = tuple(
             tuple((pair.split("=", 1)[0], pair.split("=", 1)[1]) for pair in part.split("&"))
             for part in alternatives.strip("[]").split("][")
             if part
         )
-        return AnswerType(form, tuple(filter(None, mentions.split(","))), changes)
+        return AnswerType(
+            form,
+            tuple(filter(None, mentions.split(","))),
+            changes,
+            tuple(filter(None, believed.removesuffix("}").split("|"))),
+        )
 
 
 def word_answer(
@@ -88,6 +106,7 @@ def word_answer(
     form = kind.form
     # "The structure is stable, since it has …": the subject is named once.
     subject = "it" if "{it}" in templates[form] else None
+    asked = _say_asked(domain, question)
     reasons = say_features(domain, vector, kind.mentions, subject=subject)
     if not reasons and f"{form}_bare" in templates:
         form = f"{form}_bare"
@@ -97,15 +116,45 @@ def word_answer(
         it=domain.subject,
         reasons=reasons,
         changes=_say_changes(domain, kind.changes),
-        asked=(
-            domain.classes[question.label].say
-            if question.label
-            else join_words([own.say for own in domain.classes.values()], word="or")
-        ),
+        asked=asked,
         **{"class": domain.classes[label].say if label else "undecided"},
         explanation=reasons,
+        scene=domain.scene.replace("_", " "),
+        # "A stop sign is octagonal; the sign is …" or "It is a stop sign when it is octagonal …".
+        required=_say_required(
+            domain, kind.changes, subject="it" if "{asked}" in templates[form] else asked
+        ),
+        **_say_belief(domain, question, kind),
     )
     return sentence(said)
+
+
+def _say_asked(domain: Domain, question: Question) -> str:
+    if question.label:
+        return domain.classes[question.label].say
+    classes = [own.say for own in domain.classes.values()]
+    if len(classes) > _MOST_CLASSES_NAMED:
+        classes = [*classes[:2], f"one of {len(classes) - 2} others"]
+    return join_words(classes, word="or")
+
+
+def _say_required(domain: Domain, alternatives: tuple[Changes, ...], *, subject: str) -> str:
+    said = [
+        say_features(
+            domain, domain.vector(dict(change)), [feature for feature, _ in change], subject=subject
+        )
+        for change in alternatives
+    ]
+    return ", or ".join(said)
+
+
+def _say_belief(domain: Domain, question: Question, kind: AnswerType) -> dict[str, str]:
+    own = domain.beliefs.get(question.predicate or "")
+    if own is None:
+        return {"belief": "", "name": "", "value": ""}
+    value = join_words([own.words.get(value, value) for value in kind.values])
+    said = own.say.replace("{it}", domain.subject).replace("{value}", value)
+    return {"belief": said, "name": own.name, "value": value}
 
 
 def _say_changes(domain: Domain, alternatives: tuple[Changes, ...]) -> str:
@@ -118,7 +167,8 @@ def _say_changes(domain: Domain, alternatives: tuple[Changes, ...]) -> str:
 
 def _say_change(domain: Domain, feature: str, value: str) -> str:
     own = domain.features[feature]
-    return own.change.get(value, f"let the {own.name} be {value}").replace("{it}", "it")
+    said = value.replace("_", " ")
+    return own.change.get(value, f"let the {own.name} be {said}").replace("{it}", "it")
 
 
 @cache
@@ -143,13 +193,12 @@ def answer_templates(domain: Domain) -> dict[str, str]:
             raise DomainError(
                 f"{path}:{line}: '{form}' is no form of answer; {did_you_mean(form, defaults)}"
             )
-        slots = ("it", "reasons", "changes", "asked", "class", "explanation")
         try:
-            template.format(**dict.fromkeys(slots, ""))
+            template.format(**dict.fromkeys(SLOTS, ""))
         except (AttributeError, KeyError, IndexError, TypeError, ValueError):
             line = line_of(path.read_text(encoding="utf-8"), ["answers", form])
             raise DomainError(
                 f"{path}:{line}: the answer '{form}' uses a slot that does not exist; there are "
-                f"{', '.join('{' + slot + '}' for slot in slots)}"
+                f"{', '.join('{' + slot + '}' for slot in SLOTS)}"
             ) from None
     return {**defaults, **domain.questions.answers}

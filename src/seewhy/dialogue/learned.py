@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 from seewhy.dialogue.answer import AnswerType
-from seewhy.dialogue.question import Asks, Question, Questions
+from seewhy.dialogue.question import Asks, Query, Question, Questions
 from seewhy.dialogue.recurrent import fit_answerer
 from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
 from seewhy.dialogue.recurrent_options import AnswerExample, RecurrentOptions
 from seewhy.dialogue.reference import ReferenceAnswers
 from seewhy.domain import Domain
 from seewhy.knowledge.scene import FeatureVector
+
+MOST_EXAMPLES = 20_000
+"""Examples that the recurrent network is trained on at most."""
+_NOT_LEARNED = {Asks.EXPLAIN, Asks.BELIEF_VALUE}  # what follows from the class need not be learned
 
 
 def fit_learned_answers(
@@ -23,30 +30,62 @@ def fit_learned_answers(
     labels: Sequence[str],
     *,
     seed: int = 0,
+    most_examples: int = MOST_EXAMPLES,
     on_progress: Callable[[Any], None] | None = None,
 ) -> RecurrentAnswerer:
-    """Train the recurrent network on every question about scenes that reasoning left open."""
-    wordings = [q for q in questions.all if q.asks is not Asks.EXPLAIN]
-    by_query: dict[tuple[str | None, ...], list[Question]] = {}
-    for question in wordings:
-        by_query.setdefault(question.query, []).append(question)
-    examples = [
-        AnswerExample(
-            words=same[number % len(same)].words,
-            features=_known(vector),
-            label=label,
-            answer=reference.answer(same[0], vector, label).identifier,
-            scene=number,
-        )
-        for number, (vector, label) in enumerate(zip(vectors, labels, strict=True))
-        for same in by_query.values()
-    ]
+    """Train the recurrent network on questions about scenes that reasoning left open.
+
+    Every query is asked of every scene. Where that makes more than ``most_examples``, which many
+    classes do, each scene is asked what concerns its own class and a share of the rest, which is
+    dealt out until every query had its turn, then again; so none is missing.
+    """
+    by_query: dict[Query, list[Question]] = {}
+    for question in questions.all:
+        if question.asks not in _NOT_LEARNED:
+            by_query.setdefault(question.query, []).append(question)
+    examples = []
+    for number, queries in _drawn(by_query, labels, most=most_examples, seed=seed):
+        vector, label = vectors[number], labels[number]
+        for query in queries:
+            same = by_query[query]
+            examples.append(
+                AnswerExample(
+                    words=same[number % len(same)].words,
+                    features=_known(vector),
+                    label=label,
+                    answer=reference.answer(same[0], vector, label).identifier,
+                    scene=number,
+                )
+            )
     return fit_answerer(
         examples,
         feature_values={key: feature.values for key, feature in domain.features.items()},
         options=RecurrentOptions(seed=seed),
         on_progress=on_progress,
     )
+
+
+def _drawn(
+    by_query: Mapping[Query, Sequence[Question]], labels: Sequence[str], *, most: int, seed: int
+) -> Iterator[tuple[int, list[Query]]]:
+    """Scenes by their numbers, and what each is asked."""
+    queries = list(by_query)
+    if len(queries) * len(labels) <= most:
+        for number in range(len(labels)):
+            yield number, queries
+        return
+    generator = np.random.default_rng(seed)
+    # Of more scenes than examples, a sample is asked one question each.
+    scenes = sorted(generator.permutation(len(labels))[:most].tolist())
+    each = max(1, most // len(scenes))
+    deck: list[Query] = []
+    for number in scenes:
+        own = [query for query in queries if query[1] == labels[number]]
+        chosen = dict.fromkeys(own if 2 * len(own) <= each else ())
+        while len(chosen) < min(each, len(queries)):
+            deck = deck or [queries[n] for n in generator.permutation(len(queries))]
+            chosen.setdefault(deck.pop())
+        yield number, list(chosen)
 
 
 def learned_answers(
@@ -61,26 +100,37 @@ def learned_answers(
     network knows none of them, the features of the tree's path are mentioned, with probability 0.
     """
     chosen: list[tuple[AnswerType, float]] = []
-    kinds = {identifier: AnswerType.parse(identifier) for identifier in answerer.answer_types}
+    by_form = _by_form(answerer.answer_types)
     for question, vector, label, path_features in asked:
         form = answer_form(domain, question, vector, label)
-        allowed = [
-            identifier
-            for identifier, kind in kinds.items()
-            if _possible(domain, kind, form, question, vector)
-        ]
+        values = domain.named(vector)
+        allowed = {
+            identifier: kind
+            for fitting in (form, _NOTHING.get(form, ""))
+            for identifier, kind in by_form.get(fitting, {}).items()
+            if _possible(kind, question, values)
+        }
         if allowed:
             identifier, probability = answerer.answer(
                 question.words, _known(vector), label, allowed=allowed
             )
-            chosen.append((kinds[identifier], probability))
+            chosen.append((allowed[identifier], probability))
         else:
             mentions = tuple(path_features) if form in _WITH_REASONS else ()
             if question.feature is not None:
                 mentions = (question.feature,)
-            form = "no_change" if form == "change" else form
-            chosen.append((AnswerType(form, mentions), 0.0))
+            chosen.append((AnswerType(_NOTHING.get(form, form), mentions), 0.0))
     return chosen
+
+
+@lru_cache(maxsize=8)
+def _by_form(identifiers: tuple[str, ...]) -> dict[str, dict[str, AnswerType]]:
+    """Form → identifier → answer type."""
+    found: dict[str, dict[str, AnswerType]] = {}
+    for identifier in identifiers:
+        kind = AnswerType.parse(identifier)
+        found.setdefault(kind.form, {})[identifier] = kind
+    return found
 
 
 def _known(vector: FeatureVector) -> tuple[str, ...]:
@@ -88,6 +138,8 @@ def _known(vector: FeatureVector) -> tuple[str, ...]:
     return tuple(value or "" for value in vector)
 
 
+_NOTHING = {"change": "no_change", "difference": "no_difference"}
+"""Forms that propose something, and what is said where there is nothing to propose."""
 _WITH_REASONS = {"reasons", "false_premise", "denied_not", "against"}
 
 
@@ -105,6 +157,8 @@ def answer_form(domain: Domain, question: Question, vector: FeatureVector, label
             return "denied_not" if same else "against"
         case Asks.CHANGE_TO_CLASS:
             return "already" if same else "change"
+        case Asks.DIFFERENCE_TO_CLASS:
+            return "same" if same else "difference"
         case Asks.FEATURE_VALUE:
             return "value"
         case Asks.FEATURE_IS:
@@ -113,12 +167,7 @@ def answer_form(domain: Domain, question: Question, vector: FeatureVector, label
     raise ValueError(f"'{question.asks}' is not a question about the scene")
 
 
-def _possible(
-    domain: Domain, kind: AnswerType, form: str, question: Question, vector: FeatureVector
-) -> bool:
-    if kind.form != form and not (form == "change" and kind.form == "no_change"):
-        return False
+def _possible(kind: AnswerType, question: Question, values: Mapping[str, str | None]) -> bool:
     if question.feature is not None and kind.mentions != (question.feature,):
         return False
-    values = domain.named(vector)
     return all(values[f] != value for change in kind.changes for f, value in change)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from seewhy.dialogue.answer import SLOTS, answer_templates
 from seewhy.domain import Domain
+from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.reply import Reply
 from seewhy.wording import join_words, say_features, sentence
@@ -19,24 +21,30 @@ def narrate(domain: Domain, reply: Reply) -> str:
         each = "each with a probability of at least" if len(sure) > 1 else "with a probability of"
         parts.append(f"I see that {seen} ({each} {min(sure):.2f})")
     parts += _steps(justification)
+    if reply.kind.form == "no_belief":
+        parts.append(justification.text)
     if reply.kind.form == "undecided":
         parts.append("there were no such scenes to learn from either")
-    return " ".join(sentence(part) for part in parts)
+    told = " ".join(sentence(part) for part in parts)
+    return answer_templates(domain)["explain"].format(
+        **{**dict.fromkeys(SLOTS, ""), "it": domain.subject, "explanation": told}
+    )
 
 
 def _steps(node: Node) -> list[str]:
-    if node.basis is Basis.TREE:
-        path, answer, undecided = node.children
+    tree = next((own for own in node.walk() if own.basis is Basis.TREE), None)
+    if tree is not None:
+        path, *learned, undecided = tree.children
         return [
             _why_undecided(undecided),
             f"so the decision tree is asked: {path.text}",
-            answer.text,
+            *(own.text for own in learned),
+            *_axioms(node),
         ]
-    if node.literal == "undecided" or node.basis is Basis.CONFLICT:
+    if node.literal in ("undecided", "unknown") or node.basis is Basis.CONFLICT:
         return [_why_undecided(node)]
-    believed = [n for n in node.walk() if n.holds and n.axiom is not None]
+    steps = _axioms(node)
     refused = [n for n in node.children if not n.holds and n.axiom is not None]
-    steps = [f'{n.text}, because "{n.axiom.text}"' for n in believed if n.axiom is not None]
     for child in refused[:3]:
         assert child.axiom is not None
         missing = [c.text for c in child.children if not c.holds]
@@ -47,8 +55,26 @@ def _steps(node: Node) -> list[str]:
     return list(dict.fromkeys(steps))
 
 
+def _axioms(node: Node) -> list[str]:
+    """The axioms that were used, what others rest on first; those of a tree's path are its own."""
+    steps = [] if node.basis is Basis.TREE else [s for c in node.children for s in _axioms(c)]
+    if node.holds and node.axiom is not None and _says_more(node.axiom):
+        steps.append(f'{node.text}, because "{node.axiom.text}"')
+    return list(dict.fromkeys(steps))
+
+
 def _why_undecided(node: Node) -> str:
     if node.basis is Basis.CONFLICT:
-        sides = [f'"{n.axiom.text}"' for n in node.walk() if n.axiom is not None]
-        return f"{node.text}: {join_words(list(dict.fromkeys(sides)))} cannot both hold"
+        axioms = [n.axiom for n in node.walk() if n.axiom is not None and _says_more(n.axiom)]
+        sides = list(dict.fromkeys(f'"{axiom.text}"' for axiom in axioms))
+        if any(child.basis is Basis.FEATURE for child in node.children):
+            agree = "do" if len(sides) > 1 else "does"
+            return f"{node.text}: {join_words(sides)} {agree} not agree with what is seen"
+        which = "all" if len(sides) > 2 else "both"
+        return f"{node.text}: {join_words(sides)} cannot {which} hold"
     return node.text
+
+
+def _says_more(axiom: Axiom) -> bool:
+    """Whether an axiom says more than that its head is so, as facts without a sentence do not."""
+    return bool(axiom.body) or axiom.text != str(axiom).rstrip(".")

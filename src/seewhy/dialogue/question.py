@@ -7,6 +7,7 @@ import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 from itertools import islice, product
 from pathlib import Path
 
@@ -32,12 +33,17 @@ class Asks(StrEnum):
     WHY_CLASS = "why_class"
     WHY_NOT_CLASS = "why_not_class"
     CHANGE_TO_CLASS = "change_to_class"
+    DIFFERENCE_TO_CLASS = "difference_to_class"
+    BELIEF_VALUE = "belief_value"
     FEATURE_VALUE = "feature_value"
     FEATURE_IS = "feature_is"
     EXPLAIN = "explain"
 
 
-_ABOUT_A_CLASS = {Asks.IS_CLASS, Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS}
+_ABOUT_A_CLASS = {
+    Asks.IS_CLASS, Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS,
+    Asks.DIFFERENCE_TO_CLASS,
+}  # fmt: skip
 _ABOUT_A_FEATURE = {Asks.FEATURE_VALUE, Asks.FEATURE_IS}
 _CONTRACTIONS = {
     "what's": "what is", "whats": "what is", "it's": "it is", "isn't": "is not",
@@ -55,7 +61,11 @@ _LIGHT = {
     "picture", "image", "photo", "shown", "see", "all", "just", "about", "get", "that", "which",
     "with", "am", "was", "were", "need", "by", "also", "still",
 }  # fmt: skip
-_STEM = snowballstemmer.stemmer("english").stemWord
+_STEM = lru_cache(maxsize=16_384)(snowballstemmer.stemmer("english").stemWord)
+
+
+Query = tuple[str, str | None, str | None, str | None]
+"""What is asked, the class, the feature or static, and the value that it is about."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +77,8 @@ class Question:
     asks : Asks
     text : str
         The question in the words of the domain's template.
-    label, feature, value : str or None
-        The class, the feature and the value that it is about.
+    label, feature, value, predicate : str or None
+        The class, the feature and the value, or the static that it is about.
     words : tuple of str
         Its normalised words, which the recurrent network reads.
     """
@@ -79,11 +89,12 @@ class Question:
     label: str | None = None
     feature: str | None = None
     value: str | None = None
+    predicate: str | None = None
 
     @property
-    def query(self) -> tuple[str, str | None, str | None, str | None]:
+    def query(self) -> Query:
         """What is asked, without the wording; equal for questions that mean the same."""
-        return (self.asks.value, self.label, self.feature, self.value)
+        return (self.asks.value, self.label, self.feature or self.predicate, self.value)
 
 
 class Questions:
@@ -105,7 +116,7 @@ class Questions:
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
         _check_words(domain)
-        self._subject = _tokens(domain.subject)[-1]
+        self._subject = {_STEM(word) for word in (_tokens(domain.subject)[-1], *_SUBJECT)}
         self._synonyms = self._read_synonyms()
         self._known: dict[tuple[str, ...], Question] = {}
         spelling: set[str] = set(_CONTRACTIONS) | _LIGHT | _SUBJECT | _DROPPED
@@ -114,7 +125,10 @@ class Questions:
         for question in self._expand(domain):
             spelling.update(_tokens(question.text))
             self._known.setdefault(question.words, question)
-        self._spelling = sorted(spelling)
+        self._by_weighty: dict[frozenset[str], list[Question]] = {}
+        for question in self._known.values():
+            self._by_weighty.setdefault(_weighty(question.words), []).append(question)
+        self._spelling = spelling
         self._stems = frozenset(map(_STEM, spelling))
 
     @property
@@ -124,7 +138,7 @@ class Questions:
 
     def one_of_each(self) -> tuple[Question, ...]:
         """The first wording of every distinct query, in the order of the templates."""
-        first: dict[tuple[str, str | None, str | None, str | None], Question] = {}
+        first: dict[Query, Question] = {}
         for question in self._known.values():
             first.setdefault(question.query, question)
         return tuple(first.values())
@@ -175,18 +189,16 @@ class Questions:
 
     def _loosely(self, words: tuple[str, ...]) -> Question | None:
         """The question with the same weighty words, whatever their order, if there is one."""
-        weighty = frozenset(words) - _LIGHT_STEMS
+        weighty = _weighty(words)
         if not weighty:
             return None
-        queries = {}
+        queries: dict[Query, Question] = {}
         best = -1.0
-        for known, question in self._known.items():
-            if frozenset(known) - _LIGHT_STEMS != weighty:
-                continue
+        for question in self._by_weighty.get(weighty, ()):
             # What a "not" denies is told by its place alone.
-            if "not" in weighty and _after_not(words) != _after_not(known):
+            if "not" in weighty and _after_not(words) != _after_not(question.words):
                 continue
-            score = fuzz.ratio(" ".join(words), " ".join(known))
+            score = fuzz.ratio(" ".join(words), " ".join(question.words))
             if score > best:
                 best, queries = score, {question.query: question}
             elif score == best:
@@ -211,7 +223,7 @@ class Questions:
         allowed = 1 if len(token) < 7 else 2
         close = process.extract(
             token,
-            [word for word in self._spelling if word[0] == token[0] or len(word) > 4],
+            sorted(word for word in self._spelling if word[0] == token[0] or len(word) > 4),
             scorer=DamerauLevenshtein.distance,
             score_cutoff=allowed,
             limit=None,
@@ -220,9 +232,11 @@ class Questions:
         return [word for word, distance, _ in close if distance == least] or [token]
 
     def _nearest(self, text: str) -> tuple[str, ...]:
-        texts = {question.text: question.query for question in self._known.values()}
+        weighty = _weighty(self._normalise(text))
+        alike = [q for q in self._known.values() if not weighty.isdisjoint(q.words)]
+        texts = {question.text: question.query for question in alike or self._known.values()}
         ranked = process.extract(text, list(texts), scorer=fuzz.token_set_ratio, limit=40)
-        chosen: dict[tuple[str, str | None, str | None, str | None], str] = {}
+        chosen: dict[Query, str] = {}
         for found, _, _ in ranked:
             chosen.setdefault(texts[found], found)
         return tuple(f"{found}?" for found in list(chosen.values())[:3])
@@ -234,29 +248,32 @@ class Questions:
     def _suggest(questions: Sequence[str]) -> str:
         return "ask for instance: " + " · ".join(questions)
 
-    def _read_synonyms(self) -> list[tuple[tuple[str, ...], tuple[str, ...]]]:
+    def _read_synonyms(self) -> dict[str, list[tuple[tuple[str, ...], tuple[str, ...]]]]:
+        """First stem → the phrases that begin with it and what they stand for, longest first."""
         pairs = [
             (tuple(map(_STEM, _tokens(other))), tuple(map(_STEM, _tokens(canonical))))
             for canonical, others in self.domain.questions.synonyms.items()
             for other in others
         ]
         fillers = [(tuple(map(_STEM, _tokens(f))), ()) for f in self.domain.questions.fillers]
-        return sorted([*pairs, *fillers], key=lambda pair: -len(pair[0]))
+        by_first: dict[str, list[tuple[tuple[str, ...], tuple[str, ...]]]] = {}
+        for pair in sorted([*pairs, *fillers], key=lambda pair: -len(pair[0])):
+            by_first.setdefault(pair[0][0], []).append(pair)
+        return by_first
 
     def _normalise(self, text: str) -> tuple[str, ...]:
         stems = [_STEM(token) for token in _tokens(text) if token not in _DROPPED]
         position = 0
         while position < len(stems):
-            for other, canonical in self._synonyms:
+            for other, canonical in self._synonyms.get(stems[position], ()):
                 if tuple(stems[position : position + len(other)]) == other:
                     stems[position : position + len(other)] = canonical
                     position += len(canonical) - 1
                     break
             position += 1
-        subject = {_STEM(self._subject), *(_STEM(word) for word in _SUBJECT)}
         words: list[str] = []
         for stem in stems:
-            word = "it" if stem in subject else stem
+            word = "it" if stem in self._subject else stem
             if not (word == "it" and words and words[-1] == "it"):
                 words.append(word)
         return tuple(words)
@@ -282,6 +299,7 @@ class Questions:
                             label=filled.label,
                             feature=table.feature,
                             value=filled.value,
+                            predicate=table.predicate,
                         )
 
 
@@ -321,9 +339,16 @@ def _check_words(domain: Domain) -> None:
 _LIGHT_STEMS = frozenset(_STEM(word) for word in _LIGHT)
 
 
+def _weighty(words: Sequence[str]) -> frozenset[str]:
+    """The normalised words that tell what is asked."""
+    return frozenset(words) - _LIGHT_STEMS
+
+
 def _tokens(text: str) -> list[str]:
-    plain = unicodedata.normalize("NFKD", text).casefold().replace("’", "'")
-    plain = "".join(c for c in plain if not unicodedata.combining(c))
+    plain = text.casefold()
+    if not plain.isascii():
+        plain = unicodedata.normalize("NFKD", text).casefold().replace("’", "'")
+        plain = "".join(c for c in plain if not unicodedata.combining(c))
     words = re.findall(r"(?<!\w)-\d+|[\w']+", plain.replace("_", " "))
     expanded = " ".join(_CONTRACTIONS.get(word, word) for word in words)
     return [word.strip("'") for word in expanded.split() if word.strip("'")]
@@ -396,6 +421,20 @@ def _check_table(table: QuestionTable, domain: Domain, place: str) -> Asks:
         raise DomainError(f"{place}: asks = '{asks}' needs a feature; add feature = \"…\"")
     if asks not in _ABOUT_A_FEATURE and table.feature is not None:
         raise DomainError(f"{place}: asks = '{asks}' is about no feature; remove 'feature'")
+    if asks is Asks.BELIEF_VALUE and table.predicate is None:
+        raise DomainError(f"{place}: asks = '{asks}' needs a static; add predicate = \"…\"")
+    if asks is not Asks.BELIEF_VALUE and table.predicate is not None:
+        raise DomainError(f"{place}: asks = '{asks}' is about no static; remove 'predicate'")
+    if table.predicate is not None and table.predicate in domain.features:
+        raise DomainError(
+            f"{place}: '{table.predicate}' is a feature; ask for it with asks = "
+            f"'{Asks.FEATURE_VALUE}' and feature = \"{table.predicate}\""
+        )
+    if table.predicate is not None and table.predicate not in domain.beliefs:
+        raise DomainError(
+            f"{place}: '{table.predicate}' is no static of knowledge.al that gives "
+            f"'{domain.scene}' a value; {did_you_mean(table.predicate, domain.beliefs)}"
+        )
     if table.feature is not None and table.feature not in domain.features:
         raise DomainError(
             f"{place}: '{table.feature}' is no feature of domain.toml; "

@@ -3,18 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
-from seewhy.dialogue.answer import AnswerType
+from seewhy.dialogue.answer import AnswerType, Changes
+from seewhy.dialogue.belief import ToldClass, believed_values, with_basis
 from seewhy.dialogue.question import Asks, Question
 from seewhy.domain import Domain
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.change import ChangeFinder
+from seewhy.knowledge.evidence import Evidence, evidence_of
+from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.justification import Basis, Node
-from seewhy.knowledge.reasoner import Reasoner
+from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.knowledge.why import why
-from seewhy.knowledge.why_not import why_not
-from seewhy.wording import say_literal
+from seewhy.knowledge.why import contradiction, justify
+from seewhy.knowledge.why_not import refuse, shortfall
+from seewhy.wording import join_words, say_literal
+
+_UNDECIDED = {
+    Verdict.SILENT: "no axiom concludes a class",
+    Verdict.SEVERAL: "it concludes more than one class",
+    Verdict.CONTRADICTION: "it contradicts itself here",
+    Verdict.NO_ANSWER_SET: "no set of beliefs agrees with all axioms",
+    Verdict.BELIEVED: "",
+}
+_CLASSES_SHOWN = 3
+_SCENES_REMEMBERED = 1_000
+_NODES_REMEMBERED = 20_000
 
 
 @dataclass(frozen=True)
@@ -44,10 +59,16 @@ class ReasonedAnswers:
     def __init__(self, domain: Domain, reasoner: Reasoner) -> None:
         self.domain = domain
         self.reasoner = reasoner
-        self.changes = ChangeFinder(reasoner)
+        self.told = ToldClass(domain, reasoner, say=self._say)
+        # Scenes with many classes come back often: equal questions are answered once.
+        self.evidence = lru_cache(maxsize=_SCENES_REMEMBERED)(self._evidence)
+        self.why_class = lru_cache(maxsize=_NODES_REMEMBERED)(self._why_class)
+        self.why_not_class = lru_cache(maxsize=_NODES_REMEMBERED)(self._why_not_class)
+        self.undecided = lru_cache(maxsize=_SCENES_REMEMBERED)(self._undecided)
+        self.smallest = lru_cache(maxsize=_NODES_REMEMBERED)(ChangeFinder(reasoner).smallest)
 
-    def answer(self, question: Question, vector: FeatureVector, label: str) -> ReasonedAnswer:
-        """Answer a question about a scene of class ``label``.
+    def kind(self, question: Question, vector: FeatureVector, label: str) -> AnswerType:
+        """Return the answer type alone, as :meth:`answer` does, without all of its justification.
 
         Raises
         ------
@@ -55,23 +76,51 @@ class ReasonedAnswers:
             If the question asks to explain: what it refers to is the agent's to know.
         """
         asked = question.label or label
+        same = asked == label
         match question.asks:
             case Asks.CLASS:
-                return ReasonedAnswer(AnswerType("class"), self.why_class(vector, label))
+                return AnswerType("class")
             case Asks.IS_CLASS:
-                form = "yes_class" if asked == label else "no_class"
-                return ReasonedAnswer(AnswerType(form), self.why_class(vector, label))
+                return AnswerType("yes_class" if same else "no_class")
             case Asks.WHY_CLASS:
-                node = self.why_class(vector, label)
-                form = "reasons" if asked == label else "false_premise"
-                return ReasonedAnswer(AnswerType(form, self._ordered(node.features())), node)
+                features = self._ordered(self.why_class(vector, label).features())
+                return AnswerType("reasons" if same else "false_premise", features)
             case Asks.WHY_NOT_CLASS:
-                return self._why_not(vector, label, asked)
+                if same:
+                    features = self.why_class(vector, label).features()
+                    return AnswerType("denied_not", self._ordered(features))
+                return AnswerType("against", self._against(vector, asked))
             case Asks.CHANGE_TO_CLASS:
-                return self._change(vector, label, asked)
+                return AnswerType("already") if same else self._change(vector, asked)
+            case Asks.DIFFERENCE_TO_CLASS:
+                return AnswerType("same") if same else self._difference(vector, asked)
+            case Asks.FEATURE_VALUE | Asks.FEATURE_IS:
+                return self.feature(question, vector).kind
+            case Asks.BELIEF_VALUE:
+                predicate = question.predicate or ""
+                return _belief(believed_values(self.domain, self._about(vector, label), predicate))
+        raise ValueError(f"'{question.asks}' is not a question about the scene")
+
+    def answer(self, question: Question, vector: FeatureVector, label: str) -> ReasonedAnswer:
+        """Answer a question about a scene of class ``label``.
+
+        Raises
+        ------
+        ValueError
+            As :meth:`kind`.
+        """
+        kind = self.kind(question, vector, label)
+        asked = question.label or label
+        match question.asks:
             case Asks.FEATURE_VALUE | Asks.FEATURE_IS:
                 return self.feature(question, vector)
-        raise ValueError(f"'{question.asks}' is not a question about the scene")
+            case Asks.BELIEF_VALUE:
+                return self.belief(question, vector, label, basis=self.why_class(vector, label))
+            case Asks.WHY_NOT_CLASS if asked != label:
+                return ReasonedAnswer(kind, self._refused(vector, asked))
+            case Asks.CHANGE_TO_CLASS | Asks.DIFFERENCE_TO_CLASS if asked != label:
+                return ReasonedAnswer(kind, self._changed(vector, asked, kind))
+        return ReasonedAnswer(kind, self.why_class(vector, label))
 
     def feature(self, question: Question, vector: FeatureVector) -> ReasonedAnswer:
         """Answer a question about a feature, which needs no class."""
@@ -82,6 +131,38 @@ class ReasonedAnswers:
             form = "yes" if value == question.value else "no"
         node = self.seen(vector, feature)
         return ReasonedAnswer(AnswerType(form, (feature,)), node)
+
+    def belief(
+        self, question: Question, vector: FeatureVector, label: str, *, basis: Node
+    ) -> ReasonedAnswer:
+        """Answer what is believed of a static, given that the scene is of class ``label``.
+
+        ``basis`` is why it is of that class. Where the knowledge does not conclude the class,
+        the class is told to it (:class:`~seewhy.dialogue.belief.ToldClass`).
+        """
+        own = self.domain.beliefs[question.predicate or ""]
+        evidence = self._about(vector, label)
+        values = believed_values(self.domain, evidence, own.key)
+        basis = replace(basis, literal=str(literal_of(key_of(self.domain.classes[label].literal))))
+        nodes = tuple(
+            with_basis(node, basis)
+            for value in values
+            if (node := justify(evidence, own.literals[value])) is not None
+        )
+        if len(nodes) == 1:
+            return ReasonedAnswer(_belief(values), nodes[0])
+        said = join_words([own.words[value] for value in values])
+        text = own.say.replace("{it}", self.domain.subject).replace("{value}", said)
+        if not values:
+            text = f"nothing that is known says what the {own.name} of {self.domain.subject} is"
+        node = Node(
+            literal=f"{own.key}({self.domain.scene}, _)",
+            text=text,
+            basis=Basis.REASONS if values else Basis.UNFOUNDED,
+            holds=bool(values),
+            children=nodes or (basis,),
+        )
+        return ReasonedAnswer(_belief(values), node)
 
     def seen(self, vector: FeatureVector, feature: str) -> Node:
         """The node of a feature that the picture shows."""
@@ -98,58 +179,133 @@ class ReasonedAnswers:
             value=value,
         )
 
-    def why_class(self, vector: FeatureVector, label: str) -> Node:
+    def nearest_classes(self, vector: FeatureVector, *, most: int) -> tuple[str, ...]:
+        """Return the classes that are nearest to being believed, in the order of the domain.
+
+        Those whose axioms have the fewest failed conditions, at most ``most``; all classes where
+        only one would be left out.
+        """
+        classes = tuple(self.domain.classes)
+        if len(classes) <= most + 1:
+            return classes
+        evidence = self.evidence(vector)
+        failed = {
+            label: shortfall(evidence, own.literal) for label, own in self.domain.classes.items()
+        }
+        able = [label for label in classes if failed[label] is not None]
+        chosen = sorted(able, key=lambda label: failed[label] or 0)[:most]
+        return tuple(label for label in classes if label in chosen)
+
+    def _undecided(self, vector: FeatureVector) -> Node:
+        """Why the knowledge does not decide a scene: of many classes, the nearest are looked at."""
+        both = contradiction(self.reasoner, vector, say=self._say)
+        if both is not None:
+            return both
+        verdict = self.reasoner.decide(vector).verdict
+        children: list[Node] = []
+        if verdict is Verdict.SILENT:
+            nearest = self.nearest_classes(vector, most=_CLASSES_SHOWN)
+            children += [self.why_not_class(vector, label) for label in nearest]
+            others = len(self.domain.classes) - len(nearest)
+            if others:
+                text = (
+                    f"nor does it follow that {self.domain.subject} is of one of the "
+                    f"{others} other classes"
+                )
+                children.append(Node("others", text, Basis.ABSENCE, holds=False))
+        return Node(
+            literal="undecided",
+            text=f"the knowledge does not decide: {_UNDECIDED[verdict]}",
+            basis=Basis.ABSENCE,
+            holds=False,
+            children=tuple(children),
+        )
+
+    def _evidence(self, vector: FeatureVector) -> Evidence:
+        return evidence_of(self.reasoner, vector, say=self._say)
+
+    def _about(self, vector: FeatureVector, label: str) -> Evidence:
+        """What is believed of a scene, its class included whoever gave it."""
+        if self.reasoner.decide(vector).label == label:
+            return self.evidence(vector)
+        return self.told.evidence(vector, label)
+
+    def _why_class(self, vector: FeatureVector, label: str) -> Node:
         """The justification of the belief that a scene is of a class."""
-        literal = self.domain.classes[label].literal
-        node = why(self.reasoner, vector, literal, say=self._say)
-        return node or why_not(self.reasoner, vector, literal, say=self._say)
+        return self._why(vector, self.domain.classes[label].literal) or self.why_not_class(
+            vector, label
+        )
 
-    def why_not_class(self, vector: FeatureVector, label: str) -> Node:
+    def _why_not_class(self, vector: FeatureVector, label: str) -> Node:
         """The justification of the absence of the belief that a scene is of a class."""
-        return why_not(self.reasoner, vector, self.domain.classes[label].literal, say=self._say)
+        return refuse(self.evidence(vector), self.domain.classes[label].literal)
 
-    def _why_not(self, vector: FeatureVector, label: str, asked: str) -> ReasonedAnswer:
-        if asked == label:
-            node = self.why_class(vector, label)
-            return ReasonedAnswer(AnswerType("denied_not", self._ordered(node.features())), node)
-        refused = self.why_not_class(vector, asked)
-        opposite = self.domain.classes[asked].literal.complement
-        against = why(self.reasoner, vector, opposite, say=self._say)
+    def _why(self, vector: FeatureVector, literal: Literal) -> Node | None:
+        if self.reasoner.answer_set(vector) is None:
+            return None
+        return justify(self.evidence(vector), literal)
+
+    def _against(self, vector: FeatureVector, asked: str) -> tuple[str, ...]:
+        """The features that speak against a class, or else those that its axioms miss."""
+        against = self._why(vector, self.domain.classes[asked].literal.complement)
         if against is not None:
             # What is believed false has reasons of its own; they say more than what is missing.
-            node = replace(refused, children=(against, *refused.children))
-            return ReasonedAnswer(AnswerType("against", self._ordered(against.features())), node)
+            return self._ordered(against.features())
+        refused = self.why_not_class(vector, asked)
         failed = {
             node.feature
             for node in (refused.children[0].children if refused.children else ())
             if not node.holds and node.feature
         }
-        return ReasonedAnswer(AnswerType("against", self._ordered(tuple(failed))), refused)
+        return self._ordered(tuple(failed))
 
-    def _change(self, vector: FeatureVector, label: str, asked: str) -> ReasonedAnswer:
-        if asked == label:
-            return ReasonedAnswer(AnswerType("already"), self.why_class(vector, label))
-        found = self.changes.smallest(vector, asked)
-        alternatives = tuple(
+    def _refused(self, vector: FeatureVector, asked: str) -> Node:
+        refused = self.why_not_class(vector, asked)
+        against = self._why(vector, self.domain.classes[asked].literal.complement)
+        return (
+            refused if against is None else replace(refused, children=(against, *refused.children))
+        )
+
+    def _alternatives(self, vector: FeatureVector, asked: str) -> tuple[Changes, ...]:
+        return tuple(
             tuple((change.feature, change.after) for change in own.changes)
-            for own in found
+            for own in self.smallest(vector, asked)
             if own.changes
         )
-        if not alternatives:
-            return ReasonedAnswer(AnswerType("no_change"), self.why_not_class(vector, asked))
-        after = found[0].vector
+
+    def _change(self, vector: FeatureVector, asked: str) -> AnswerType:
+        found = self._alternatives(vector, asked)
+        return AnswerType("change", changes=found) if found else AnswerType("no_change")
+
+    def _difference(self, vector: FeatureVector, asked: str) -> AnswerType:
+        return difference(self.domain, self._alternatives(vector, asked))
+
+    def _changed(self, vector: FeatureVector, asked: str, kind: AnswerType) -> Node:
+        """Why a scene is not of a class, and why it would be with the change."""
+        refused = self.why_not_class(vector, asked)
+        if not kind.changes:
+            return refused
+        after = self.smallest(vector, asked)[0].vector
         node = replace(
             self.why_class(after, asked),
             text=f"with this change, {self._say(self.domain.classes[asked].literal)}",
         )
-        refused = self.why_not_class(vector, asked)
-        return ReasonedAnswer(
-            AnswerType("change", changes=alternatives),
-            replace(refused, children=(*refused.children, node)),
-        )
+        return replace(refused, children=(*refused.children, node))
 
     def _ordered(self, features: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(feature for feature in self.domain.features if feature in features)
 
     def _say(self, literal: Literal) -> str:
         return say_literal(self.domain, literal)
+
+
+def difference(domain: Domain, alternatives: tuple[Changes, ...]) -> AnswerType:
+    """Return the answer that a scene differs from a class by one of these changes."""
+    if not alternatives:
+        return AnswerType("no_difference")
+    changed = {feature for change in alternatives for feature, _ in change}
+    return AnswerType("difference", tuple(f for f in domain.features if f in changed), alternatives)
+
+
+def _belief(values: tuple[str, ...]) -> AnswerType:
+    return AnswerType("belief", values=values) if values else AnswerType("no_belief")

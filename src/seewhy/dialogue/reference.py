@@ -16,7 +16,7 @@ import numpy as np
 
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks, Question
-from seewhy.dialogue.reasoned import ReasonedAnswers
+from seewhy.dialogue.reasoned import ReasonedAnswers, difference
 from seewhy.domain import Domain
 from seewhy.knowledge.scene import FeatureVector
 
@@ -96,6 +96,7 @@ class ReferenceAnswers:
         self.reasoned = reasoned
         self.experience = experience
         self._known: dict[tuple[object, ...], AnswerType] = {}
+        self._relevant: dict[tuple[FeatureVector, str], tuple[str, ...]] = {}
 
     def answer(self, question: Question, vector: FeatureVector, label: str) -> AnswerType:
         """Return the answer type for annotated features and the true class."""
@@ -106,13 +107,13 @@ class ReferenceAnswers:
 
     def _answer(self, question: Question, vector: FeatureVector, label: str) -> AnswerType:
         decides = self.reasoned.reasoner.decide(vector).label == label
-        if decides or question.asks not in (
-            Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS
-        ):  # fmt: skip
-            return self.reasoned.answer(question, vector, label).kind
-        if question.asks is Asks.CHANGE_TO_CLASS:
-            kind = self.reasoned.answer(question, vector, label).kind
+        if decides or question.asks not in (Asks.WHY_CLASS, Asks.WHY_NOT_CLASS):
+            kind = self.reasoned.kind(question, vector, label)
+            if decides or len(kind.changes) < 2:
+                return kind
             # One alternative is what a softmax over answer types can learn.
+            if kind.form == "difference":
+                return difference(self.domain, kind.changes[:1])
             return AnswerType(kind.form, kind.mentions, kind.changes[:1])
         same = question.label == label
         forms = {
@@ -121,6 +122,8 @@ class ReferenceAnswers:
             (Asks.WHY_NOT_CLASS, True): "denied_not",
             (Asks.WHY_NOT_CLASS, False): "against",
         }
-        relevant = relevant_features(self.experience, list(self.domain.features), vector, label)
-        ordered = tuple(feature for feature in self.domain.features if feature in relevant)
-        return AnswerType(forms[question.asks, same], ordered)
+        if (vector, label) not in self._relevant:
+            self._relevant[vector, label] = relevant_features(
+                self.experience, list(self.domain.features), vector, label
+            )
+        return AnswerType(forms[question.asks, same], self._relevant[vector, label])

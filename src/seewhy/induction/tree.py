@@ -141,7 +141,11 @@ class DecisionTree:
         ValueError
             If the tree is not fitted.
         """
-        return str(self._fitted().predict(self._encode([vector]))[0])
+        return self.classify_all([vector])[0]
+
+    def classify_all(self, vectors: Sequence[FeatureVector]) -> list[str]:
+        """Return the class of every scene."""
+        return [str(own) for own in self._fitted().predict(self._encode(vectors))]
 
     def probability(self, vector: FeatureVector) -> dict[str, float]:
         """Return the share of each class among the training scenes in the scene's leaf."""

@@ -41,18 +41,27 @@ def check_consistency(knowledge: Knowledge, schema: SceneSchema) -> None:
 
 
 def never_applies(knowledge: Knowledge, schema: SceneSchema) -> tuple[Axiom, ...]:
-    """Return the axioms whose conditions no feature vector satisfies."""
-    probe = _Probe(knowledge, schema)
+    """Return the axioms whose conditions no feature vector satisfies.
+
+    A class that no axiom concludes is for the decision tree to tell; it may be or not.
+    """
+    concluded = {(axiom.head.predicate, axiom.head.positive) for axiom in knowledge.axioms}
+    told = "; ".join(
+        f"holds({literal})"
+        for literal in schema.classes.values()
+        if (literal.predicate, literal.positive) not in concluded
+    )
+    probe = _Probe(knowledge, schema, also=f"{{ {told} }}.\n")
     return tuple(a for a in knowledge.axioms if not probe.can_fire(a, strict=False))
 
 
 class _Probe:
     """The program with its features left open, asked which axioms can fire."""
 
-    def __init__(self, knowledge: Knowledge, schema: SceneSchema) -> None:
+    def __init__(self, knowledge: Knowledge, schema: SceneSchema, *, also: str = "") -> None:
         self.knowledge = knowledge
         text = program_text(knowledge, schema, exceptions=True, firings=True)
-        self.grounding = Grounding(text + "used(I) :- fires(I, V).\n", schema)
+        self.grounding = Grounding(text + also + "used(I) :- fires(I, V).\n", schema)
         self.used = self.grounding.with_predicate("used")
         self.exceptions = self.grounding.with_predicate("exception")
 

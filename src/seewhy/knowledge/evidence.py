@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import chain
 
 import clingo
@@ -63,16 +64,21 @@ class Evidence:
                 given_up.append(axiom)
         return given_up
 
+    @cached_property
+    def _given(self) -> set[str]:
+        """The beliefs that need no axiom: what is seen, and exceptions to defaults."""
+        return {
+            key
+            for key in self.holds
+            if self.seen(literal_of(key)) is not None or self.exceptions(key)
+        }
+
     def founded(self, above: frozenset[str]) -> set[str]:
         """The beliefs that can be justified without the literals above them."""
         founded = self._founded_without.get(above)
         if founded is not None:
             return founded
-        founded = {
-            key
-            for key in self.holds - above
-            if self.seen(literal_of(key)) is not None or self.exceptions(key)
-        }
+        founded = self._given - above
         while new := {
             key
             for key, supports in self.supports.items()

@@ -49,6 +49,8 @@ class Node:
         The network's probability of that value.
     children : tuple of Node
         What the step rests on.
+    overruled : (str, float) or None
+        The more probable value that the network alone saw, where it does not fit what is known.
 
     Examples
     --------
@@ -67,6 +69,7 @@ class Node:
     value: str | None = None
     probability: float | None = None
     children: tuple[Node, ...] = ()
+    overruled: tuple[str, float] | None = None
 
     def walk(self) -> Iterator[Node]:
         """Yield this node and all below it, parents first."""
@@ -79,18 +82,25 @@ class Node:
         named = (node.feature for node in self.walk() if node.feature is not None)
         return tuple(dict.fromkeys(named))
 
-    def with_probabilities(self, seen: Mapping[str, tuple[str, float]]) -> Node:
+    def with_probabilities(
+        self,
+        seen: Mapping[str, tuple[str, float]],
+        overruled: Mapping[str, tuple[str, float]] | None = None,
+    ) -> Node:
         """Return the tree with the probability of every value that the picture shows.
 
-        ``seen`` gives each feature's value and its probability. The values of a proposed change
-        are no readings and have no probability.
+        ``seen`` gives each feature's value and its probability, ``overruled`` the value that the
+        network alone saw where it is another. The values of a proposed change are no readings
+        and have no probability.
         """
         value, probability = seen.get(self.feature or "", (None, None))
         shown = self.feature is not None and self.value in (None, value)
+        alone = (overruled or {}).get(self.feature or "")
         return replace(
             self,
             probability=probability if shown else self.probability,
-            children=tuple(child.with_probabilities(seen) for child in self.children),
+            overruled=alone if shown else self.overruled,
+            children=tuple(child.with_probabilities(seen, overruled) for child in self.children),
         )
 
     def label(self) -> str:
@@ -106,8 +116,14 @@ class Node:
         elif not self.holds and self.basis in (Basis.FEATURE, Basis.COMPARISON):
             line = f"but {line}"
         if self.probability is not None:
-            line += f" (p = {self.probability:.2f})"
+            line += f" (p = {self.probability:.2f}{self._said_overruled()})"
         return line
+
+    def _said_overruled(self) -> str:
+        if self.overruled is None:
+            return ""
+        value, probability = self.overruled
+        return f"; the network alone saw {value}, p = {probability:.2f}"
 
     def to_text(self) -> str:
         """Return the tree as indented lines."""
@@ -135,6 +151,9 @@ class Node:
             "feature": self.feature,
             "value": self.value,
             "probability": self.probability,
+            "overruled": None
+            if self.overruled is None
+            else {"value": self.overruled[0], "probability": self.overruled[1]},
             "children": [child.to_dict() for child in self.children],
         }
 

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+
 import torch
+import torch.nn.functional as functional
 
 from seewhy.perception.options import TrainingOptions
 
 __all__ = ["augment"]
+
+Uniform = Callable[..., torch.Tensor]  # of a shape, from -1 to 1
 
 
 def augment(pictures: torch.Tensor, options: TrainingOptions) -> torch.Tensor:
@@ -27,21 +33,13 @@ def augment(pictures: torch.Tensor, options: TrainingOptions) -> torch.Tensor:
     device = pictures.device
 
     def uniform(*shape: int) -> torch.Tensor:
+        # Drawn on the CPU always, so that runs with and without a GPU see the same pictures.
         return (torch.rand(shape) * 2 - 1).to(device)
 
-    # Drawn on the CPU always, so that runs with and without a GPU see the same pictures.
-    reach = options.shift * size
-    offsets = torch.round(uniform(2, n, 1) * reach).long()
-    places = torch.arange(size, device=device).expand(n, size)
-    columns = places
-    if options.flip:
-        mirrored = torch.rand(n, 1).to(device) < 0.5
-        columns = torch.where(mirrored, size - 1 - places, places)
-    # Clamped indices repeat the border where the picture has moved away from it.
-    rows = (places + offsets[0]).clamp(0, size - 1)
-    columns = (columns + offsets[1]).clamp(0, size - 1)
-    numbers = torch.arange(n, device=device)[:, None, None]
-    varied = pictures[numbers, rows[:, :, None], columns[:, None, :]].float()
+    if options.rotate or options.scale or options.shear:
+        varied = _tilted(pictures, options, uniform)
+    else:
+        varied = _moved(pictures, options, uniform)
 
     gain = (1 + options.brightness * uniform(n, 1, 1, 1)) * (
         1 + options.colour * uniform(n, 1, 1, 3)
@@ -55,3 +53,44 @@ def augment(pictures: torch.Tensor, options: TrainingOptions) -> torch.Tensor:
         # longer than all else here.
         varied += options.noise * torch.randn(1, size, size, 3).to(device)
     return varied
+
+
+def _moved(pictures: torch.Tensor, options: TrainingOptions, uniform: Uniform) -> torch.Tensor:
+    """Shift by whole pixels, which blurs nothing, and mirror."""
+    n, size = pictures.shape[:2]
+    device = pictures.device
+    offsets = torch.round(uniform(2, n, 1) * options.shift * size).long()
+    places = torch.arange(size, device=device).expand(n, size)
+    columns = places
+    if options.flip:
+        mirrored = torch.rand(n, 1).to(device) < 0.5
+        columns = torch.where(mirrored, size - 1 - places, places)
+    # Clamped indices repeat the border where the picture has moved away from it.
+    rows = (places + offsets[0]).clamp(0, size - 1)
+    columns = (columns + offsets[1]).clamp(0, size - 1)
+    numbers = torch.arange(n, device=device)[:, None, None]
+    return pictures[numbers, rows[:, :, None], columns[:, None, :]].float()
+
+
+def _tilted(pictures: torch.Tensor, options: TrainingOptions, uniform: Uniform) -> torch.Tensor:
+    """Rotate, stretch, slant, shift and mirror by one affine map a picture."""
+    n = len(pictures)
+    angle = uniform(n) * math.radians(options.rotate)
+    across, along = (torch.exp(uniform(n) * math.log1p(options.scale)) for _ in range(2))
+    slant = uniform(n) * options.shear
+    # In coordinates from -1 to 1, as affine_grid has them.
+    moves = uniform(2, n) * options.shift * 2
+    if options.flip:
+        across = torch.where(uniform(n) < 0, -across, across)
+    cosine, sine = torch.cos(angle), torch.sin(angle)
+    maps = torch.stack(
+        [
+            torch.stack([cosine * across, slant - sine * along, moves[0]], dim=1),
+            torch.stack([sine * across, cosine * along, moves[1]], dim=1),
+        ],
+        dim=1,
+    )
+    upright = pictures.float().permute(0, 3, 1, 2)
+    grid = functional.affine_grid(maps, list(upright.shape), align_corners=False)
+    tilted = functional.grid_sample(upright, grid, padding_mode="border", align_corners=False)
+    return tilted.permute(0, 2, 3, 1)

@@ -69,6 +69,7 @@ def fingerprint(
     values: Sequence[str],
     options: TrainingOptions,
     groups: Sequence[object] | None,
+    validation: npt.NDArray[np.int64] | None,
     start_from: GrowingNetwork | None,
 ) -> str:
     """What must agree for a checkpoint to be gone on with."""
@@ -81,6 +82,7 @@ def fingerprint(
         list(values),
         asdict(options),
         None if groups is None else [repr(group) for group in groups],
+        None if validation is None else [int(index) for index in validation],
     ]
     digest.update(json.dumps(described, sort_keys=True).encode())
     if start_from is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,19 +14,41 @@ from pydantic import BaseModel, ConfigDict
 
 from seewhy.errors import DatasetError, ModelError
 from seewhy.perception.events import FeatureRecord, Progress
-from seewhy.perception.network import GrowingNetwork
+from seewhy.perception.network import GrowingNetwork, Standard
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.parallel import train_networks
 from seewhy.perception.picture import SMALLEST_SIDE
 from seewhy.weights import REMEDY, Described, read_weights, write_weights
 
-__all__ = ["FeatureExtractor", "fit_extractor"]
+__all__ = ["FeatureExtractor", "Seen", "fit_extractor"]
 
 DESCRIPTION = "perception.json"
 WEIGHTS = "perception.safetensors"
-FORMAT = 1
+FORMAT = 2
 
 Pictures = npt.NDArray[np.uint8]
+
+
+class Seen(NamedTuple):
+    """What networks make of n pictures, by feature.
+
+    Attributes
+    ----------
+    probabilities : dict of str to ndarray of float, shape (n, number of values)
+        See :meth:`FeatureExtractor.probabilities`.
+    embeddings : dict of str to ndarray of float, shape (n, width of the dense layer)
+        See :meth:`FeatureExtractor.embeddings`.
+    """
+
+    probabilities: dict[str, npt.NDArray[np.float64]]
+    embeddings: dict[str, npt.NDArray[np.float32]]
+
+    def of(self, pictures: npt.NDArray[np.int64]) -> Seen:
+        """What they make of the pictures at some positions."""
+        return Seen(
+            {name: own[pictures] for name, own in self.probabilities.items()},
+            {name: own[pictures] for name, own in self.embeddings.items()},
+        )
 
 
 class FeatureExtractor:
@@ -84,17 +107,36 @@ class FeatureExtractor:
         DatasetError
             The array has another shape or type.
         """
+        return self.see(pictures).probabilities
+
+    def embeddings(self, pictures: Pictures) -> dict[str, npt.NDArray[np.float32]]:
+        """Outputs of each network's dense layer: pictures that look alike to it lie together.
+
+        Parameters and errors as for :meth:`probabilities`.
+
+        Returns
+        -------
+        dict of str to ndarray of float, shape (n, width of the dense layer)
+        """
+        return self.see(pictures).embeddings
+
+    def see(self, pictures: Pictures) -> Seen:
+        """Probabilities and embeddings at the cost of the probabilities alone.
+
+        Parameters and errors as for :meth:`probabilities`.
+        """
         batch = _checked(pictures[None] if pictures.ndim == 3 else pictures, size=self.size)
-        found: dict[str, npt.NDArray[np.float64]] = {}
+        seen = Seen({}, {})
         with torch.inference_mode():
             for name, network in self.networks.items():
+                # No picture at all is one empty batch.
                 parts = [
-                    network.probabilities(torch.from_numpy(batch[i : i + 256])).double().numpy()
-                    for i in range(0, len(batch), 256)
+                    network.see(torch.from_numpy(batch[i : i + 256]))
+                    for i in range(0, max(1, len(batch)), 256)
                 ]
-                empty = np.empty((0, len(self.values[name])))
-                found[name] = np.concatenate(parts) if parts else empty
-        return found
+                seen.probabilities[name] = torch.cat([own[0] for own in parts]).double().numpy()
+                seen.embeddings[name] = torch.cat([own[1] for own in parts]).numpy()
+        return seen
 
     def summary(self) -> dict[str, dict[str, object]]:
         """What came of training each feature: the fields of FeatureRecord by name."""
@@ -116,6 +158,8 @@ class FeatureExtractor:
                     values=self.values[name],
                     dense=network.dense,
                     dropout=network.dropout,
+                    channels=network.channels,
+                    standard=network.standard,
                     record=self.records[name],
                 )
                 for name, network in self.networks.items()
@@ -150,6 +194,8 @@ class FeatureExtractor:
                     depth=feature.record.depth,
                     dropout=feature.dropout,
                     dense=feature.dense,
+                    channels=feature.channels,
+                    standard=feature.standard,
                 )
                 start = f"{name}/"
                 network.load_state_dict(
@@ -174,6 +220,7 @@ def fit_extractor(
     values: Mapping[str, Sequence[str]],
     options: TrainingOptions | Mapping[str, TrainingOptions] | None = None,
     groups: Sequence[object] | None = None,
+    validation: npt.NDArray[np.int64] | None = None,
     checkpoints: Path | None = None,
     start_from: FeatureExtractor | None = None,
     workers: int = -1,
@@ -193,6 +240,8 @@ def fit_extractor(
         For all features, or for each (the defaults for those without).
     groups : sequence, length n, optional
         Pictures of one group are never divided between training and validation.
+    validation : ndarray of int64, optional
+        Indices of the pictures to validate every feature on; without it each draws its own.
     checkpoints : Path, optional
         A folder in which interrupted training finds where it was. Remove it when the extractor
         is saved.
@@ -258,6 +307,7 @@ def fit_extractor(
         values=values,
         options=chosen,
         groups=groups,
+        validation=validation,
         checkpoints=checkpoints,
         start_from=None if start_from is None else start_from.networks,
         workers=workers,
@@ -275,6 +325,8 @@ class _Feature(BaseModel):
     values: tuple[str, ...]
     dense: int
     dropout: float
+    channels: tuple[int, ...]
+    standard: Standard
     record: FeatureRecord
 
 

@@ -2,17 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 import torch
 from torch import nn
 
-__all__ = ["GrowingNetwork"]
+__all__ = ["CHANNELS", "GrowingNetwork", "Standard", "deepest"]
 
 CHANNELS = (8, 16, 32, 64)
 """Channels of the first convolutions; further ones have as many as the last."""
+
+Standard = Literal["set", "picture"]
+"""By whose mean and deviation a picture is standardised: all pictures' or its own."""
+
+DARKEST = 4.0
+"""Least deviation, in levels of 0..255, by which a picture's own is divided: noise stays noise."""
+
+
+def deepest(size: int) -> int:
+    """The depth at which pooling has left 2×2 or 3×3 points: no further one would see more.
+
+    Examples
+    --------
+    >>> deepest(56)
+    4
+    """
+    return max(1, size.bit_length() - 2)
 
 
 class GrowingNetwork(nn.Module):
@@ -33,6 +51,11 @@ class GrowingNetwork(nn.Module):
         Share of the dense layer's outputs that are dropped in training.
     dense : int, default 64
         Width of the dense layer.
+    channels : sequence of int, default (8, 16, 32, 64)
+        Channels of the first convolutions; further ones have as many as the last.
+    standard : {"set", "picture"}, default "set"
+        "picture" takes each picture's own mean brightness and deviation, over all channels
+        alike: for photographs between shade and glare, where no value depends on the light.
 
     Attributes
     ----------
@@ -64,16 +87,26 @@ class GrowingNetwork(nn.Module):
     temperature: torch.Tensor
 
     def __init__(
-        self, *, size: int, values: int, depth: int = 1, dropout: float = 0.5, dense: int = 64
+        self,
+        *,
+        size: int,
+        values: int,
+        depth: int = 1,
+        dropout: float = 0.5,
+        dense: int = 64,
+        channels: Sequence[int] = CHANNELS,
+        standard: Standard = "set",
     ) -> None:
         super().__init__()
         self.size = size
         self.values = values
         self.dropout = dropout
         self.dense = dense
+        self.channels = tuple(channels)
+        self.standard: Standard = standard
         if not 1 <= depth <= self.deepest:
             raise ValueError(f"depth must be 1 to {self.deepest} for pictures of {size} pixels")
-        self.blocks = nn.ModuleList([_block(i) for i in range(depth)])
+        self.blocks = nn.ModuleList([self._block(i) for i in range(depth)])
         self.head: nn.Sequential = self._new_head()
         self.register_buffer("mean", torch.full((3,), 127.5))
         self.register_buffer("deviation", torch.full((3,), 64.0))
@@ -86,15 +119,15 @@ class GrowingNetwork(nn.Module):
 
     @property
     def deepest(self) -> int:
-        """The depth at which pooling has left 2×2 or 3×3 points: no further one would see more."""
-        return max(1, self.size.bit_length() - 2)
+        """The greatest depth that pictures of this size allow, see :func:`deepest`."""
+        return deepest(self.size)
 
     @property
     def layers(self) -> str:
         """The layers in words, from the picture to the logits."""
         parts = []
         for i in range(self.depth):
-            parts += [f"conv {_channels(i - 1)}→{_channels(i)}", "pool"]
+            parts += [f"conv {self._channels(i - 1)}→{self._channels(i)}", "pool"]
         parts += [f"dense {self.dense}", f"dropout {self.dropout:g}", f"logits {self.values}"]
         return ", ".join(parts)
 
@@ -113,7 +146,7 @@ class GrowingNetwork(nn.Module):
         """
         if self.depth >= self.deepest:
             raise ValueError(f"a network for {self.size} pixels has at most {self.deepest} layers")
-        self.blocks.append(_block(self.depth).to(self.mean.device))
+        self.blocks.append(self._block(self.depth).to(self.mean.device))
         self.head = self._new_head().to(self.mean.device)
 
     def of_depth(self, depth: int) -> GrowingNetwork:
@@ -124,17 +157,20 @@ class GrowingNetwork(nn.Module):
             depth=depth,
             dropout=self.dropout,
             dense=self.dense,
+            channels=self.channels,
+            standard=self.standard,
         )
 
     def adopt(self, other: GrowingNetwork) -> None:
         """Take depth, convolutions and standardisation from ``other``, and its head if it fits."""
-        self.blocks = nn.ModuleList([_block(i) for i in range(min(other.depth, self.deepest))])
+        self.channels, self.standard, self.dense = other.channels, other.standard, other.dense
+        self.blocks = nn.ModuleList([self._block(i) for i in range(min(other.depth, self.deepest))])
         for block, source in zip(self.blocks, other.blocks, strict=False):
             block.load_state_dict(source.state_dict())
         self.mean.copy_(other.mean)
         self.deviation.copy_(other.deviation)
         self.head = self._new_head()
-        if (self.size, self.values, self.dense) == (other.size, other.values, other.dense):
+        if (self.size, self.values) == (other.size, other.values):
             self.head.load_state_dict(other.head.state_dict())
 
     def standardise_by(self, pictures: npt.NDArray[np.uint8]) -> None:
@@ -155,17 +191,27 @@ class GrowingNetwork(nn.Module):
 
     def forward(self, pictures: torch.Tensor) -> torch.Tensor:
         """Logits of shape (n, values) for pictures of shape (n, size, size, 3) in 0..255."""
-        standard = (pictures.float() - self.mean) / self.deviation
+        return self._logits(self.embeddings(pictures))
+
+    def embeddings(self, pictures: torch.Tensor) -> torch.Tensor:
+        """Outputs of the dense layer, shape (n, dense): what the logits are computed from."""
         # Rows × columns × channels in memory is what PyTorch calls channels last: no copy.
-        state = standard.permute(0, 3, 1, 2)
+        state = self._standardised(pictures.float()).permute(0, 3, 1, 2)
         for block in self.blocks:
             state = block(state)
-        logits: torch.Tensor = self.head(state)
-        return logits
+        flatten, dense, relu, _, _ = self.head
+        outputs: torch.Tensor = relu(dense(flatten(state)))
+        return outputs
 
-    def probabilities(self, pictures: torch.Tensor) -> torch.Tensor:
-        """Calibrated probabilities of shape (n, values)."""
-        return torch.softmax(self(pictures) / self.temperature, dim=1)
+    def see(self, pictures: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
+        """Calibrated probabilities, shape (n, values), and the embeddings that they come from."""
+        embeddings = self.embeddings(pictures)
+        return torch.softmax(self._logits(embeddings) / self.temperature, dim=1), embeddings
+
+    def _logits(self, embeddings: torch.Tensor) -> torch.Tensor:
+        *_, dropout, last = self.head
+        logits: torch.Tensor = last(dropout(embeddings))
+        return logits
 
     def decayed_and_free(self) -> tuple[list[nn.Parameter], list[nn.Parameter]]:
         """Parameters that weight decay shrinks (matrices) and those it leaves alone (vectors)."""
@@ -175,28 +221,33 @@ class GrowingNetwork(nn.Module):
 
         return list(of(True)), list(of(False))
 
+    def _standardised(self, pictures: torch.Tensor) -> torch.Tensor:
+        if self.standard == "set":
+            return (pictures - self.mean) / self.deviation
+        # Over all channels at once: what is blue stays blue.
+        deviation, mean = torch.std_mean(pictures, dim=(1, 2, 3), keepdim=True)
+        return (pictures - mean) / deviation.clamp_min(DARKEST)
+
     def _new_head(self) -> nn.Sequential:
         side = self.size >> self.depth
         return nn.Sequential(
             nn.Flatten(),
-            nn.Linear(side * side * _channels(self.depth - 1), self.dense),
+            nn.Linear(side * side * self._channels(self.depth - 1), self.dense),
             nn.ReLU(),
             nn.Dropout(self.dropout),
             nn.Linear(self.dense, self.values),
         )
 
+    def _channels(self, index: int) -> int:
+        """Channels after the convolution ``index``; -1 is the picture."""
+        return 3 if index < 0 else self.channels[min(index, len(self.channels) - 1)]
 
-def _channels(index: int) -> int:
-    """Channels after the convolution ``index``; -1 is the picture."""
-    return 3 if index < 0 else CHANNELS[min(index, len(CHANNELS) - 1)]
-
-
-def _block(index: int) -> nn.Sequential:
-    """A convolution and its pooling."""
-    channels = _channels(index)
-    return nn.Sequential(
-        nn.Conv2d(_channels(index - 1), channels, 3, padding=1, bias=False),
-        nn.MaxPool2d(2),
-        nn.BatchNorm2d(channels),
-        nn.ReLU(),
-    )
+    def _block(self, index: int) -> nn.Sequential:
+        """A convolution and its pooling."""
+        channels = self._channels(index)
+        return nn.Sequential(
+            nn.Conv2d(self._channels(index - 1), channels, 3, padding=1, bias=False),
+            nn.MaxPool2d(2),
+            nn.BatchNorm2d(channels),
+            nn.ReLU(),
+        )

@@ -14,6 +14,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
 import torch
 
 from seewhy.errors import SeeWhyError
@@ -36,6 +38,7 @@ def train_networks(
     values: Mapping[str, Sequence[str]],
     options: Mapping[str, TrainingOptions],
     groups: Sequence[object] | None = None,
+    validation: npt.NDArray[np.int64] | None = None,
     checkpoints: Path | None = None,
     start_from: Mapping[str, GrowingNetwork] | None = None,
     workers: int = -1,
@@ -67,6 +70,7 @@ def train_networks(
             "values": values[name],
             "options": options[name],
             "groups": groups,
+            "validation": validation,
             "checkpoints": checkpoints,
             "start_from": earlier.get(name),
         }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +12,7 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 
 from seewhy.errors import PictureError
 
-__all__ = ["LARGEST_MEGAPIXELS", "SMALLEST_SIDE", "as_picture", "read_picture"]
+__all__ = ["LARGEST_MEGAPIXELS", "SMALLEST_SIDE", "Fit", "as_picture", "read_picture"]
 
 SMALLEST_SIDE = 8
 """Pictures with a side shorter than this (in pixels) show nothing that a network could see."""
@@ -21,14 +22,18 @@ LARGEST_MEGAPIXELS = 100
 
 Picture = npt.NDArray[np.uint8]
 
+Fit = Literal["pad", "stretch"]
+"""How a picture that is not square becomes one."""
 
-def read_picture(path: Path | str, *, size: int) -> Picture:
+
+def read_picture(path: Path | str, *, size: int, fit: Fit = "pad") -> Picture:
     """Read a picture file as a square RGB array.
 
     Greyscale (8 and 16 bit), palette, transparent (laid on white), CMYK and animated files (the
     first frame) are read; a rotation noted by the camera is applied. A picture that is not
     square is padded to a square in the mean colour of its border, because stretching would
-    change the very shapes that features such as "leans" or "wide" are about.
+    change the very shapes that features such as "leans" or "wide" are about; ``fit="stretch"``
+    stretches it all the same, for pictures that are cut out close around one thing.
 
     Parameters
     ----------
@@ -36,6 +41,8 @@ def read_picture(path: Path | str, *, size: int) -> Picture:
         The file.
     size : int
         Side of the result, in pixels; at least 8.
+    fit : {"pad", "stretch"}, default "pad"
+        How a picture that is not square becomes one.
 
     Returns
     -------
@@ -89,10 +96,12 @@ def read_picture(path: Path | str, *, size: int) -> Picture:
             # A decoder raises whatever the damaged bytes lead it to: struct.error, IndexError, …
             raise PictureError(_damaged(str(file), error)) from None
         with image:
-            return _square(image, size=size, name=str(file))
+            return _square(image, size=size, fit=fit, name=str(file))
 
 
-def as_picture(image: Path | str | Image.Image | npt.NDArray[np.generic], *, size: int) -> Picture:
+def as_picture(
+    image: Path | str | Image.Image | npt.NDArray[np.generic], *, size: int, fit: Fit = "pad"
+) -> Picture:
     """Make a square RGB array of a path, an open Pillow image or an array.
 
     Parameters
@@ -103,6 +112,8 @@ def as_picture(image: Path | str | Image.Image | npt.NDArray[np.generic], *, siz
         holds booleans, uint8 in 0..255, uint16 in 0..65535 or floats in 0..1.
     size : int
         Side of the result, in pixels; at least 8.
+    fit : {"pad", "stretch"}, default "pad"
+        See :func:`read_picture`.
 
     Returns
     -------
@@ -119,20 +130,21 @@ def as_picture(image: Path | str | Image.Image | npt.NDArray[np.generic], *, siz
     (8, 8, 3)
     """
     if isinstance(image, Path | str):
-        return read_picture(image, size=size)
+        return read_picture(image, size=size, fit=fit)
     _check_size(size)
     if isinstance(image, Image.Image):
-        return _square(image, size=size, name=getattr(image, "filename", "") or "the image")
+        name = getattr(image, "filename", "") or "the image"
+        return _square(image, size=size, fit=fit, name=name)
     if isinstance(image, np.ndarray):
-        return _square(_from_array(image), size=size, name="the array")
+        return _square(_from_array(image), size=size, fit=fit, name="the array")
     raise PictureError(
         "a picture must be a path, a Pillow image or a NumPy array, "
         f"got {type(image).__name__}: convert it first"
     )
 
 
-def _square(image: Image.Image, *, size: int, name: str) -> Picture:
-    """Decode, upright, on white, scaled and padded."""
+def _square(image: Image.Image, *, size: int, fit: Fit, name: str) -> Picture:
+    """Decode, upright, on white, scaled and padded or stretched."""
     width, height = image.size
     if width * height > LARGEST_MEGAPIXELS * 1_000_000:
         found = f"{-(-width * height // 1_000_000)} megapixels ({width}×{height}), more"
@@ -155,6 +167,8 @@ def _square(image: Image.Image, *, size: int, name: str) -> Picture:
 
     scale = size / max(opaque.size)
     fitted = (max(1, round(opaque.width * scale)), max(1, round(opaque.height * scale)))
+    if fit == "stretch":
+        fitted = (size, size)
     # Pillow widens the filter with the reduction, so thin lines fade instead of breaking up.
     pixels = np.asarray(opaque.resize(fitted, Image.Resampling.BICUBIC))
     rows, columns = pixels.shape[:2]

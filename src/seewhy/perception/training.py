@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from seewhy.perception.calibration import fitted_temperature
 from seewhy.perception.checkpoint import Position, Weights
 from seewhy.perception.events import FeatureRecord, Kind, Progress, TrainingEvent
 from seewhy.perception.labels import labelled, value_weights
-from seewhy.perception.network import GrowingNetwork
+from seewhy.perception.network import GrowingNetwork, deepest
 from seewhy.perception.optimisation import (
     load_optimizer,
     new_optimizer,
@@ -32,6 +33,7 @@ from seewhy.perception.validation import split
 __all__ = ["train_network"]
 
 ENOUGH_PICTURES = 1000  # what `max_epochs` is meant for; fewer pictures get more epochs
+PLENTY = 5000  # more pictures get fewer epochs, at least half
 FLAT_GROWTHS = 2  # growths without gain that end the growing: one alone may be bad luck
 COOLING_STARTS = 0.7  # of the planned epochs; from here on steps are small
 MINIMAL_GAIN = 0.005  # in accuracy, for a growth to count as one that helped
@@ -48,16 +50,17 @@ def train_network(
     values: Sequence[str],
     options: TrainingOptions,
     groups: Sequence[object] | None = None,
+    validation: Indices | None = None,
     checkpoints: Path | None = None,
     start_from: GrowingNetwork | None = None,
     on_progress: Progress | None = None,
 ) -> tuple[GrowingNetwork, FeatureRecord]:
     """Grow and train the network of one feature.
 
-    A network of one convolution is trained for a few epochs; while its validation accuracy is
-    below the threshold and still improves, a convolution is added and the whole is trained
-    again. The depth found is then trained until it no longer improves, and the weights that did
-    best on the validation pictures are kept.
+    A network of ``options.depth`` convolutions is trained for a few epochs; while its validation
+    accuracy is below the threshold and still improves, a convolution is added and the whole is
+    trained again. The depth found is then trained until it no longer improves, and the weights
+    that did best on the validation pictures are kept.
 
     Parameters
     ----------
@@ -74,6 +77,9 @@ def train_network(
     groups : sequence, length n, optional
         Pictures of one group (of one scene, say) are never divided between training and
         validation.
+    validation : ndarray of int64, optional
+        Indices of the pictures to validate on; without it ``options.validation_share`` of them
+        are drawn, some of every value.
     checkpoints : Path, optional
         A folder. After every epoch the state is written to one file in it, and a call with the
         same data and options goes on from there and ends with the same weights as a call that
@@ -128,6 +134,7 @@ def train_network(
         values=len(values),
         options=options,
         groups=None if groups is None else [groups[i] for i in chosen],
+        validation=None if validation is None else np.flatnonzero(np.isin(chosen, validation)),
         start_from=start_from,
     )
     file, found, own = None, None, ""
@@ -140,6 +147,7 @@ def train_network(
             values=values,
             options=options,
             groups=groups,
+            validation=validation,
             start_from=start_from,
         )
         found = checkpoint.read(file, own)
@@ -188,15 +196,27 @@ class _Training:
         values: int,
         options: TrainingOptions,
         groups: Sequence[object] | None,
+        validation: Indices | None,
         start_from: GrowingNetwork | None,
     ) -> None:
+        if start_from is not None:
+            options = replace(
+                options,
+                channels=start_from.channels,
+                dense=start_from.dense,
+                standard=start_from.standard,
+            )
         self.feature, self.options, self.start_from = feature, options, start_from
-        self.train, self.validation = split(
-            targets.tolist(),
-            share=options.validation_share,
-            seed=seed_of(options.seed, feature, "split"),
-            groups=groups,
-        )
+        if validation is None:
+            self.train, self.validation = split(
+                targets.tolist(),
+                share=options.validation_share,
+                seed=seed_of(options.seed, feature, "split"),
+                groups=groups,
+            )
+        else:
+            self.train = np.setdiff1d(np.arange(len(targets)), validation)
+            self.validation = validation
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
         self.x = torch.from_numpy(np.ascontiguousarray(pictures)).to(self.device)
         self.y = torch.from_numpy(targets).to(self.device)
@@ -208,17 +228,19 @@ class _Training:
         )
 
         more = min(4.0, max(1.0, ENOUGH_PICTURES / len(self.train)))
-        settling = math.ceil(options.max_epochs * more * (0.5 if start_from else 1.0))
-        growing = math.ceil(options.growing_epochs * more)
+        fewer = max(0.5, min(1.0, PLENTY / len(self.train)))
+        settling = math.ceil(options.max_epochs * more * fewer * (0.5 if start_from else 1.0))
+        growing = math.ceil(options.growing_epochs * more * fewer)
+        self.patience = math.ceil(options.patience * more)
         self.planned = {"growing": growing, "settling": settling, "finished": settling}
         self.peak_rate = options.learning_rate / (3.0 if start_from else 1.0)
 
         with self.seeded("first"):
-            self.network = GrowingNetwork(
-                size=pictures.shape[1], values=values, dropout=options.dropout
-            )
+            self.network = _first_network(pictures, values, options)
         self.network.standardise_by(pictures[self.train])
-        self.position = Position()
+        self.position = Position(depth=self.network.depth)
+        if self.network.depth == self.network.deepest:
+            self.position.stage = "settling"
         self.best: Weights = {}  # of this depth
         self.chosen: Weights = {}  # of the best depth before
 
@@ -260,7 +282,7 @@ class _Training:
     def epochs_are_left(self) -> bool:
         """Whether this stage has epochs to go; out of patience, it skips to its last ones."""
         position, planned = self.position, self.planned[self.position.stage]
-        if position.since_best >= self.options.patience:
+        if position.since_best >= self.patience:
             # Stopping here would leave the weights as the large steps tossed them: cool down first.
             cooling = math.ceil(COOLING_STARTS * planned)
             position.epoch = cooling if position.epoch < cooling else planned
@@ -368,6 +390,20 @@ class _Training:
         )
 
 
+def _first_network(pictures: Pictures, values: int, options: TrainingOptions) -> GrowingNetwork:
+    """The network that growing starts from."""
+    size = pictures.shape[1]
+    return GrowingNetwork(
+        size=size,
+        values=values,
+        depth=min(options.depth, deepest(size)),
+        dropout=options.dropout,
+        dense=options.dense,
+        channels=options.channels,
+        standard=options.standard,
+    )
+
+
 def _constant(
     pictures: Pictures,
     targets: Indices,
@@ -378,9 +414,7 @@ def _constant(
 ) -> tuple[GrowingNetwork, FeatureRecord]:
     """Where only one value occurs nothing can be learned from the pictures: answer it always."""
     with seeded(torch.device("cpu"), options.seed, feature, "first"):
-        network = GrowingNetwork(
-            size=pictures.shape[1], values=len(values), dropout=options.dropout
-        )
+        network = _first_network(pictures, len(values), options)
     network.standardise_by(pictures)
     # One more picture of each value is supposed, so that the others stay possible.
     counts = np.bincount(targets, minlength=len(values)) + 1.0

@@ -47,6 +47,8 @@ def draw_card(
         y += lines * 15 + 10
     for name, own in reply.features.items():
         text = f"{name.replace('_', ' ')}: {own.value} (p = {own.probability:.2f})"
+        if own.overruled is not None:
+            text += f"; the network alone saw {own.overruled[0]} (p = {own.overruled[1]:.2f})"
         drawn, lines = text_lines(text, x, y, width=room, fill="#2f6fb3")
         parts.append(drawn)
         y += lines * 15 + 2

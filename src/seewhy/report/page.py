@@ -96,6 +96,7 @@ def _scene(agent: Agent, scene: Scene, replies: Sequence[Reply]) -> dict[str, An
                 "name": domain.features[key].name,
                 "value": reading.value,
                 "probability": reading.probability,
+                "overruled": reading.overruled,
                 "truth": true[key],
                 "wrong": true[key] is not None and true[key] != reading.value,
             }

@@ -1,0 +1,58 @@
+"""How many pictures a second a model reads, reasons about and answers, in batch.
+
+python experiments/pictures_per_second.py MODEL PICTURES
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from pathlib import Path
+
+import numpy as np
+
+from seewhy.agent import Agent
+from seewhy.dataset import Dataset
+from seewhy.dialogue.question import Asks
+
+QUESTIONS = 8
+
+
+def main() -> None:
+    """Time each step over all pictures of a folder, the second time round."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("model", type=Path)
+    parser.add_argument("pictures", type=Path)
+    parser.add_argument("--count", type=int, default=2000)
+    options = parser.parse_args()
+    agent = Agent.load(options.model)
+    scenes = Dataset.load(options.pictures, agent.domain)
+    began = time.perf_counter()
+    pixels = scenes.pictures(agent.domain.pictures.size)
+    loaded = len(pixels) / (time.perf_counter() - began)
+    pixels = pixels[np.random.default_rng(0).permutation(len(pixels))[: options.count]]
+    questions = [q for q in agent.questions.one_of_each() if q.asks is not Asks.EXPLAIN]
+    rng = np.random.default_rng(1)
+    asked = [rng.choice(len(questions), QUESTIONS, replace=False) for _ in pixels]
+    agent.classify_all(pixels[:256])
+    began = time.perf_counter()
+    probabilities = agent.extractor.probabilities(pixels)
+    seen = time.perf_counter()
+    found = agent.classify_all(pixels)
+    classified = time.perf_counter()
+    for own, numbers in zip(found, asked, strict=True):
+        for number in numbers:
+            agent.answer(own, questions[int(number)])
+    answered = time.perf_counter()
+    count = len(pixels)
+    print(f"{count} pictures, {QUESTIONS} questions each")
+    print(f"files read and scaled: {loaded:.0f} a second")
+    print(f"networks alone: {count / (seen - began):.0f} pictures a second")
+    print(f"networks and reasoning: {count / (classified - seen):.0f} pictures a second")
+    print(f"answers: {QUESTIONS * count / (answered - classified):.0f} a second")
+    print(f"networks, reasoning and answers: {count / (answered - seen):.0f} pictures a second")
+    assert set(probabilities) == set(agent.domain.features)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""BelgiumTS: the photographs of Belgian traffic signs, read from their official archives."""

@@ -1,0 +1,91 @@
+"""Networks that have seen a domain's own drawings before they see photographs."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seewhy.dataset import Dataset
+from seewhy.domain import Domain
+from seewhy.pictures import MADE, make_dataset
+
+if TYPE_CHECKING:
+    from seewhy.perception.extractor import FeatureExtractor
+
+__all__ = ["is_drawn", "pretrained_extractor"]
+
+
+def is_drawn(dataset: Dataset) -> bool:
+    """Whether a dataset was made by its domain's own source."""
+    return (dataset.folder / MADE).is_file()
+
+
+def pretrained_extractor(
+    domain: Domain,
+    *,
+    count: int,
+    seed: int = 0,
+    without: Sequence[str] = (),
+    workers: int = -1,
+    checkpoints: Path | None = None,
+    on_picture: Callable[[int], None] | None = None,
+    on_progress: Callable[[Any], None] | None = None,
+) -> FeatureExtractor:
+    """Draw pictures with the domain's source and train a network for each feature on them.
+
+    Use it where drawings are free and photographs are few: networks that know the drawings need
+    fewer photographs. Source: none; the paper trains on the pictures of the domain alone.
+
+    Parameters
+    ----------
+    domain : Domain
+        With a source of pictures.
+    count : int
+        How many pictures to draw.
+    seed : int, default 0
+    without : sequence of str
+        Classes of which no drawing is used.
+    workers : int, default -1
+        Processes that draw and train; -1: one a core.
+    checkpoints : Path, optional
+        A folder in which an interrupted call finds the pictures and where training was.
+    on_picture : callable, optional
+        Called with the number of pictures drawn so far.
+    on_progress : callable, optional
+        See :func:`seewhy.perception.extractor.fit_extractor`.
+
+    Raises
+    ------
+    DomainError
+        If the domain has no source of pictures.
+    """
+    from seewhy.perception.domain_options import training_options
+    from seewhy.perception.extractor import fit_extractor
+
+    with tempfile.TemporaryDirectory(prefix="seewhy-", ignore_cleanup_errors=True) as temporary:
+        folder = checkpoints if checkpoints is not None else Path(temporary)
+        make_dataset(
+            domain,
+            folder / "drawn",
+            count=count,
+            seed=seed,
+            # Twice as large as the networks see them, as photographs are: stretching blurs less.
+            size=2 * domain.pictures.size,
+            test_share=0.0,
+            workers=workers,
+            on_progress=on_picture,
+        )
+        scenes = Dataset.load(folder / "drawn", domain).without_classes(without)
+        columns = list(zip(*scenes.vectors, strict=True))
+        values = {key: feature.values for key, feature in domain.features.items()}
+        return fit_extractor(
+            scenes.pictures(domain.pictures.size),
+            dict(zip(values, columns, strict=True)),
+            values=values,
+            options=training_options(domain, seed=seed),
+            workers=workers,
+            checkpoints=folder / "drawn.training",
+            on_progress=on_progress,
+        )

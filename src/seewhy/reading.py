@@ -1,0 +1,313 @@
+"""Read pictures: from the networks' probabilities to one feature vector for each picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seewhy.domain import READINGS, ReadingRule
+from seewhy.errors import DomainError
+from seewhy.knowledge.candidates import TRIED, decided_vectors, most_probable_decided
+from seewhy.knowledge.reasoner import Reasoner, Verdict
+from seewhy.knowledge.scene import FeatureVector, SceneSchema
+from seewhy.nearest import did_you_mean
+from seewhy.reply import FeatureReading
+
+__all__ = [
+    "READINGS",
+    "ConsistentReading",
+    "Reading",
+    "ReadingRule",
+    "open_vectors",
+    "read_separately",
+    "reading_rule",
+]
+
+LISTED = 20_000
+"""Where the knowledge decides more vectors than this, they are searched instead of listed."""
+
+_SMALLEST = 1e-300  # a network's 0.0 is a number too small for its type, not an impossibility
+_AT_ONCE = 1 << 21  # (picture, candidate) pairs of one NumPy operation: 16 MiB
+
+Probabilities = Mapping[str, NDArray[np.float64]]
+"""Feature → probabilities of its values, of shape (pictures, values)."""
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a picture's features are taken to be.
+
+    Attributes
+    ----------
+    vector : FeatureVector
+    features : dict
+        Feature → FeatureReading.
+    score : float
+        The log-probability of the vector (features count as independent): how well the picture
+        fits what is read. It is low where a network is not sure, and where what the networks see
+        does not go together. (The probability of all candidates together would say nothing where
+        most vectors are candidates.)
+    probability : float
+        Of the class: where features are read separately, the probability that all of them are
+        read rightly. Where the reading is consistent, the share of the candidates of that class
+        in the probability of all.
+    """
+
+    vector: FeatureVector
+    features: dict[str, FeatureReading]
+    score: float
+    probability: float
+
+
+def reading_rule(name: str) -> ReadingRule:
+    """Return the way of reading of a name.
+
+    Raises
+    ------
+    DomainError
+        If there is none.
+
+    Examples
+    --------
+    >>> reading_rule("consistent")
+    'consistent'
+    """
+    for rule in READINGS:
+        if name == rule:
+            return rule
+    raise DomainError(f"'{name}' is no way to read features; {did_you_mean(name, READINGS)}")
+
+
+def read_separately(schema: SceneSchema, probabilities: Probabilities) -> list[Reading]:
+    """Read the most probable value of every feature, whatever the others are (as the paper does).
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> schema = load_domain("structure_stability").schema
+    >>> sure = {key: np.full((1, len(own)), 1 / len(own)) for key, own in schema.features.items()}
+    >>> sure["lean"] = np.array([[0.2, 0.8]])
+    >>> (reading,) = read_separately(schema, sure)
+    >>> reading.vector, reading.features["lean"].probability, round(reading.probability, 3)
+    (('1', 'wide', 'no', 'yes'), 0.8, 0.04)
+    """
+    tables = _tables(schema, probabilities)
+    best = np.stack([own.argmax(axis=1) for own in tables], axis=1)
+    joint = _logarithms(np.stack([own.max(axis=1) for own in tables], axis=1)).sum(axis=1)
+    return [
+        Reading(_vector(schema, columns), features, float(score), float(np.exp(score)))
+        for columns, features, score in zip(
+            best.tolist(), _features(schema, tables, best), joint, strict=True
+        )
+    ]
+
+
+class ConsistentReading:
+    """Reads the most probable feature vector among those that can be.
+
+    Candidates are the vectors that the knowledge decides and ``open_vectors``: vectors of
+    annotated pictures that it leaves open. Features count as independent, so that a vector's
+    probability is the product of its values' probabilities. Where there is no candidate at all,
+    features are read separately.
+
+    Departure from the paper, in which every feature is read by itself; the results are the
+    paper's with :func:`read_separately`.
+
+    Parameters
+    ----------
+    reasoner : Reasoner
+    open_vectors : sequence of FeatureVector
+        Vectors with unknown values are left out.
+    label_of : callable
+        The class of a candidate, or None.
+    listed : int
+        With more vectors that the knowledge decides than this, the best one is searched for every
+        picture: the reading is the same, but the class's probability is then that of the one
+        vector.
+    tried : int
+        See :func:`~seewhy.knowledge.candidates.most_probable_decided`.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> reasoner = Reasoner(domain.knowledge, domain.schema)
+    >>> reader = ConsistentReading(reasoner, (), label_of=lambda v: reasoner.decide(v).label)
+    >>> (reading,) = reader.read({"num_blocks": np.array([[0.0, 0.0, 0.2, 0.8, 0.0]]),
+    ...                           "base": np.array([[0.1, 0.9]]), "lean": np.array([[0.1, 0.9]]),
+    ...                           "block_displaced": np.array([[0.1, 0.9]])})
+    >>> reading.vector
+    ('3', 'narrow', 'no', 'no')
+    >>> reading.features["num_blocks"]
+    FeatureReading(value='3', probability=0.2, overruled=('4', 0.8))
+    """
+
+    def __init__(
+        self,
+        reasoner: Reasoner,
+        open_vectors: Sequence[FeatureVector],
+        *,
+        label_of: Callable[[FeatureVector], str | None],
+        listed: int = LISTED,
+        tried: int = TRIED,
+    ) -> None:
+        self.schema = reasoner.schema
+        self.reasoner = reasoner
+        self.label_of = label_of
+        self.listed = listed
+        self.tried = tried
+        self._open = [v for v in dict.fromkeys(open_vectors) if None not in v]
+
+    @cached_property
+    def _decided(self) -> tuple[FeatureVector, ...] | None:
+        return decided_vectors(self.reasoner, limit=self.listed)
+
+    @cached_property
+    def _candidates(self) -> NDArray[np.intp]:
+        """The listed candidates, shape (candidates, features): places of the values."""
+        places = [{value: n for n, value in enumerate(own)} for own in self._values]
+        rows = [
+            [place[value or ""] for place, value in zip(places, vector, strict=True)]
+            for vector in dict.fromkeys((*(self._decided or ()), *self._open))
+        ]
+        return np.array(sorted(rows), dtype=np.intp).reshape(-1, len(places))
+
+    @cached_property
+    def _classes(self) -> NDArray[np.intp]:
+        """A number for the class of every listed candidate."""
+        numbers: dict[str | None, int] = {}
+        labels = (self.label_of(_vector(self.schema, row)) for row in self._candidates.tolist())
+        return np.array([numbers.setdefault(own, len(numbers)) for own in labels], dtype=np.intp)
+
+    @cached_property
+    def _values(self) -> list[tuple[str, ...]]:
+        return [tuple(own) for own in self.schema.features.values()]
+
+    def read(self, probabilities: Probabilities) -> list[Reading]:
+        """Read pictures.
+
+        Parameters
+        ----------
+        probabilities : mapping of str to ndarray of float, shape (pictures, values)
+
+        Returns
+        -------
+        list of Reading
+            One a picture. Of equally probable vectors that are listed, the first in the order of
+            the values.
+        """
+        tables = _tables(self.schema, probabilities)
+        searched = self._decided is None
+        if not searched and not len(self._candidates):
+            return read_separately(self.schema, probabilities)
+        logarithms = [_logarithms(own) for own in tables]
+        pictures = len(tables[0])
+        step = max(1, _AT_ONCE // max(1, len(self._candidates)))
+        found: list[Reading] = []
+        for start in range(0, pictures, step):
+            part = [own[start : start + step] for own in logarithms]
+            best, scores, shares = self._search(part) if searched else self._choose(part)
+            features = _features(self.schema, [own[start : start + step] for own in tables], best)
+            found += [
+                Reading(_vector(self.schema, columns), own, float(score), float(share))
+                for columns, own, score, share in zip(
+                    best.tolist(), features, scores, shares, strict=True
+                )
+            ]
+        return found
+
+    def _choose(
+        self, logarithms: Sequence[NDArray[np.float64]]
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+        """The best candidate of every picture, the score, and the share of its class."""
+        joint = self._joint(logarithms)
+        best = joint.argmax(axis=1)
+        most = joint.max(axis=1)
+        relative = np.exp(joint - most[:, None])
+        total = relative.sum(axis=1)
+        same = self._classes[None, :] == self._classes[best][:, None]
+        share = (relative * same).sum(axis=1) / total
+        return self._candidates[best], most, share
+
+    def _joint(self, logarithms: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+        joint = np.zeros((len(logarithms[0]), len(self._candidates)))
+        for own, column in zip(logarithms, self._candidates.T, strict=True):
+            joint += own[:, column]
+        return joint
+
+    def _search(
+        self, logarithms: Sequence[NDArray[np.float64]]
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+        """The same for candidates that are not listed; without any, the separate reading."""
+        best = np.stack([own.argmax(axis=1) for own in logarithms], axis=1)
+        scores = np.stack([own.max(axis=1) for own in logarithms], axis=1).sum(axis=1)
+        places = [{value: n for n, value in enumerate(own)} for own in self._values]
+        opened = self._joint(logarithms)
+        for number in range(len(best)):
+            above = -np.inf
+            if len(self._candidates):
+                nearest = int(opened[number].argmax())
+                above = opened[number, nearest]
+                best[number], scores[number] = self._candidates[nearest], above
+            found = most_probable_decided(
+                self.reasoner, [own[number] for own in logarithms], above=above, tried=self.tried
+            )
+            if found is not None:
+                chosen = zip(places, found[0], strict=True)
+                best[number] = [place[value or ""] for place, value in chosen]
+                scores[number] = found[1]
+        return best, scores, np.exp(scores)
+
+
+def open_vectors(
+    reasoner: Reasoner, experience: Mapping[FeatureVector, object]
+) -> list[FeatureVector]:
+    """Return the annotated vectors that the knowledge leaves open without contradiction."""
+    vectors = list(experience)
+    return [
+        vector
+        for vector, own in zip(vectors, reasoner.decide_all(vectors), strict=True)
+        if own.verdict in (Verdict.SILENT, Verdict.SEVERAL)
+    ]
+
+
+def _tables(schema: SceneSchema, probabilities: Probabilities) -> list[NDArray[np.float64]]:
+    return [np.asarray(probabilities[key], dtype=np.float64) for key in schema.features]
+
+
+def _logarithms(probabilities: NDArray[np.float64]) -> NDArray[np.float64]:
+    logarithms: NDArray[np.float64] = np.log(np.maximum(probabilities, _SMALLEST))
+    return logarithms
+
+
+def _vector(schema: SceneSchema, columns: Sequence[int]) -> FeatureVector:
+    return tuple(tuple(own)[n] for own, n in zip(schema.features.values(), columns, strict=True))
+
+
+def _features(
+    schema: SceneSchema, tables: Sequence[NDArray[np.float64]], chosen: NDArray[np.intp]
+) -> Iterator[dict[str, FeatureReading]]:
+    """Yield the readings of every picture whose values' places are ``chosen``."""
+    rows = np.arange(len(chosen))
+    columns = []
+    for own, places, literals in zip(tables, chosen.T, schema.features.values(), strict=True):
+        values = tuple(literals)
+        alone = own.argmax(axis=1)
+        columns.append(
+            [
+                FeatureReading(values[n], p, (values[m], q) if q > p else None)
+                for n, p, m, q in zip(
+                    places.tolist(),
+                    own[rows, places].tolist(),
+                    alone.tolist(),
+                    own[rows, alone].tolist(),
+                    strict=True,
+                )
+            ]
+        )
+    for readings in zip(*columns, strict=True):
+        yield dict(zip(schema.features, readings, strict=True))

@@ -1,0 +1,178 @@
+"""Likeness to pictures of training: what is kept of them, what is compared, and on disk."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from seewhy.agent import Agent
+from seewhy.dataset import Dataset
+from seewhy.errors import ModelError
+from seewhy.perception.familiarity import Familiarity, fit_familiarity
+
+COLOURS = ["red", "green", "blue", "red", None, "green", "red", "blue"]
+SHAPES = ["yes", "no", "yes", "yes", "no", "no", None, "no"]
+
+
+def embeddings(count: int, *, seed: int, width: int = 5) -> dict[str, np.ndarray]:
+    rng = np.random.default_rng(seed)
+    return {
+        key: np.maximum(rng.normal(size=(count, width)), 0).astype(np.float32)
+        for key in ("colour", "round")
+    }
+
+
+def by_hand(trained: np.ndarray, values: list[str | None], own: np.ndarray, value: str) -> float:
+    """The greatest cosine with a training picture of the value, one after the other."""
+    found = [0.0]
+    for other, label in zip(trained, values, strict=True):
+        lengths = np.linalg.norm(own) * np.linalg.norm(other)
+        if label == value and lengths:
+            found.append(float(own @ other / lengths))
+    return max(found)
+
+
+@settings(deadline=None)
+@given(seed=st.integers(0, 10_000), count=st.integers(0, 12))
+def test_the_likeness_is_the_nearest_cosine_of_the_value_read(seed: int, count: int) -> None:
+    trained, shown = embeddings(8, seed=seed), embeddings(count, seed=seed + 1)
+    familiarity = fit_familiarity(trained, {"colour": COLOURS, "round": SHAPES})
+    rng = np.random.default_rng(seed)
+    colours = rng.choice(["red", "green", "blue", "never shown"], size=count).tolist()
+    shapes = rng.choice(["yes", "no"], size=count).tolist()
+    found = familiarity.likeness(shown, {"colour": colours, "round": shapes})
+    expected = [
+        (
+            2 * by_hand(trained["colour"], COLOURS, shown["colour"][n], colours[n])
+            + by_hand(trained["round"], SHAPES, shown["round"][n], shapes[n])
+        )
+        / 3
+        for n in range(count)
+    ]
+    assert found.shape == (count,)
+    np.testing.assert_allclose(found, expected, atol=2e-3)  # half precision
+
+
+def test_many_pictures_are_compared_as_one_is() -> None:
+    familiarity = fit_familiarity(embeddings(8, seed=0), {"colour": COLOURS, "round": SHAPES})
+    shown = embeddings(600, seed=1)
+    values = {"colour": ["red", "blue", "green"] * 200, "round": ["yes", "no"] * 300}
+    together = familiarity.likeness(shown, values)
+    for n in (0, 255, 256, 599):
+        one = familiarity.likeness(
+            {key: own[n : n + 1] for key, own in shown.items()},
+            {key: own[n : n + 1] for key, own in values.items()},
+        )
+        assert one[0] == pytest.approx(together[n], abs=1e-6)
+
+
+def test_at_most_so_many_pictures_of_every_vector_are_kept() -> None:
+    labels = ["red"] * 70 + ["blue"] * 3 + ["green"] * 40
+    trained = {"colour": embeddings(113, seed=0)["colour"]}
+
+    def counts(**options: int) -> tuple[int, ...]:
+        return fit_familiarity(trained, {"colour": labels}, **options).known["colour"].counts
+
+    assert counts() == (3, 25, 25)
+    assert counts(kept=5) == (3, 5, 5)
+    # One of each first, then a second of each: rare vectors are not crowded out.
+    assert counts(most=12) == (3, 4, 5) or counts(most=12) == (3, 5, 4)
+    assert counts(most=3) == (1, 1, 1)
+
+
+def test_the_seed_draws_what_is_kept() -> None:
+    trained, labels = {"colour": embeddings(100, seed=0)["colour"]}, ["red", "blue"] * 50
+
+    def kept(seed: int) -> np.ndarray:
+        own = fit_familiarity(trained, {"colour": labels}, seed=seed, kept=5)
+        return own.known["colour"].directions
+
+    np.testing.assert_array_equal(kept(1), kept(1))
+    assert not np.array_equal(kept(1), kept(2))
+
+
+def test_a_feature_with_one_value_only_does_not_count() -> None:
+    trained = embeddings(8, seed=0)
+    familiarity = fit_familiarity(trained, {"colour": COLOURS, "round": ["yes"] * 8})
+    assert list(familiarity.known) == ["colour"]
+    # Unless there is no other.
+    alone = fit_familiarity(trained, {"colour": ["red"] * 8, "round": [None] * 8})
+    assert list(alone.known) == ["colour"]
+    own = alone.likeness({"colour": trained["colour"][:2]}, {"colour": ["red", "blue"]})
+    assert own.tolist() == [pytest.approx(1, abs=1e-3), 0.0]
+
+
+def test_probabilities_and_embeddings_come_from_one_pass(agent: Agent, dataset: Dataset) -> None:
+    assert agent.extractor is not None
+    pictures = dataset.pictures(16)
+    seen = agent.extractor.see(pictures)
+    for key, network in agent.extractor.networks.items():
+        np.testing.assert_array_equal(
+            seen.probabilities[key], agent.extractor.probabilities(pictures)[key]
+        )
+        np.testing.assert_array_equal(
+            seen.embeddings[key], agent.extractor.embeddings(pictures)[key]
+        )
+        assert seen.embeddings[key].shape == (len(pictures), network.dense)
+        assert (seen.embeddings[key] >= 0).all()
+        # The logits are the last layer's of the embeddings: nothing else is looked at.
+        last = network.head[-1]
+        logits = seen.embeddings[key] @ last.weight.detach().numpy().T + last.bias.detach().numpy()
+        scaled = np.exp(logits / float(network.temperature))
+        np.testing.assert_allclose(
+            seen.probabilities[key], scaled / scaled.sum(axis=1, keepdims=True), atol=1e-5
+        )
+    assert agent.extractor.embeddings(pictures[:0])["colour"].shape == (0, 64)
+
+
+# On disk ------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    fit_familiarity(embeddings(8, seed=0), {"colour": COLOURS, "round": SHAPES}).save(tmp_path)
+    return tmp_path
+
+
+def test_what_is_saved_is_loaded_exactly(folder: Path) -> None:
+    mine = fit_familiarity(embeddings(8, seed=0), {"colour": COLOURS, "round": SHAPES})
+    shown = embeddings(20, seed=1)
+    values = {"colour": ["red", "blue"] * 10, "round": ["yes"] * 20}
+    np.testing.assert_array_equal(
+        Familiarity.load(folder).likeness(shown, values), mine.likeness(shown, values)
+    )
+
+
+def test_damaged_weights_are_refused(folder: Path) -> None:
+    path = folder / "familiarity.safetensors"
+    content = bytearray(path.read_bytes())
+    content[-1] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(ModelError) as problem:
+        Familiarity.load(folder)
+    assert str(problem.value) == (
+        f"{path} is damaged or belongs to another familiarity.json: train the model again, or "
+        "copy its folder again from where it is whole"
+    )
+
+
+@pytest.mark.parametrize(
+    "counts", [[2, 2, 2], [2, 2], [2, 2, 3, 0], [7, 0, 0], [8, -1, 0]], ids=str
+)
+def test_a_description_of_other_pictures_is_refused(folder: Path, counts: list[int]) -> None:
+    path = folder / "familiarity.json"
+    described = json.loads(path.read_text())
+    assert described["features"]["colour"]["counts"] == [2, 2, 3]
+    described["features"]["colour"]["counts"] = counts
+    path.write_text(json.dumps(described))
+    with pytest.raises(ModelError) as problem:
+        Familiarity.load(folder)
+    assert str(problem.value) == (
+        f"{folder}/familiarity.safetensors does not hold the pictures that {path} describes: "
+        "train the model again, or copy its folder again from where it is whole"
+    )

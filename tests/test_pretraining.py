@@ -1,0 +1,146 @@
+"""Networks that are trained on a domain's own drawings before they see photographs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conftest import DOMAIN, write_domain, write_tiles
+from seewhy.agent import Agent
+from seewhy.cli.main import main
+from seewhy.dataset import Dataset
+from seewhy.domain import Domain, load_domain
+from seewhy.errors import DomainError
+from seewhy.pictures import make_dataset
+from seewhy.pretraining import is_drawn, pretrained_extractor
+
+SOURCE = """\
+import numpy as np
+RGB = {"red": (200, 50, 40), "green": (40, 160, 60), "blue": (50, 60, 200)}
+
+def draw(*, seed, index, size):
+    rng = np.random.default_rng([seed, index])
+    colour, is_round = list(RGB)[index % 3], ("yes", "no")[index // 3 % 2]
+    y, x = np.mgrid[:size, :size] / size - rng.uniform(0.4, 0.5, 2)[:, None, None]
+    inside = x * x + y * y < 0.11 if is_round == "yes" else np.maximum(abs(x), abs(y)) < 0.33
+    picture = np.where(inside[..., None], RGB[colour], 225).astype(np.uint8)
+    good = colour == "red" or is_round == "yes"
+    return picture, {"colour": colour, "round": is_round}, "good" if good else "bad"
+"""
+pytestmark = pytest.mark.usefixtures("in_one_process")
+
+
+@pytest.fixture
+def drawing(tmp_path: Path) -> Domain:
+    """Tiles that a file of the folder draws; forty of them are trained on first."""
+    text = DOMAIN.replace('subject = "the tile"', 'subject = "the tile"\nsource = "draw.py"')
+    text = text.replace("shift = 0.05", "shift = 0.05\ndrawn = 40")
+    folder = write_domain(tmp_path / "tiles", domain=text)
+    (folder / "draw.py").write_text(SOURCE)
+    return load_domain(folder)
+
+
+@pytest.fixture
+def few(tmp_path: Path, drawing: Domain) -> Dataset:
+    """Twelve pictures that nobody drew with the source."""
+    return Dataset.load(write_tiles(tmp_path / "few", count=12), drawing)
+
+
+def weights(agent: Agent) -> list[bytes]:
+    assert agent.extractor is not None
+    return [
+        tensor.numpy().tobytes()
+        for network in agent.extractor.networks.values()
+        for tensor in network.state_dict().values()
+    ]
+
+
+def test_drawings_alone_teach_the_features(drawing: Domain, tmp_path: Path) -> None:
+    drawn: list[int] = []
+    extractor = pretrained_extractor(drawing, count=120, workers=1, on_picture=drawn.append)
+    assert drawn == list(range(1, 121))
+    scenes = Dataset.load(write_tiles(tmp_path / "others", count=48), drawing)
+    probabilities = extractor.probabilities(scenes.pictures(16))
+    for n, (key, feature) in enumerate(drawing.features.items()):
+        true = [feature.values.index(str(vector[n])) for vector in scenes.vectors]
+        assert (probabilities[key].argmax(axis=1) == true).mean() > 0.8
+
+
+def test_as_many_drawings_as_the_domain_says_come_first(drawing: Domain, few: Dataset) -> None:
+    counted: list[int] = []
+    first = Agent(drawing).fit(few, workers=1, on_picture=counted.append)
+    assert len(counted) == 40
+    assert weights(first) == weights(Agent(drawing).fit(few, drawn=40, workers=1))
+    assert weights(first) != weights(Agent(drawing).fit(few, drawn=0, workers=1))
+
+
+def test_no_drawings_come_before_drawings_or_after_a_model(
+    drawing: Domain, few: Dataset, tmp_path: Path
+) -> None:
+    made = make_dataset(drawing, tmp_path / "made", count=24, workers=1)
+    own = Dataset.load(made.folder, drawing)
+    assert is_drawn(own)
+    assert not is_drawn(few)
+    counted: list[int] = []
+    agent = Agent(drawing).fit(own, workers=1, on_picture=counted.append)
+    Agent(drawing).fit(few, start_from=agent, workers=1, on_picture=counted.append)
+    assert counted == []
+
+
+def test_an_interrupted_pretraining_goes_on_with_the_same_weights(
+    drawing: Domain, few: Dataset, tmp_path: Path
+) -> None:
+    class Stopped(Exception):
+        pass
+
+    def stop(number: int) -> None:
+        if number == 25:
+            raise Stopped
+
+    whole = Agent(drawing).fit(few, workers=1)
+    folder = tmp_path / "checkpoints"
+    with pytest.raises(Stopped):
+        Agent(drawing).fit(few, workers=1, checkpoints=folder, on_picture=stop)
+    assert weights(Agent(drawing).fit(few, workers=1, checkpoints=folder)) == weights(whole)
+
+
+def test_classes_left_out_are_not_drawn_either(drawing: Domain, few: Dataset) -> None:
+    both = pretrained_extractor(drawing, count=36, workers=1)
+    good = pretrained_extractor(drawing, count=36, without=["bad"], workers=1)
+    pictures = np.stack([few.pictures(16)[n] for n in range(4)])
+    assert not np.allclose(
+        both.probabilities(pictures)["round"], good.probabilities(pictures)["round"]
+    )
+    # Bad tiles alone have corners and are green or blue: what is left says so.
+    assert good.records["colour"].training_pictures < both.records["colour"].training_pictures
+
+
+def test_a_domain_without_a_source_cannot_draw(few: Dataset, drawing: Domain) -> None:
+    bare = replace(drawing, source=None)
+    with pytest.raises(DomainError, match="the domain 'tiles' has no source of pictures"):
+        Agent(bare).fit(replace(few, domain=bare), workers=1)
+
+
+def test_the_command_says_how_many(
+    drawing: Domain,
+    few: Dataset,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def train(drawn: int) -> tuple[int, str]:
+        command = ["train", drawing.folder, "--data", few.folder, "--out", tmp_path / "model"]
+        monkeypatch.setattr("sys.argv", ["seewhy", *map(str, command), "--drawn", str(drawn)])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        return int(ended.value.code or 0), capsys.readouterr().err
+
+    code, said = train(-1)
+    assert code == 2
+    assert "--drawn" in said
+    assert train(0)[0] == 0
+    agent = Agent.load(tmp_path / "model")
+    assert weights(agent) == weights(Agent(drawing).fit(few, drawn=0))

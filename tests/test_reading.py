@@ -1,0 +1,389 @@
+"""Reading pictures: alone or consistently, exactly, and with a gate on the networks' confidence."""
+
+from __future__ import annotations
+
+import json
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+
+from conftest import draw_tile, write_domain
+from knowledge_builders import VALUES, Rule, World, worlds
+from seewhy.agent import Agent
+from seewhy.cli.ask import print_reply
+from seewhy.dataset import Dataset
+from seewhy.domain import Domain, load_domain
+from seewhy.errors import DomainError
+from seewhy.knowledge.candidates import decided_vectors, most_probable_decided
+from seewhy.knowledge.justification import Basis
+from seewhy.knowledge.reasoner import Reasoner
+from seewhy.knowledge.scene import FeatureVector
+from seewhy.reading import ConsistentReading, open_vectors, read_separately
+from seewhy.reply import FeatureReading
+from seewhy.report.card import draw_card
+
+SPACE: list[FeatureVector] = list(product(*VALUES.values()))
+many = settings(
+    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
+)
+
+
+@st.composite
+def distributions(draw: st.DrawFn) -> dict[str, np.ndarray[Any, Any]]:
+    """The networks' probabilities for one picture of a random world; zeros and ties included."""
+    found = {}
+    for key, values in VALUES.items():
+        weights = draw(
+            st.lists(st.integers(0, 5), min_size=len(values), max_size=len(values)).filter(any)
+        )
+        found[key] = np.array([weights], dtype=float) / sum(weights)
+    return found
+
+
+def logarithm(sure: dict[str, np.ndarray[Any, Any]], vector: FeatureVector) -> float:
+    """The log-probability of a vector, one feature after another."""
+    return sum(
+        float(np.log(max(sure[key][0, VALUES[key].index(value or "")], 1e-300)))
+        for key, value in zip(VALUES, vector, strict=True)
+    )
+
+
+def reader_of(world: World, opened: list[FeatureVector], **options: int) -> ConsistentReading:
+    reasoner = Reasoner(world.knowledge, world.schema)
+    return ConsistentReading(
+        reasoner, opened, label_of=lambda vector: reasoner.decide(vector).label, **options
+    )
+
+
+# Several answer sets: the knowledge decides less than one of them believes.
+CHOICE = World(
+    (
+        Rule("p(S)", ("f(S)",)),
+        Rule("q(S)", ("not r(S)",)),
+        Rule("r(S)", ("not q(S)",)),
+        Rule("-p(S)", ("-f(S)", "not -q(S)"), default=True),
+    ),
+    "three",
+)
+NOTHING = World((Rule("q(S)", ("f(S)",)),), "two")
+EVEN = {key: np.full((1, len(values)), 1 / len(values)) for key, values in VALUES.items()}
+
+
+# Candidates ---------------------------------------------------------------------------------
+
+
+@many
+@given(world=worlds())
+@example(world=CHOICE)
+def test_the_decided_vectors_are_those_of_the_book(world: World) -> None:
+    reasoner = Reasoner(world.knowledge, world.schema)
+    expected = tuple(vector for vector in SPACE if world.decision(vector)[0] is not None)
+    assert decided_vectors(reasoner, limit=len(SPACE)) == expected
+
+
+def test_too_many_vectors_are_not_listed(structures: Domain) -> None:
+    reasoner = Reasoner(structures.knowledge, structures.schema)
+    assert len(decided_vectors(reasoner, limit=30) or ()) == 30
+    assert decided_vectors(reasoner, limit=29) is None
+
+
+# Exactness ----------------------------------------------------------------------------------
+
+
+@many
+@given(
+    world=worlds(),
+    sure=distributions(),
+    opened=st.lists(st.sampled_from(SPACE), max_size=2),
+    listed=st.sampled_from([1000, -1]),
+    tried=st.sampled_from([0, 3, 1000]),
+)
+@example(world=CHOICE, sure=EVEN, opened=[], listed=1000, tried=0)
+@example(world=CHOICE, sure=EVEN, opened=[], listed=-1, tried=0)
+@example(world=CHOICE, sure=EVEN, opened=[("no", "light", "3")], listed=-1, tried=0)
+@example(world=NOTHING, sure=EVEN, opened=[], listed=-1, tried=0)
+def test_the_reading_is_the_most_probable_of_all_candidates(
+    world: World,
+    sure: dict[str, np.ndarray[Any, Any]],
+    opened: list[FeatureVector],
+    listed: int,
+    tried: int,
+) -> None:
+    """Listed, tried in falling order or optimised: the same as trying everything."""
+    candidates = [v for v in SPACE if world.decision(v)[0] is not None or v in opened]
+    (found,) = reader_of(world, opened, listed=listed, tried=tried).read(sure)
+    if not candidates:
+        (alone,) = read_separately(world.schema, sure)
+        assert found.vector == alone.vector
+        assert logarithm(sure, found.vector) == pytest.approx(
+            max(logarithm(sure, vector) for vector in SPACE)
+        )
+        return
+    assert found.vector in candidates
+    best = max(logarithm(sure, vector) for vector in candidates)
+    assert logarithm(sure, found.vector) == pytest.approx(best, abs=1e-5)
+    assert found.score == pytest.approx(best, abs=1e-5)
+    if listed == -1:
+        return
+    joint = np.array([np.exp(logarithm(sure, vector)) for vector in candidates])
+    if joint.sum() > 0:
+        label = world.decision(found.vector)[0]
+        same = [world.decision(vector)[0] == label for vector in candidates]
+        assert found.probability == pytest.approx(joint[same].sum() / joint.sum())
+
+
+@many
+@given(world=worlds(), sure=distributions(), above=st.floats(-20, 0))
+def test_what_is_not_above_is_not_searched(
+    world: World, sure: dict[str, np.ndarray[Any, Any]], above: float
+) -> None:
+    reasoner = Reasoner(world.knowledge, world.schema)
+    logarithms = [np.log(np.maximum(own[0], 1e-300)) for own in sure.values()]
+    best = most_probable_decided(reasoner, logarithms)
+    for tried in (0, 100):
+        found = most_probable_decided(reasoner, logarithms, above=above, tried=tried)
+        assert (found is None) == (best is None or best[1] <= above)
+
+
+def test_a_batch_is_read_like_single_pictures(tiles: Domain) -> None:
+    generator = np.random.default_rng(0)
+    sure = {
+        key: generator.dirichlet(np.ones(len(own.values)), size=50)
+        for key, own in tiles.features.items()
+    }
+    reasoner = Reasoner(tiles.knowledge, tiles.schema)
+    reader = ConsistentReading(
+        reasoner, [("green", "yes")], label_of=lambda vector: reasoner.decide(vector).label
+    )
+    whole = reader.read(sure)
+    for n, own in enumerate(whole):
+        (single,) = reader.read({key: table[n : n + 1] for key, table in sure.items()})
+        assert (single.vector, single.features) == (own.vector, own.features)
+        assert (single.score, single.probability) == pytest.approx((own.score, own.probability))
+    assert reader.read({key: table[:0] for key, table in sure.items()}) == []
+
+
+def test_which_annotated_vectors_are_open(tiles: Domain) -> None:
+    """Decided vectors and those of a contradiction are none."""
+    reasoner = Reasoner(tiles.knowledge, tiles.schema)
+    assert open_vectors(reasoner, {("green", "yes"): 1, ("red", "no"): 2, ("green", None): 1}) == [
+        ("green", "yes"),
+        ("green", None),
+    ]
+    # An annotated vector with an unknown value is nothing that could be read.
+    reader = ConsistentReading(reasoner, [("green", None)], label_of=lambda _: None)
+    (own,) = reader.read({"colour": np.array([[0.1, 0.8, 0.1]]), "round": np.array([[0.5, 0.5]])})
+    assert own.vector[0] != "green"
+
+
+def test_contradictory_vectors_are_never_read(tmp_path: Path) -> None:
+    knowledge = (write_domain(tmp_path / "tiles") / "knowledge.al").read_text()
+    domain = load_domain(
+        write_domain(tmp_path / "tiles", knowledge=knowledge + "-good(T) if round(T).\n")
+    )
+    reasoner = Reasoner(domain.knowledge, domain.schema)
+    assert reasoner.decide(("red", "yes")).verdict.value == "contradiction"
+    experience = {("red", "yes"): 1, ("green", "no"): 1}
+    assert open_vectors(reasoner, experience) == [("green", "no")]
+
+
+# The agent ----------------------------------------------------------------------------------
+
+
+class Networks:
+    """Gives the probabilities that it is told, one row a picture."""
+
+    def __init__(self, colour: list[float], is_round: list[float]) -> None:
+        self.rows = {"colour": np.array([colour]), "round": np.array([is_round])}
+
+    def probabilities(self, pictures: np.ndarray[Any, Any]) -> dict[str, np.ndarray[Any, Any]]:
+        return {key: own.repeat(len(pictures), axis=0) for key, own in self.rows.items()}
+
+
+def agent_seeing(
+    domain: Domain, colour: list[float], is_round: list[float], **options: Any
+) -> Agent:
+    agent = Agent(domain, **options)
+    agent.fit_induction(
+        [("red", "yes"), ("green", "yes"), ("green", "no")], ["good", "good", "bad"]
+    )
+    agent.extractor = Networks(colour, is_round)  # type: ignore[assignment]
+    return agent
+
+
+@pytest.fixture(scope="module")
+def certain_reds(tmp_path_factory: pytest.TempPathFactory) -> Domain:
+    """Tiles of which the knowledge leaves open all that are blue and round."""
+    return load_domain(write_domain(tmp_path_factory.mktemp("reds") / "tiles"))
+
+
+BLUE_AND_ROUND = ([0.3, 0.15, 0.55], [0.6, 0.4])
+"""Blue and round is the most probable, but nobody has ever seen it: blue with corners fits."""
+
+
+def test_the_knowledge_overrules_what_the_network_alone_saw(certain_reds: Domain) -> None:
+    agent = agent_seeing(certain_reds, *BLUE_AND_ROUND, reading="consistent")
+    scene = agent.classify(draw_tile("blue", "no", 0))
+    assert scene.vector == ("blue", "no")
+    assert scene.features["colour"] == FeatureReading("blue", 0.55)
+    assert scene.features["round"] == FeatureReading("no", 0.4, ("yes", 0.6))
+    assert (scene.label, scene.method, scene.verdict) == ("bad", "knowledge", "believed")
+    # By hand: red 0.3, green 0.15 (as annotated; the tree says good and bad), blue cornered 0.22.
+    assert scene.score == pytest.approx(np.log(0.55 * 0.4))
+    assert scene.probability == pytest.approx((0.22 + 0.15 * 0.4) / (0.3 + 0.15 + 0.22))
+
+
+def test_argmax_reads_what_the_paper_reads(certain_reds: Domain) -> None:
+    agent = agent_seeing(certain_reds, *BLUE_AND_ROUND)
+    scene = agent.classify(draw_tile("blue", "no", 0))
+    assert scene.vector == ("blue", "yes")
+    assert [own.overruled for own in scene.features.values()] == [None, None]
+    assert (scene.method, scene.verdict) == ("tree", "silent")
+    assert scene.probability == pytest.approx(0.55 * 0.6)
+    assert scene.score == pytest.approx(np.log(0.55 * 0.6))
+
+
+def test_a_reply_says_what_was_overruled(
+    certain_reds: Domain, capsys: pytest.CaptureFixture[str]
+) -> None:
+    agent = agent_seeing(certain_reds, *BLUE_AND_ROUND, reading="consistent")
+    picture = draw_tile("blue", "no", 0)
+    reply = agent.ask(picture, "why is it bad?")
+    print_reply(reply)
+    assert capsys.readouterr().out == (
+        "The tile is blue, and it has corners.\n"
+        "\n"
+        "asked: why is the tile bad?\n"
+        "seen: colour blue (0.55), round no (0.40)\n"
+        "the knowledge overruled: round read as yes (p = 0.60), no (0.40) is what fits\n"
+        "by: knowledge\n"
+        "because:\n"
+        '  the tile is bad: "a blue tile with corners is bad" (knowledge.al:11)\n'
+        "  ├─ the tile is blue (p = 0.55)\n"
+        "  └─ the tile has corners (p = 0.40; the network alone saw yes, p = 0.60)\n"
+    )
+    record = json.loads(json.dumps(reply.to_dict()))
+    assert record["features"] == {
+        "colour": {"value": "blue", "probability": 0.55, "overruled": None},
+        "round": {
+            "value": "no",
+            "probability": 0.4,
+            "overruled": {"value": "yes", "probability": 0.6},
+        },
+    }
+    assert record["class_probability"] == 0.4179
+    leaf = record["justification"]["children"][1]
+    assert leaf["overruled"] == {"value": "yes", "probability": 0.6}
+    assert "the network alone saw yes (p = 0.60)" in draw_card(reply, picture).svg
+
+
+def test_the_domain_says_how_it_is_read(tmp_path: Path, tiles: Domain) -> None:
+    assert (tiles.reading, Agent(tiles).reading) == ("argmax", "argmax")
+    folder = write_domain(tmp_path / "tiles")
+    path = folder / "domain.toml"
+    text = path.read_text()
+    path.write_text(text.replace("[domain]\n", '[domain]\nreading = "consistent"\n'))
+    domain = load_domain(folder)
+    assert Agent(domain).reading == "consistent"
+    assert Agent(domain, reading="argmax").reading == "argmax"
+    path.write_text(text.replace("[domain]\n", '[domain]\nreading = "best"\n'))
+    with pytest.raises(DomainError) as problem:
+        load_domain(folder)
+    assert str(problem.value) == (
+        f"{path}:2: 'domain.reading': input should be 'argmax' or 'consistent', got 'best'"
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"reading": "consitent"}, "'consitent' is no way to read features; did you mean "
+         "'consistent'?"),
+        ({"gate": 1.5}, "gate must be 0 to 1, got 1.5"),
+        ({"gate": -0.1}, "gate must be 0 to 1, got -0.1"),
+        ({"known_share": 0.0}, "known_share must be above 0, at most 1, got 0.0"),
+        ({"known_share": 1.1}, "known_share must be above 0, at most 1, got 1.1"),
+    ],
+)  # fmt: skip
+def test_options_that_are_none(tiles: Domain, options: dict[str, Any], said: str) -> None:
+    with pytest.raises(DomainError) as problem:
+        Agent(tiles, **options)
+    assert str(problem.value) == said
+
+
+# The gate -----------------------------------------------------------------------------------
+
+RED_AND_ROUND = ([0.7, 0.2, 0.1], [0.95, 0.05])
+
+
+@pytest.mark.parametrize(
+    ("gate", "decided"),
+    [(None, ("good", "knowledge", "believed")), (0.0, ("good", "knowledge", "believed")),
+     (0.7, ("good", "knowledge", "believed")), (0.71, ("good", "tree", "uncertain"))],
+)  # fmt: skip
+def test_an_uncertain_scene_is_sent_to_the_tree(
+    tiles: Domain, gate: float | None, decided: tuple[str, str, str]
+) -> None:
+    scene = agent_seeing(tiles, *RED_AND_ROUND, gate=gate).classify(draw_tile("red", "yes", 0))
+    assert (scene.label, scene.method, scene.verdict) == decided
+    assert scene.vector == ("red", "yes")
+    assert (scene.probability is None) == (decided[1] == "tree")
+
+
+def test_the_gate_asks_what_the_network_alone_saw(certain_reds: Domain) -> None:
+    """What was overruled has a low probability of its own; the network was sure all the same."""
+    sure = ([0.02, 0.02, 0.96], [0.97, 0.03])
+    agent = agent_seeing(certain_reds, *sure, reading="consistent", gate=0.9)
+    scene = agent.classify(draw_tile("blue", "yes", 0))
+    assert scene.features["round"] == FeatureReading("no", 0.03, ("yes", 0.97))
+    assert (scene.method, scene.verdict) == ("knowledge", "believed")
+
+
+def test_a_reply_says_why_the_knowledge_was_not_asked(tiles: Domain) -> None:
+    agent = agent_seeing(tiles, *RED_AND_ROUND, gate=0.9)
+    reply = agent.ask(draw_tile("red", "yes", 0), "is it good?")
+    assert (reply.text, reply.method) == ("Yes, the tile is good.", "tree")
+    assert reply.justification.basis is Basis.TREE
+    assert reply.justification.children[-1].text == (
+        "the knowledge is not asked: the colour is seen with a probability of 0.70 only, and "
+        "0.90 is demanded"
+    )
+    told = agent.ask(draw_tile("red", "yes", 0), "please explain this answer").text
+    assert "The knowledge is not asked: the colour is seen with" in told
+
+
+def test_without_a_tree_the_knowledge_is_asked(tiles: Domain) -> None:
+    agent = Agent(tiles, gate=0.9).fit_induction([("red", "yes"), ("red", "no")], ["good", "good"])
+    agent.extractor = Networks(*RED_AND_ROUND)  # type: ignore[assignment]
+    scene = agent.classify(draw_tile("red", "yes", 0))
+    assert (scene.label, scene.method) == ("good", "knowledge")
+
+
+@pytest.mark.usefixtures("in_one_process")
+def test_uncertain_training_scenes_train_the_tree(agent: Agent, dataset: Dataset) -> None:
+    """With a gate of 1 no network is ever sure enough: all scenes train the tree."""
+    again = Agent(agent.domain, seed=3, gate=1.0).fit(dataset, start_from=agent)
+    assert sum(path.support for path in again.tree.paths()) == 40
+    assert sum(path.support for path in agent.tree.paths()) == 22
+    assert {own.method for own in again.classify_all(dataset.pictures(16))} == {"tree"}
+
+
+# On disk ------------------------------------------------------------------------------------
+
+
+def test_the_model_remembers_how_it_reads(agent: Agent, tmp_path: Path) -> None:
+    other = Agent(agent.domain, seed=3, reading="consistent", gate=0.6, known_share=0.9)
+    other.extractor, other.tree, other.answerer = agent.extractor, agent.tree, agent.answerer
+    other.experience = agent.experience
+    other.save(tmp_path / "model")
+    loaded = Agent.load(tmp_path / "model")
+    assert (loaded.reading, loaded.gate, loaded.known_share) == ("consistent", 0.6, 0.9)
+    loaded = Agent.load(tmp_path / "model", reading="argmax", gate=0, known_share=1.0)
+    assert (loaded.reading, loaded.gate, loaded.known_share) == ("argmax", None, 1.0)
+    with pytest.raises(DomainError, match="gate must be 0 to 1, got 2"):
+        Agent.load(tmp_path / "model", gate=2)
