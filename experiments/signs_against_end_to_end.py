@@ -29,13 +29,14 @@ from seewhy.files import write_whole
 from seewhy.perception.domain_options import training_options
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
 from seewhy.perception.validation import split
-from seewhy.pictures import make_dataset
+from seewhy.pretraining import pretrained_extractor
 from seewhy.reading import READINGS
 
 DOMAIN = "traffic_signs"
 SIZES = (100, 200, 500, 1000, 2000, 0)  # 0: all
 FOLDS = 5
-# About as many weights as the seven networks have together.
+# The convolutions of the largest of the seven networks, and a dense layer twice as wide: nearly as
+# many weights as the seven have together (the rows say how many).
 BASELINE = {"channels": (24, 48, 96, 192), "dense": 384}
 
 
@@ -95,7 +96,8 @@ def trial(
     train, test = scenes.of_split("train"), scenes.of_split("test")
     earlier, baseline_start = None, None
     if drawn:
-        earlier = Agent.load(out / f"drawn-{drawn}" / "features")
+        earlier = Agent(domain)
+        earlier.extractor = FeatureExtractor.load(out / f"drawn-{drawn}" / "features")
         baseline_start = FeatureExtractor.load(out / f"drawn-{drawn}" / "end_to_end")
     began = time.perf_counter()
     agent = Agent(domain, seed=seed, known_share=1.0)
@@ -137,14 +139,12 @@ def pretrain(out: Path, *, drawn: int) -> None:
     """Train both on drawn signs, once for all trials."""
     folder = out / f"drawn-{drawn}"
     domain = load_domain(DOMAIN)
-    size = 2 * domain.pictures.size
-    make_dataset(domain, folder / "pictures", count=drawn, seed=0, size=size, test_share=0.0)
-    scenes = Dataset.load(folder / "pictures", domain)
     if not (folder / "features").is_dir():
-        agent = Agent(domain, known_share=1.0)
-        agent.fit(scenes, drawn=0, answers=False, checkpoints=folder / "training")
-        agent.save(folder / "features")
+        extractor = pretrained_extractor(domain, count=drawn, checkpoints=folder)
+        (folder / "features").mkdir()
+        extractor.save(folder / "features")
     if not (folder / "end_to_end").is_dir():
+        scenes = Dataset.load(folder / "drawn", domain)
         baseline = end_to_end(scenes, seed=0)
         (folder / "end_to_end").mkdir()
         baseline.save(folder / "end_to_end")

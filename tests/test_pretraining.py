@@ -93,16 +93,16 @@ def test_no_drawings_come_before_drawings_or_after_a_model(
 def test_an_interrupted_pretraining_goes_on_with_the_same_weights(
     drawing: Domain, few: Dataset, tmp_path: Path
 ) -> None:
-    class Stopped(Exception):
+    class StoppedError(Exception):
         pass
 
     def stop(number: int) -> None:
         if number == 25:
-            raise Stopped
+            raise StoppedError
 
     whole = Agent(drawing).fit(few, workers=1)
     folder = tmp_path / "checkpoints"
-    with pytest.raises(Stopped):
+    with pytest.raises(StoppedError):
         Agent(drawing).fit(few, workers=1, checkpoints=folder, on_picture=stop)
     assert weights(Agent(drawing).fit(few, workers=1, checkpoints=folder)) == weights(whole)
 
