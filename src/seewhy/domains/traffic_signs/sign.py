@@ -105,6 +105,8 @@ def face(features: Mapping[str, str], *, rng: np.random.Generator, variant: str 
         if drawn and background == "triangle":
             drawn = _lowered(drawn, place)
         patches += drawn
+    if features["primary_symbol"] == "p" and features["secondary_symbol"] == "none":
+        patches += _ticket(tones, rng)
     patches += _cross(features["cross"], plate, tones, rng)
     return Face(plate.edge(0.0), tuple(patches))
 
@@ -307,6 +309,18 @@ def _lowered(patches: Sequence[Patch], place: Place) -> list[Patch]:
     spare = place[1] + place[2] / 2.0 - max(float(patch.points[:, 1].max()) for patch in patches)
     down = np.array([0.0, 0.75 * spare])
     return [Patch(patch.points + down, patch.color) for patch in patches]
+
+
+def _ticket(tones: Mapping[str, Color], rng: np.random.Generator) -> list[Patch]:
+    """The small mark of parking that is paid for, which many parking signs have."""
+    if rng.random() >= 0.25:
+        return []
+    x, y = rng.uniform(0.1, 0.22), rng.uniform(0.22, 0.32)
+    color = tones["white" if rng.random() < 0.7 else "yellow"]
+    hand = rectangle(x - rng.uniform(0.03, 0.07), y, x + rng.uniform(0.0, 0.03), y + 0.02)
+    coin = ellipse((x, y - rng.uniform(0.02, 0.05)), (0.02, 0.02), 12)
+    slip = rectangle(x - 0.012, y - 0.01, x + 0.012, y + rng.uniform(0.03, 0.08))
+    return [Patch(points, color) for points in (hand, coin, slip)]
 
 
 def _cross(
