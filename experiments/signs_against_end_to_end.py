@@ -28,8 +28,9 @@ from seewhy.evaluation import evaluate
 from seewhy.files import write_whole
 from seewhy.perception.domain_options import training_options
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.validation import split
-from seewhy.pretraining import pretrained_extractor
+from seewhy.pretraining import Pretrained, pretrained
 from seewhy.reading import READINGS
 
 DOMAIN = "traffic_signs"
@@ -68,9 +69,7 @@ def trial_data(data: Path, *, seed: int, size: int) -> Dataset:
     return replace(scenes, scenes=tuple(kept))
 
 
-def end_to_end(
-    scenes: Dataset, *, seed: int, start_from: FeatureExtractor | None = None
-) -> FeatureExtractor:
+def end_to_end(scenes: Dataset, *, seed: int, first: Pretrained | None = None) -> FeatureExtractor:
     """Train one network from the picture to the class."""
     domain = scenes.domain
     options = training_options(domain, seed=seed)["primary_symbol"]
@@ -82,7 +81,8 @@ def end_to_end(
         options=replace(options, **BASELINE),
         groups=scenes.groups,
         validation=validation,
-        start_from=start_from,
+        start_from=first.extractor if first else None,
+        rehearsal=first.rehearsal if first else None,
         workers=1,
     )
 
@@ -94,16 +94,12 @@ def trial(
     scenes = trial_data(data, seed=seed, size=size)
     domain = scenes.domain
     train, test = scenes.of_split("train"), scenes.of_split("test")
-    earlier, baseline_start = None, None
-    if drawn:
-        earlier = Agent(domain)
-        earlier.extractor = FeatureExtractor.load(out / f"drawn-{drawn}" / "features")
-        baseline_start = FeatureExtractor.load(out / f"drawn-{drawn}" / "end_to_end")
+    first, baseline_first = pretrain(out, drawn=drawn) if drawn else (None, None)
     began = time.perf_counter()
     agent = Agent(domain, seed=seed, known_share=1.0)
-    agent.fit(train, start_from=earlier, drawn=0, answers=answers, workers=1)
+    agent.fit(train, drawn=0, start_from=first, answers=answers, workers=1)
     trained = time.perf_counter()
-    baseline = end_to_end(train, seed=seed, start_from=baseline_start)
+    baseline = end_to_end(train, seed=seed, first=baseline_first)
     finished = time.perf_counter()
     pixels = test.pictures(domain.pictures.size)
     labels = np.array(test.labels)
@@ -135,19 +131,35 @@ def trial(
     return row
 
 
-def pretrain(out: Path, *, drawn: int) -> None:
+def pretrain(out: Path, *, drawn: int) -> tuple[Pretrained, Pretrained]:
     """Train both on drawn signs, once for all trials."""
     folder = out / f"drawn-{drawn}"
     domain = load_domain(DOMAIN)
     if not (folder / "features").is_dir():
-        extractor = pretrained_extractor(domain, count=drawn, checkpoints=folder)
+        first = pretrained(domain, count=drawn, checkpoints=folder)
         (folder / "features").mkdir()
-        extractor.save(folder / "features")
+        first.extractor.save(folder / "features")
+    scenes = Dataset.load(folder / "drawn", domain)
     if not (folder / "end_to_end").is_dir():
-        scenes = Dataset.load(folder / "drawn", domain)
         baseline = end_to_end(scenes, seed=0)
         (folder / "end_to_end").mkdir()
         baseline.save(folder / "end_to_end")
+    pixels = scenes.pictures(domain.pictures.size)
+    columns = dict(zip(domain.features, zip(*scenes.vectors, strict=True), strict=True))
+    return (
+        Pretrained(
+            FeatureExtractor.load(folder / "features"),
+            Rehearsal(pixels, columns),
+            tuple(scenes.vectors),
+            tuple(scenes.labels),
+        ),
+        Pretrained(
+            FeatureExtractor.load(folder / "end_to_end"),
+            Rehearsal(pixels, {"sign": scenes.labels}),
+            tuple(scenes.vectors),
+            tuple(scenes.labels),
+        ),
+    )
 
 
 def report(out: Path) -> str:

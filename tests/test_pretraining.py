@@ -15,7 +15,7 @@ from seewhy.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DomainError
 from seewhy.pictures import make_dataset
-from seewhy.pretraining import is_drawn, pretrained_extractor
+from seewhy.pretraining import is_drawn, pretrained
 
 SOURCE = """\
 import numpy as np
@@ -60,7 +60,7 @@ def weights(agent: Agent) -> list[bytes]:
 
 def test_drawings_alone_teach_the_features(drawing: Domain, tmp_path: Path) -> None:
     drawn: list[int] = []
-    extractor = pretrained_extractor(drawing, count=120, workers=1, on_picture=drawn.append)
+    extractor = pretrained(drawing, count=120, workers=1, on_picture=drawn.append).extractor
     assert drawn == list(range(1, 121))
     scenes = Dataset.load(write_tiles(tmp_path / "others", count=48), drawing)
     probabilities = extractor.probabilities(scenes.pictures(16))
@@ -108,14 +108,37 @@ def test_an_interrupted_pretraining_goes_on_with_the_same_weights(
 
 
 def test_classes_left_out_are_not_drawn_either(drawing: Domain, few: Dataset) -> None:
-    both = pretrained_extractor(drawing, count=36, workers=1)
-    good = pretrained_extractor(drawing, count=36, without=["bad"], workers=1)
+    both = pretrained(drawing, count=36, workers=1).extractor
+    good = pretrained(drawing, count=36, without=["bad"], workers=1).extractor
     pictures = np.stack([few.pictures(16)[n] for n in range(4)])
     assert not np.allclose(
         both.probabilities(pictures)["round"], good.probabilities(pictures)["round"]
     )
     # Bad tiles alone have corners and are green or blue: what is left says so.
     assert good.records["colour"].training_pictures < both.records["colour"].training_pictures
+
+
+def test_what_no_photograph_shows_is_learned_from_drawings(drawing: Domain, few: Dataset) -> None:
+    without_green = few.take([n for n, v in enumerate(few.vectors) if v[0] != "green"])
+    agent = Agent(drawing).fit(without_green, workers=1)
+    assert agent.decide({"colour": "green", "round": "yes"}) == "good"
+    assert agent.decide({"colour": "green", "round": "no"}) == "bad"
+    green = {vector for vector in agent.experience if vector[0] == "green"}
+    assert green == {("green", "yes"), ("green", "no")}
+    red = sum(sum(agent.experience[vector].values()) for vector in agent.experience) - sum(
+        sum(agent.experience[vector].values()) for vector in green
+    )
+    assert red == len(without_green.of_split("train"))
+
+
+def test_a_value_that_no_photograph_shows_is_not_forgotten(drawing: Domain, few: Dataset) -> None:
+    red = few.take([n for n, v in enumerate(few.vectors) if v[0] == "red" or v[1] == "yes"])
+    only = red.take([n for n, v in enumerate(red.vectors) if v[0] != "green"])
+    agent = Agent(drawing).fit(only, drawn=90, workers=1)
+    assert agent.extractor is not None
+    green = [n for n, v in enumerate(few.vectors) if v[0] == "green"]
+    seen = agent.extractor.probabilities(few.pictures(16)[green])["colour"].argmax(axis=1)
+    assert (seen == drawing.features["colour"].values.index("green")).all()
 
 
 def test_a_domain_without_a_source_cannot_draw(few: Dataset, drawing: Domain) -> None:

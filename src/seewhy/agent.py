@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
     from seewhy.perception.extractor import FeatureExtractor, Seen
     from seewhy.perception.familiarity import Familiarity
+    from seewhy.pretraining import Pretrained
 
     Picture = Path | str | Image.Image | np.ndarray[Any, Any]
 
@@ -135,7 +136,7 @@ class Agent:
         dataset: Dataset,
         *,
         without: Sequence[str] = (),
-        start_from: Agent | None = None,
+        start_from: Agent | Pretrained | None = None,
         drawn: int | None = None,
         answers: bool = True,
         workers: int = -1,
@@ -151,8 +152,9 @@ class Agent:
         without : sequence of str
             Classes whose pictures are left out. What the knowledge says of them stays, so that
             they can be recognised all the same.
-        start_from : Agent, optional
-            Fine-tune this agent's networks instead of growing new ones.
+        start_from : Agent or Pretrained, optional
+            Fine-tune this agent's networks instead of growing new ones, or those that
+            :func:`seewhy.pretraining.pretrained` trained on drawings.
         drawn : int, optional
             Before, the networks are trained on so many pictures that the domain's source draws:
             photographs then refine what they know. As many as the domain says where left out; none
@@ -178,7 +180,7 @@ class Agent:
         from seewhy.perception.extractor import fit_extractor
         from seewhy.perception.options import TrainingOptions
         from seewhy.perception.validation import split
-        from seewhy.pretraining import is_drawn, pretrained_extractor
+        from seewhy.pretraining import Pretrained, is_drawn, pretrained
 
         if dataset.domain.name != self.domain.name:
             raise DatasetError(
@@ -201,10 +203,11 @@ class Agent:
                 groups=scenes.groups,
             )
         earlier = start_from.extractor if start_from else None
+        first = start_from if isinstance(start_from, Pretrained) else None
         if drawn is None:
             drawn = 0 if earlier is not None or is_drawn(dataset) else self.domain.pictures.drawn
         if drawn:
-            earlier = pretrained_extractor(
+            first = pretrained(
                 self.domain,
                 count=drawn,
                 seed=self.seed,
@@ -214,6 +217,7 @@ class Agent:
                 on_picture=on_picture,
                 on_progress=on_progress,
             )
+            earlier = first.extractor
         self.extractor = fit_extractor(
             pixels,
             dict(zip(values, columns, strict=True)),
@@ -223,13 +227,18 @@ class Agent:
             validation=validation,
             checkpoints=checkpoints,
             start_from=earlier,
+            rehearsal=first.rehearsal if first else None,
             workers=workers,
             on_progress=on_progress,
         )
         self.trained_on = frozenset(scenes.picture_digests())
         self.without = tuple(dict.fromkeys(without))
+        vectors, labels = first.not_among(scenes.vectors) if first else ([], [])
         self.fit_induction(
-            scenes.vectors, scenes.labels, uncertain=self._uncertain(pixels), answers=answers
+            [*scenes.vectors, *vectors],
+            [*scenes.labels, *labels],
+            uncertain=self._uncertain(pixels),
+            answers=answers,
         )
         self.familiarity, self.validation_scores = None, {}
         if validation is not None:

@@ -4,17 +4,40 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seewhy.dataset import Dataset
 from seewhy.domain import Domain
+from seewhy.knowledge.scene import FeatureVector
 from seewhy.pictures import MADE, make_dataset
 
 if TYPE_CHECKING:
     from seewhy.perception.extractor import FeatureExtractor
+    from seewhy.perception.rehearsal import Rehearsal
 
-__all__ = ["is_drawn", "pretrained_extractor"]
+__all__ = ["Pretrained", "is_drawn", "pretrained"]
+
+
+@dataclass(frozen=True)
+class Pretrained:
+    """Networks that know a domain's drawings, and the drawings with their annotation."""
+
+    extractor: FeatureExtractor
+    rehearsal: Rehearsal
+    vectors: tuple[FeatureVector, ...]
+    labels: tuple[str, ...]
+
+    def not_among(self, vectors: Sequence[FeatureVector]) -> tuple[list[FeatureVector], list[str]]:
+        """The annotation of the drawings whose feature vector is none of ``vectors``.
+
+        What photographs show is learned from them alone; what none shows, from drawings.
+        """
+        shown = set(vectors)
+        own = zip(self.vectors, self.labels, strict=True)
+        left = [(vector, label) for vector, label in own if vector not in shown]
+        return [vector for vector, _ in left], [label for _, label in left]
 
 
 def is_drawn(dataset: Dataset) -> bool:
@@ -22,7 +45,7 @@ def is_drawn(dataset: Dataset) -> bool:
     return (dataset.folder / MADE).is_file()
 
 
-def pretrained_extractor(
+def pretrained(
     domain: Domain,
     *,
     count: int,
@@ -32,7 +55,7 @@ def pretrained_extractor(
     checkpoints: Path | None = None,
     on_picture: Callable[[int], None] | None = None,
     on_progress: Callable[[Any], None] | None = None,
-) -> FeatureExtractor:
+) -> Pretrained:
     """Draw pictures with the domain's source and train a network for each feature on them.
 
     Use it where drawings are free and photographs are few: networks that know the drawings need
@@ -63,6 +86,7 @@ def pretrained_extractor(
     """
     from seewhy.perception.domain_options import training_options
     from seewhy.perception.extractor import fit_extractor
+    from seewhy.perception.rehearsal import Rehearsal
 
     with tempfile.TemporaryDirectory(prefix="seewhy-", ignore_cleanup_errors=True) as temporary:
         folder = checkpoints if checkpoints is not None else Path(temporary)
@@ -79,13 +103,20 @@ def pretrained_extractor(
         )
         scenes = Dataset.load(folder / "drawn", domain).without_classes(without)
         columns = list(zip(*scenes.vectors, strict=True))
+        labels = {
+            key: [str(value) for value in column]
+            for key, column in zip(domain.features, columns, strict=True)
+        }
+        pixels = scenes.pictures(domain.pictures.size)
         values = {key: feature.values for key, feature in domain.features.items()}
-        return fit_extractor(
-            scenes.pictures(domain.pictures.size),
-            dict(zip(values, columns, strict=True)),
+        extractor = fit_extractor(
+            pixels,
+            labels,
             values=values,
             options=training_options(domain, seed=seed),
             workers=workers,
             checkpoints=folder / "drawn.training",
             on_progress=on_progress,
         )
+        drawn = Rehearsal(pixels, labels)
+        return Pretrained(extractor, drawn, tuple(scenes.vectors), tuple(scenes.labels))

@@ -24,6 +24,7 @@ from safetensors.torch import save_file
 from seewhy.files import whole_file
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
+from seewhy.perception.rehearsal import Rehearsal
 
 __all__ = ["Position", "Weights", "checkpoint_file", "fingerprint", "read", "write"]
 
@@ -71,6 +72,7 @@ def fingerprint(
     groups: Sequence[object] | None,
     validation: npt.NDArray[np.int64] | None,
     start_from: GrowingNetwork | None,
+    rehearsal: Rehearsal | None,
 ) -> str:
     """What must agree for a checkpoint to be gone on with."""
     digest = hashlib.sha256(np.ascontiguousarray(pictures).data)
@@ -87,6 +89,9 @@ def fingerprint(
     digest.update(json.dumps(described, sort_keys=True).encode())
     if start_from is not None:
         digest.update(_digest(start_from.state_dict()).encode())
+    if rehearsal is not None:
+        digest.update(np.ascontiguousarray(rehearsal.pictures).data)
+        digest.update(json.dumps(list(rehearsal.labels[feature])).encode())
     return digest.hexdigest()
 
 

@@ -18,6 +18,7 @@ from seewhy.perception.network import GrowingNetwork, Standard
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.parallel import train_networks
 from seewhy.perception.picture import SMALLEST_SIDE
+from seewhy.perception.rehearsal import Rehearsal
 from seewhy.weights import REMEDY, Described, read_weights, write_weights
 
 __all__ = ["FeatureExtractor", "Seen", "fit_extractor"]
@@ -223,6 +224,7 @@ def fit_extractor(
     validation: npt.NDArray[np.int64] | None = None,
     checkpoints: Path | None = None,
     start_from: FeatureExtractor | None = None,
+    rehearsal: Rehearsal | None = None,
     workers: int = -1,
     on_progress: Progress | None = None,
 ) -> FeatureExtractor:
@@ -247,6 +249,8 @@ def fit_extractor(
         is saved.
     start_from : FeatureExtractor, optional
         Earlier networks to train on instead of growing new ones; features that it lacks grow.
+    rehearsal : Rehearsal, optional
+        Pictures that ``start_from`` was trained on, to go over again.
     workers : int, default -1
         Features trained at the same time, each in a process of its own; -1: one a core. The
         weights do not depend on it.
@@ -310,6 +314,7 @@ def fit_extractor(
         validation=validation,
         checkpoints=checkpoints,
         start_from=None if start_from is None else start_from.networks,
+        rehearsal=rehearsal,
         workers=workers,
         on_progress=on_progress,
     )

@@ -23,6 +23,7 @@ from seewhy.perception.events import FeatureRecord, Progress, TrainingEvent
 from seewhy.perception.labels import labelled
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
+from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.training import Pictures, train_network
 
 __all__ = ["Trained", "train_networks"]
@@ -41,6 +42,7 @@ def train_networks(
     validation: npt.NDArray[np.int64] | None = None,
     checkpoints: Path | None = None,
     start_from: Mapping[str, GrowingNetwork] | None = None,
+    rehearsal: Rehearsal | None = None,
     workers: int = -1,
     on_progress: Progress | None = None,
 ) -> dict[str, Trained]:
@@ -73,6 +75,7 @@ def train_networks(
             "validation": validation,
             "checkpoints": checkpoints,
             "start_from": earlier.get(name),
+            "rehearsal": rehearsal if name in earlier else None,
         }
         for name, column in labels.items()
     }

@@ -28,6 +28,7 @@ from seewhy.perception.optimisation import (
 )
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.randomness import seed_of, seeded
+from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.validation import split
 
 __all__ = ["train_network"]
@@ -36,6 +37,7 @@ ENOUGH_PICTURES = 1000  # what `max_epochs` is meant for; fewer pictures get mor
 PLENTY = 5000  # more pictures get fewer epochs, at least half
 FLAT_GROWTHS = 2  # growths without gain that end the growing: one alone may be bad luck
 COOLING_STARTS = 0.7  # of the planned epochs; from here on steps are small
+REHEARSED = 1000  # pictures of an earlier training in a pass, at most
 MINIMAL_GAIN = 0.005  # in accuracy, for a growth to count as one that helped
 
 Pictures = npt.NDArray[np.uint8]
@@ -53,6 +55,7 @@ def train_network(
     validation: Indices | None = None,
     checkpoints: Path | None = None,
     start_from: GrowingNetwork | None = None,
+    rehearsal: Rehearsal | None = None,
     on_progress: Progress | None = None,
 ) -> tuple[GrowingNetwork, FeatureRecord]:
     """Grow and train the network of one feature.
@@ -88,6 +91,8 @@ def train_network(
     start_from : GrowingNetwork, optional
         Its convolutions (and its head, where values and size agree) are trained on with half the
         epochs and a third of the learning rate; nothing grows.
+    rehearsal : Rehearsal, optional
+        Pictures that ``start_from`` was trained on, to go over again.
     on_progress : callable, optional
         Called with a :class:`TrainingEvent` after the checkpoint of each epoch is written.
 
@@ -124,7 +129,7 @@ def train_network(
     'conv 3→8, pool, dense 64, dropout 0.5, logits 2'
     """
     chosen, targets = labelled(labels, feature=feature, values=values)
-    if len(np.unique(targets)) == 1:
+    if len(np.unique(targets)) == 1 and start_from is None:
         return _constant(pictures[chosen], targets, feature, values, options, on_progress)
 
     training = _Training(
@@ -136,6 +141,10 @@ def train_network(
         groups=None if groups is None else [groups[i] for i in chosen],
         validation=None if validation is None else np.flatnonzero(np.isin(chosen, validation)),
         start_from=start_from,
+        rehearsed=None if rehearsal is None else rehearsal.pictures,
+        rehearsed_targets=None
+        if rehearsal is None
+        else labelled(rehearsal.labels[feature], feature=feature, values=values)[1],
     )
     file, found, own = None, None, ""
     if checkpoints is not None:
@@ -149,6 +158,7 @@ def train_network(
             groups=groups,
             validation=validation,
             start_from=start_from,
+            rehearsal=rehearsal,
         )
         found = checkpoint.read(file, own)
     if found is None:
@@ -198,6 +208,8 @@ class _Training:
         groups: Sequence[object] | None,
         validation: Indices | None,
         start_from: GrowingNetwork | None,
+        rehearsed: Pictures | None,
+        rehearsed_targets: Indices | None,
     ) -> None:
         if start_from is not None:
             options = replace(
@@ -220,6 +232,12 @@ class _Training:
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
         self.x = torch.from_numpy(np.ascontiguousarray(pictures)).to(self.device)
         self.y = torch.from_numpy(targets).to(self.device)
+        self.rehearsed: tuple[torch.Tensor, torch.Tensor] | None = None
+        if rehearsed is not None and rehearsed_targets is not None:
+            self.rehearsed = (
+                torch.from_numpy(np.ascontiguousarray(rehearsed)).to(self.device),
+                torch.from_numpy(rehearsed_targets).to(self.device),
+            )
         # With too few pictures to spare any, those of training must do.
         judged = self.validation if len(self.validation) else self.train
         self.judged = torch.from_numpy(judged).to(self.device)
@@ -294,14 +312,19 @@ class _Training:
         position, options = self.position, self.options
         with self.seeded(position.stage, position.depth, position.epoch):
             order = torch.from_numpy(self.train)[torch.randperm(len(self.train))].to(self.device)
-            batches = torch.tensor_split(order, math.ceil(len(order) / options.batch_size))
+            steps = math.ceil(len(order) / options.batch_size)
+            again = self.to_rehearse(steps)
             self.network.train()
-            for i, batch in enumerate(batches):
-                progress = (position.epoch + i / len(batches)) / self.planned[position.stage]
+            for i, batch in enumerate(torch.tensor_split(order, steps)):
+                progress = (position.epoch + i / steps) / self.planned[position.stage]
                 for group in self.optimizer.param_groups:
                     group["lr"] = self.peak_rate * one_cycle(progress)
-                logits = self.network(augment(self.x[batch], options))
-                loss = functional.cross_entropy(logits, self.y[batch], weight=self.loss_weights)
+                x, y = self.x[batch], self.y[batch]
+                if self.rehearsed is not None:
+                    x = torch.cat([x, self.rehearsed[0][again[i]]])
+                    y = torch.cat([y, self.rehearsed[1][again[i]]])
+                logits = self.network(augment(x, options))
+                loss = functional.cross_entropy(logits, y, weight=self.loss_weights)
                 self.optimizer.zero_grad(set_to_none=True)
                 loss.backward()  # type: ignore[no-untyped-call]
                 self.optimizer.step()
@@ -313,6 +336,14 @@ class _Training:
             position.best, position.since_best = [accuracy, mean_loss], 0
             self.best = self.weights()
         return self.event("epoch", accuracy)
+
+    def to_rehearse(self, steps: int) -> tuple[torch.Tensor, ...]:
+        """The numbers of the pictures to go over again in each step of this pass."""
+        if self.rehearsed is None:
+            return ()
+        count = min(len(self.train), REHEARSED)
+        chosen = torch.randperm(len(self.rehearsed[1]))[:count].to(self.device)
+        return torch.tensor_split(chosen, steps)
 
     def grow_or_settle(self) -> TrainingEvent:
         """Add a convolution, or go back to the best depth if the accuracy suffices or stays."""
