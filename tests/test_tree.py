@@ -30,6 +30,16 @@ def holds(path: TreePath, vector: tuple[str | None, ...]) -> bool:
     return all(values[c.feature] in c.values for c in path.conditions)
 
 
+@pytest.mark.parametrize("more", range(6))
+def test_a_class_with_a_value_of_its_own_is_not_pruned_away(more: int) -> None:
+    kinds = [str(number) for number in range(8)]
+    scenes = [((kind,), kind) for kind in kinds for _ in range(150)]
+    # A few more of some, as photographs are beside drawings: nearly equal, but not equal.
+    scenes += [((kind,), kind) for kind in kinds[: more + 1] for _ in range(3 * more + 1)]
+    tree = DecisionTree({"kind": kinds}).fit([v for v, _ in scenes], [label for _, label in scenes])
+    assert [tree.classify((kind,)) for kind in kinds] == kinds
+
+
 @settings(max_examples=40, deadline=None)
 @given(st.lists(st.tuples(VECTORS, st.sampled_from(["up", "down", "aside"])), min_size=1))
 def test_every_scene_satisfies_its_path_and_no_other(

@@ -29,16 +29,6 @@ class Pretrained:
     vectors: tuple[FeatureVector, ...]
     labels: tuple[str, ...]
 
-    def not_among(self, vectors: Sequence[FeatureVector]) -> tuple[list[FeatureVector], list[str]]:
-        """The annotation of the drawings whose feature vector is none of ``vectors``.
-
-        What photographs show is learned from them alone; what none shows, from drawings.
-        """
-        shown = set(vectors)
-        own = zip(self.vectors, self.labels, strict=True)
-        left = [(vector, label) for vector, label in own if vector not in shown]
-        return [vector for vector, _ in left], [label for _, label in left]
-
 
 def is_drawn(dataset: Dataset) -> bool:
     """Whether a dataset was made by its domain's own source."""

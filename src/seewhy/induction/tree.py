@@ -121,7 +121,10 @@ class DecisionTree:
         rarest = int(np.unique(classes, return_counts=True)[1].min())
         if rarest >= 2 and len(set(labels)) > 1 and len(vectors) >= 20:
             path = tree.cost_complexity_pruning_path(table, classes)
-            alphas = np.unique(np.clip(path.ccp_alphas[:-1], 0.0, None))
+            alphas = np.unique(np.clip(path.ccp_alphas, 0.0, None))
+            # Between two prunings: at one itself, the trees of cross-validation may keep a
+            # branch that the tree of all scenes loses.
+            alphas = np.sqrt(alphas[:-1] * alphas[1:]) if len(alphas) > 1 else alphas
             search = GridSearchCV(
                 tree,
                 {"ccp_alpha": sorted(_thin(alphas))},
