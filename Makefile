@@ -40,6 +40,8 @@ figures: $(INSTALLED)
 	$(VENV)/bin/python experiments/count_structures.py runs/pictures
 	$(VENV)/bin/seewhy train structure_stability --data runs/pictures --out runs/model
 	$(VENV)/bin/seewhy evaluate runs/model --data runs/pictures
+	$(VENV)/bin/seewhy data make traffic_signs --count 124 --seed 0 --size 96 --out runs/signs
+	$(VENV)/bin/seewhy data show runs/signs --domain traffic_signs --rows 3 --columns 10 --out docs/pictures/signs.png
 	$(VENV)/bin/seewhy ask runs/model runs/pictures/images/000056.png "what is making this structure unstable?" --picture docs/pictures/answer.svg
 
 clean:

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from seewhy.cli import data_import
 from seewhy.cli.options import DomainName, Json, Seed
 from seewhy.cli.screen import percent, print_json, progress, remark, say
+
+if TYPE_CHECKING:
+    from seewhy.domain import Domain
+
+MANY_CLASSES = 8
+"""Of more, the share of each would say less than their range."""
 
 app = typer.Typer(no_args_is_help=True)
 
@@ -62,12 +69,22 @@ def make(
         )
         return
     say(f"{made.count} pictures in {made.folder}")
-    for name, share in made.classes.items():
-        say(f"  {own.classes[name].say}: {percent(share)}")
+    for part in say_shares(own, made.classes):
+        say(f"  {part}")
     say(
         f"  {percent(made.determined)} of them have an outcome that their features determine "
         "(the best that any classifier over the features can do)"
     )
+
+
+def say_shares(domain: Domain, shares: Mapping[str, float], *, between: str = ": ") -> list[str]:
+    """Say the share of every class, or of many their number and the smallest and largest share."""
+    if len(shares) > MANY_CLASSES:
+        low, high = percent(min(shares.values())), percent(max(shares.values()))
+        return [f"{len(shares)} classes, each {low} to {high}"]
+    return [
+        f"{domain.classes[name].say}{between}{percent(share)}" for name, share in shares.items()
+    ]
 
 
 @app.command()
@@ -112,7 +129,7 @@ def show(
         )
         return
     remark(f"domain: {own.name}")
-    said = ", ".join(f"{own.classes[n].say} {percent(s)}" for n, s in shares.items())
+    said = ", ".join(say_shares(own, shares, between=" "))
     say(f"{len(dataset)} pictures ({said}); {percent(determined)} determined by their features")
     say(f"contact sheet: {target}")
 

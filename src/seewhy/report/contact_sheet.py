@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PIL import Image, ImageDraw, ImageFont
 
 from seewhy.dataset import Dataset
@@ -40,5 +42,20 @@ def draw_contact_sheet(
         lines = [scene.label, *values]
         for number_of_line, line in enumerate(lines):
             fill = "#111111" if number_of_line == 0 else "#555555"
-            draw.text((x, y + size + 2 + number_of_line * _LINE), line, fill=fill, font=font)
+            text = _cut(line, lambda own: draw.textlength(own, font=font) <= size)
+            draw.text((x, y + size + 2 + number_of_line * _LINE), text, fill=fill, font=font)
     return sheet
+
+
+def _cut(line: str, fits: Callable[[str], bool]) -> str:
+    """The line, or as much of its beginning as fits with "..." behind it.
+
+    Examples
+    --------
+    >>> _cut("second symbol", lambda text: len(text) <= 9)
+    'second...'
+    """
+    if fits(line):
+        return line
+    most = next(n for n in range(len(line), -1, -1) if n == 0 or fits(f"{line[:n].rstrip()}..."))
+    return f"{line[:most].rstrip()}..."
