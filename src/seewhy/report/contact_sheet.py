@@ -42,20 +42,25 @@ def draw_contact_sheet(
         lines = [scene.label, *values]
         for number_of_line, line in enumerate(lines):
             fill = "#111111" if number_of_line == 0 else "#555555"
-            text = _cut(line, lambda own: draw.textlength(own, font=font) <= size)
+            text = _fitted(line, lambda own: draw.textlength(own, font=font) <= size)
             draw.text((x, y + size + 2 + number_of_line * _LINE), text, fill=fill, font=font)
     return sheet
 
 
-def _cut(line: str, fits: Callable[[str], bool]) -> str:
-    """The line, or as much of its beginning as fits with "..." behind it.
+def _fitted(line: str, fits: Callable[[str], bool]) -> str:
+    """The line; else its value alone; else as much of that as fits.
 
     Examples
     --------
-    >>> _cut("second symbol", lambda text: len(text) <= 9)
-    'second...'
+    >>> _fitted("second symbol: fence", lambda text: len(text) <= 9)
+    'fence'
+    >>> _fitted("second symbol: sixteen_and_thirtyone", lambda text: len(text) <= 9)
+    'sixtee...'
     """
     if fits(line):
         return line
-    most = next(n for n in range(len(line), -1, -1) if n == 0 or fits(f"{line[:n].rstrip()}..."))
-    return f"{line[:most].rstrip()}..."
+    value = line.rpartition(": ")[2]
+    if fits(value):
+        return value
+    most = next((n for n in range(len(value), 0, -1) if fits(f"{value[:n]}...")), 0)
+    return f"{value[:most]}..."
