@@ -148,6 +148,15 @@ def test_a_batch_is_classified_like_single_pictures(agent: Agent, dataset: Datas
 # Training -------------------------------------------------------------------------------------
 
 
+def test_many_answers_at_once_are_those_one_by_one(agent: Agent, dataset: Dataset) -> None:
+    scenes = agent.classify_all(dataset.pictures(agent.domain.pictures.size)[:12])
+    questions = [q for q in agent.questions.one_of_each() if q.asks is not Asks.EXPLAIN]
+    asked = [(scene, question) for scene in scenes for question in questions]
+    assert {"tree", "knowledge"} <= {scene.method for scene in scenes}
+    assert agent.answer_all(asked) == [agent.answer(*own) for own in asked]
+    assert agent.answer_all([]) == []
+
+
 def test_the_tree_learns_from_what_the_knowledge_leaves_open_or_gets_wrong(
     tiles: Domain, dataset: Dataset, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -452,6 +452,30 @@ class Agent:
         text = word_answer(self.domain, question, kind, vector=scene.vector, label=scene.label)
         return Reply(question, text, scene.method, justification, kind, scene)
 
+    def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
+        """Answer many questions about classified scenes; the recurrent network runs once for all.
+
+        The replies are those of :meth:`answer`, one by one.
+        """
+        from seewhy.dialogue.learned import learned_answers
+
+        if self.answerer is not None:
+            learned = [
+                (question, scene.vector, scene.label, ())
+                for scene, question in asked
+                if scene.label is not None and self._is_learned(scene, question)
+            ]
+            learned_answers(self.domain, self.answerer, learned)  # remembers them
+        return [self.answer(scene, question) for scene, question in asked]
+
+    def _is_learned(self, scene: Classification, question: Question) -> bool:
+        """Whether the recurrent network is asked."""
+        return (
+            scene.method == "tree"
+            and self.answerer is not None
+            and question.asks not in (Asks.BELIEF_VALUE, Asks.EXPLAIN)
+        )
+
     def _answer(self, scene: Classification, question: Question) -> tuple[AnswerType, Node]:
         if scene.verdict == UNKNOWN:
             return AnswerType("unknown"), self._unknown(scene)

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from seewhy.domain import READINGS, ReadingRule
+from seewhy.domain_tables import READINGS, ReadingRule
 from seewhy.errors import DomainError
 from seewhy.knowledge.candidates import TRIED, decided_vectors, most_probable_decided
 from seewhy.knowledge.reasoner import Reasoner, Verdict

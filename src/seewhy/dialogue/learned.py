@@ -99,27 +99,37 @@ def learned_answers(
     come into question: an answer never contradicts what the reply says elsewhere. Where the
     network knows none of them, the features of the tree's path are mentioned, with probability 0.
     """
-    chosen: list[tuple[AnswerType, float]] = []
     by_form = _by_form(answerer.answer_types)
-    for question, vector, label, path_features in asked:
-        form = answer_form(domain, question, vector, label)
-        values = domain.named(vector)
-        allowed = {
+    forms = [answer_form(domain, question, vector, label) for question, vector, label, _ in asked]
+    allowed = [
+        {
             identifier: kind
             for fitting in (form, _NOTHING.get(form, ""))
             for identifier, kind in by_form.get(fitting, {}).items()
-            if _possible(kind, question, values)
+            if _possible(kind, question, domain.named(vector))
         }
-        if allowed:
-            identifier, probability = answerer.answer(
-                question.words, _known(vector), label, allowed=allowed
-            )
-            chosen.append((allowed[identifier], probability))
-        else:
-            mentions = tuple(path_features) if form in _WITH_REASONS else ()
-            if question.feature is not None:
-                mentions = (question.feature,)
-            chosen.append((AnswerType(_NOTHING.get(form, form), mentions), 0.0))
+        for form, (question, vector, *_) in zip(forms, asked, strict=True)
+    ]
+    found = iter(
+        answerer.answers(
+            [
+                (question.words, _known(vector), label)
+                for (question, vector, label, _), own in zip(asked, allowed, strict=True)
+                if own
+            ],
+            allowed=[own for own in allowed if own],
+        )
+    )
+    chosen: list[tuple[AnswerType, float]] = []
+    for form, own, (question, _, _, path_features) in zip(forms, allowed, asked, strict=True):
+        if own:
+            identifier, probability = next(found)
+            chosen.append((own[identifier], probability))
+            continue
+        mentions = tuple(path_features) if form in _WITH_REASONS else ()
+        if question.feature is not None:
+            mentions = (question.feature,)
+        chosen.append((AnswerType(_NOTHING.get(form, form), mentions), 0.0))
     return chosen
 
 

@@ -15,7 +15,8 @@ import snowballstemmer
 from rapidfuzz import fuzz, process
 from rapidfuzz.distance import DamerauLevenshtein
 
-from seewhy.domain import Domain, QuestionTable
+from seewhy.domain import Domain
+from seewhy.domain_tables import QuestionTable
 from seewhy.errors import DomainError, QuestionError
 from seewhy.nearest import did_you_mean
 from seewhy.toml_file import line_of

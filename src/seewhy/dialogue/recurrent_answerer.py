@@ -17,6 +17,9 @@ __all__ = ["RecurrentAnswerer"]
 
 DESCRIPTION = "answers.json"
 WEIGHTS = "answers.safetensors"
+_REMEMBERED = 20_000  # questions about kinds of scenes whose logits are kept
+
+Asked = tuple[tuple[str, ...], tuple[str, ...], str]
 
 
 class RecurrentAnswerer:
@@ -47,6 +50,7 @@ class RecurrentAnswerer:
         self._network = network.eval()
         self._description = description
         self._encoding = Encoding(description)
+        self._logits: dict[Asked, npt.NDArray[np.float64]] = {}
 
     @property
     def layers(self) -> int:
@@ -116,10 +120,23 @@ class RecurrentAnswerer:
             )
         if not questions:
             return []
-        with torch.inference_mode():
-            logits = self._network(*self._encoding.encode(questions)).double().numpy()
+        asked = [(tuple(words), tuple(features), label) for words, features, label in questions]
+        self._compute(asked)
         choices = [None] * len(questions) if allowed is None else allowed
-        return [self._choose(row, types) for row, types in zip(logits, choices, strict=True)]
+        return [
+            self._choose(self._logits[own], types)
+            for own, types in zip(asked, choices, strict=True)
+        ]
+
+    def _compute(self, asked: Sequence[Asked]) -> None:
+        """Run the network on what it was not asked before: pictures of one kind come back often."""
+        if len(self._logits) + len(asked) > _REMEMBERED:
+            self._logits.clear()
+        new = [own for own in dict.fromkeys(asked) if own not in self._logits]
+        if new:
+            with torch.inference_mode():
+                logits = self._network(*self._encoding.encode(new)).double().numpy()
+            self._logits.update(zip(new, logits, strict=True))
 
     def _choose(
         self, logits: npt.NDArray[np.float64], allowed: Collection[str] | None

@@ -13,6 +13,8 @@ __all__ = ["develop"]
 
 Picture = NDArray[np.float32]
 
+MIDDLE = 0.37  # the light of a scene that a camera shows as it is
+
 
 def develop(scene: Picture, rng: np.random.Generator, *, sharpness: float) -> Image.Image:
     """Return what a camera on a car makes of a scene.
@@ -42,12 +44,14 @@ def develop(scene: Picture, rng: np.random.Generator, *, sharpness: float) -> Im
 
 def _exposed(scene: Picture, rng: np.random.Generator) -> Picture:
     """Exposure, the colour of the light, haze."""
-    gain = math.exp(rng.normal(-0.06, 0.36))
-    tint = np.exp(rng.normal(0.0, 0.025, 3))
+    # A camera opens for a dark scene and closes for a bright one, though not all the way.
+    follows = (MIDDLE / max(float(scene.mean()), 0.02)) ** 0.4
+    gain = follows * math.exp(rng.normal(-0.06, 0.3))
+    tint = np.exp(rng.normal(0.0, 0.02, 3))
     # White turns to cyan in bright pictures and to brown in dark ones.
     cool = 0.03 + 0.05 * math.log(gain) + rng.normal(0.0, 0.04)
     tint *= np.exp([-1.6 * cool, 0.8 * cool, 0.6 * cool])
-    haze = max(0.0, rng.normal(0.015, 0.025)) * np.exp(rng.normal(0.0, 0.08, 3))
+    haze = max(0.0, rng.normal(0.01, 0.02)) * np.exp(rng.normal(0.0, 0.08, 3))
     exposed: Picture = scene * (gain * tint).astype(np.float32) + haze.astype(np.float32)
     gamma = rng.uniform(0.9, 1.25)
     grey = exposed.mean(axis=2, keepdims=True)
@@ -56,7 +60,7 @@ def _exposed(scene: Picture, rng: np.random.Generator) -> Picture:
 
 
 def _blurred(image: Image.Image, rng: np.random.Generator, *, sharpness: float) -> Image.Image:
-    radius = rng.gamma(1.8, 0.22) / max(sharpness, 0.6) ** 0.4
+    radius = rng.gamma(1.6, 0.2) / max(sharpness, 0.6) ** 0.4
     if rng.random() < 0.06:
         radius += rng.uniform(0.4, 1.5)
     image = image.filter(ImageFilter.GaussianBlur(radius))
