@@ -27,6 +27,7 @@ from seewhy.files import write_whole
 from seewhy.knowledge.scene import FeatureVector
 
 TURNS = 4
+COLUMNS = ("SeeWhy", "not known", "SeeWhy, all answered", "end to end")
 
 
 def decided_vectors(domain: Domain, scenes: Dataset) -> dict[str, FeatureVector]:
@@ -76,13 +77,16 @@ def turn(
     test = replace(scenes, scenes=chosen)
     pixels = test.pictures(domain.pictures.size)
     found = agent.classify_all(pixels)
+    agent.known_share = 1.0
+    answered = agent.classify_all(pixels)
     classes = list(domain.classes)
     other = baseline.probabilities(pixels)["sign"].argmax(axis=1)
     rows: dict[str, dict[str, list[bool]]] = defaultdict(lambda: defaultdict(list))
-    for scene, own, end in zip(test.scenes, found, other, strict=True):
+    for scene, own, each, end in zip(test.scenes, found, answered, other, strict=True):
         group = scene.label if scene.label in hidden else "classes trained on"
         rows[group]["SeeWhy"].append(own.label == scene.label)
         rows[group]["not known"].append(own.label is None)
+        rows[group]["SeeWhy, all answered"].append(each.label == scene.label)
         rows[group]["end to end"].append(classes[int(end)] == scene.label)
     return {
         group: {
@@ -112,20 +116,18 @@ def main() -> None:
             rows = turn(scenes, withheld, left_open, drawn=options.drawn, seed=number)
             write_whole(file, json.dumps(rows, indent=1))
         results.append(json.loads(file.read_text()))
-    print("| withheld | photographs | SeeWhy | not known | end to end |")
-    print("|---|---|---|---|---|")
+    print(f"| withheld | photographs | {' | '.join(COLUMNS)} |")
+    print("|---|---" + "|---" * len(COLUMNS) + "|")
     for label in [*domain.classes, "classes trained on"]:
         for rows in results:
             if label in rows:
                 row = rows[label]
                 note = " (left open)" if label in left_open else ""
-                shares = (
-                    f"{100 * row[key]:.1f} %" for key in ("SeeWhy", "not known", "end to end")
-                )
+                shares = (f"{100 * row[key]:.1f} %" for key in COLUMNS)
                 print(f"| {label}{note} | {row['photographs']} | {' | '.join(shares)} |")
     shown = [rows[label] for rows in results for label in rows if label in decided]
     total = sum(row["photographs"] for row in shown)
-    for key in ("SeeWhy", "not known", "end to end"):
+    for key in COLUMNS:
         share = sum(row[key] * row["photographs"] for row in shown) / total
         print(f"{key}: {100 * share:.1f} % of {total} photographs of withheld classes")
 

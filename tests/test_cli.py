@@ -19,7 +19,19 @@ from seewhy.agent import Agent
 from seewhy.cli.main import main
 from seewhy.domain import Domain, load_domain
 
-COMMANDS = ["", "train", "evaluate", "ask", "chat", "new", "check", "demo", "data"]
+COMMANDS = [
+    "",
+    "train",
+    "evaluate",
+    "learn",
+    "axioms",
+    "ask",
+    "chat",
+    "new",
+    "check",
+    "demo",
+    "data",
+]
 
 
 class Result(NamedTuple):

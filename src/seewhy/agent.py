@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,12 +16,17 @@ from seewhy.dialogue.question import Asks, Question, Questions
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience, ReferenceAnswers, experience_of
 from seewhy.domain import Domain
-from seewhy.errors import DatasetError, DomainError, NotFittedError
+from seewhy.errors import DatasetError, DomainError, KnowledgeError, NotFittedError
+from seewhy.induction.learning import DEFAULTS, LearningOptions
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree, TreePath
+from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
+from seewhy.knowledge.learned_file import Withdrawn, learned_text, parse_learned
 from seewhy.knowledge.reasoner import Minimality, Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.learning import AnnotatedScenes, Learning
+from seewhy.nearest import did_you_mean
 from seewhy.reading import (
     READINGS,
     ConsistentReading,
@@ -57,6 +63,8 @@ class Agent:
     Parameters
     ----------
     domain : Domain
+        As its folder says it. What was learned is added: ``agent.domain`` has it, ``agent.given``
+        has not.
     minimality : {"cardinality", "inclusion"}
         Which exceptions to defaults are preferred; see
         :class:`~seewhy.knowledge.reasoner.Reasoner`.
@@ -75,6 +83,8 @@ class Agent:
         like them the agent says that it does not know them (see :mod:`seewhy.refusal` and
         :class:`~seewhy.perception.familiarity.Familiarity`). 1 answers
         every picture. What the domain says where left out.
+    learned : sequence of Axiom, optional
+        Axioms that were learned before.
 
     Raises
     ------
@@ -101,18 +111,19 @@ class Agent:
         reading: str | None = None,
         gate: float | None = None,
         known_share: float | None = None,
+        learned: Sequence[Axiom] = (),
     ) -> None:
-        self.domain = domain
+        self.given = domain
         self.seed = seed
         self.reading = reading_rule(domain.reading if reading is None else reading)
         self.gate = gate or None
         self.known_share = domain.known_share if known_share is None else known_share
         self._check_options()
         self.minimality: Minimality = minimality
-        self.reasoner = Reasoner(domain.knowledge, domain.schema, minimality=minimality)
         self.questions = Questions(domain)
         answer_templates(domain)  # a wrong template is found here, not after the training
-        self.reasoned = ReasonedAnswers(domain, self.reasoner)
+        self.withdrawn: tuple[Withdrawn, ...] = ()
+        self._know(learned)
         self.tree = DecisionTree({key: f.values for key, f in domain.features.items()})
         self.extractor: FeatureExtractor | None = None
         self.answerer: RecurrentAnswerer | None = None
@@ -121,13 +132,25 @@ class Agent:
         self.without: tuple[str, ...] = ()
         self.familiarity: Familiarity | None = None
         self.validation_scores: dict[ReadingRule, list[float]] = {}
-        self._consistent: ConsistentReading | None = None
 
     def _check_options(self) -> None:
         if self.gate is not None and not 0.0 < self.gate <= 1.0:
             raise DomainError(f"gate must be 0 to 1, got {self.gate!r}")
         if not 0.0 < self.known_share <= 1.0:
             raise DomainError(f"known_share must be above 0, at most 1, got {self.known_share!r}")
+
+    def _know(self, learned: Sequence[Axiom]) -> None:
+        """Reason with what is given and with these axioms."""
+        text = learned_text(learned)
+        signature = self.given.knowledge.signature
+        self.learned = parse_learned(text, signature) if learned else ()
+        axioms = (*self.given.knowledge.axioms, *self.learned)
+        self.domain = replace(self.given, knowledge=replace(self.given.knowledge, axioms=axioms))
+        self.reasoner = Reasoner(
+            self.domain.knowledge, self.domain.schema, minimality=self.minimality
+        )
+        self.reasoned = ReasonedAnswers(self.domain, self.reasoner)
+        self._consistent: ConsistentReading | None = None
 
     # Training -------------------------------------------------------------------------------
 
@@ -182,11 +205,7 @@ class Agent:
         from seewhy.perception.validation import split
         from seewhy.pretraining import Pretrained, is_drawn, pretrained
 
-        if dataset.domain.name != self.domain.name:
-            raise DatasetError(
-                f"{dataset.folder}: the dataset is of the domain '{dataset.domain.name}', the "
-                f"agent of '{self.domain.name}'; load it with the agent's domain"
-            )
+        self._require_own(dataset)
         scenes = dataset.of_split("train").without_classes(without)
         scenes.require_two_classes()
         pictures = self.domain.pictures
@@ -295,6 +314,97 @@ class Agent:
                 seed=self.seed,
             )
         return self
+
+    def learn(
+        self,
+        dataset: Dataset,
+        *,
+        options: LearningOptions = DEFAULTS,
+        accept: Callable[[Sequence[Axiom]], Sequence[Axiom]] | None = None,
+        answers: bool = True,
+    ) -> Learning:
+        """Learn axioms from annotated pictures, and reason with them from now on.
+
+        The pictures seen before count too. Axioms learned earlier that the pictures contradict
+        are withdrawn. What the knowledge still leaves open trains the tree and the recurrent
+        network again; the networks that see are not touched.
+
+        Parameters
+        ----------
+        dataset : Dataset
+            Of its splits, "train" is used.
+        options : LearningOptions
+            How much evidence an axiom needs.
+        accept : callable, optional
+            Called with the axioms found; returns those to add. All are added without it.
+        answers : bool, default True
+            False leaves the recurrent network out.
+
+        Returns
+        -------
+        Learning
+            What was found, added and withdrawn, and the judgement of every candidate.
+
+        Raises
+        ------
+        DatasetError
+            If the dataset is of another domain, or there is one class only.
+        """
+        from seewhy.learning import contradicted, learn_axioms_from, scenes_of
+
+        self._require_own(dataset)
+        train = dataset.of_split("train")
+        scenes = scenes_of(train, self.experience, self.trained_on)
+        if len(set(scenes.labels)) < 2:
+            train.require_two_classes()
+        gone = contradicted(
+            self.given,
+            self.learned,
+            scenes,
+            tolerance=options.tolerance,
+            minimality=self.minimality,
+        )
+        kept = [own for own in self.learned if own not in [axiom for axiom, _ in gone]]
+        self._know(kept)
+        judged, found = learn_axioms_from(
+            self.domain, scenes, minimality=self.minimality, options=options
+        )
+        chosen = tuple(found if accept is None else accept(found))
+        self.withdrawn = (*self.withdrawn, *(own for _, own in gone))
+        self._know([*kept, *chosen])
+        self.trained_on |= frozenset(train.picture_digests())
+        self.fit_induction(scenes.vectors, scenes.labels, answers=answers)
+        return Learning(found, self.learned[len(kept) :], tuple(own for _, own in gone), judged)
+
+    def withdraw(self, identifier: str, *, reason: str = "a person withdrew it") -> Withdrawn:
+        """Know a learned axiom no more; the tree and the answers are trained again without it.
+
+        Raises
+        ------
+        KnowledgeError
+            If no learned axiom has this identifier.
+        """
+        axiom = next((own for own in self.learned if own.identifier == identifier), None)
+        if axiom is None:
+            names = [own.identifier for own in self.learned]
+            raise KnowledgeError(
+                f"'{identifier}' is no learned axiom; {did_you_mean(identifier, names)}"
+                if names
+                else f"'{identifier}' is no learned axiom: none was learned"
+            )
+        gone = Withdrawn(str(axiom), reason)
+        self.withdrawn = (*self.withdrawn, gone)
+        self._know([own for own in self.learned if own is not axiom])
+        scenes = AnnotatedScenes.of_experience(self.experience)
+        self.fit_induction(scenes.vectors, scenes.labels, answers=self.answerer is not None)
+        return gone
+
+    def _require_own(self, dataset: Dataset) -> None:
+        if dataset.domain.name != self.domain.name:
+            raise DatasetError(
+                f"{dataset.folder}: the dataset is of the domain '{dataset.domain.name}', the "
+                f"agent of '{self.domain.name}'; load it with the agent's domain"
+            )
 
     @property
     def reference(self) -> ReferenceAnswers:
@@ -585,7 +695,9 @@ class Agent:
         if self.extractor is None:
             raise NotFittedError("the agent is not trained yet; call fit before save")
         model = Model(
-            domain=self.domain,
+            domain=self.given,
+            learned=self.learned,
+            withdrawn=self.withdrawn,
             extractor=self.extractor,
             tree=self.tree,
             answerer=self.answerer,
@@ -635,7 +747,9 @@ class Agent:
             reading=model.reading if reading is None else reading,
             gate=model.gate if gate is None else gate,
             known_share=model.known_share if known_share is None else known_share,
+            learned=model.learned,
         )
+        agent.withdrawn = model.withdrawn
         agent.extractor, agent.tree, agent.answerer = model.extractor, model.tree, model.answerer
         agent.experience, agent.trained_on = model.experience, model.trained_on
         agent.familiarity = model.familiarity

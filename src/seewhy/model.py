@@ -12,10 +12,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seewhy.dialogue.reference import Experience
-from seewhy.domain import FILES, Domain, ReadingRule, load_domain
+from seewhy.domain import FILES, Domain, load_domain
+from seewhy.domain_tables import ReadingRule
 from seewhy.errors import ModelError, SeeWhyError
 from seewhy.files import write_whole
 from seewhy.induction.tree import DecisionTree
+from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.learned_file import LEARNED, Withdrawn, read_learned, write_learned
 from seewhy.knowledge.reasoner import Minimality
 
 if TYPE_CHECKING:
@@ -36,13 +39,17 @@ _KEYS = (
 class Model:
     """Everything that training leaves behind.
 
-    ``answerer`` is None where the knowledge decided all training scenes rightly; ``trained_on``
-    holds digests of the pictures, ``without`` the classes of which there were none on purpose,
-    ``validation_scores`` how like those of training the pictures kept for validation are, under
-    each way of reading; it and ``familiarity`` are empty where no picture is to be refused.
+    ``domain`` is as given; ``learned`` are the axioms that were found in pictures, ``withdrawn``
+    those that were and are known no more. ``answerer`` is None where the knowledge decided all
+    training scenes rightly; ``trained_on`` holds digests of the pictures, ``without`` the classes
+    of which there were none on purpose, ``validation_scores`` how like those of training the
+    pictures kept for validation are, under each way of reading; it and ``familiarity`` are empty
+    where no picture is to be refused.
     """
 
     domain: Domain
+    learned: tuple[Axiom, ...]
+    withdrawn: tuple[Withdrawn, ...]
     extractor: FeatureExtractor
     tree: DecisionTree
     answerer: RecurrentAnswerer | None
@@ -74,6 +81,8 @@ def write_model(model: Model, folder: Path) -> None:
         (temporary / "domain").mkdir()
         for name in FILES:
             shutil.copyfile(model.domain.folder / name, temporary / "domain" / name)
+        if model.learned or model.withdrawn:
+            write_learned(temporary, model.learned, model.withdrawn)
         model.extractor.save(temporary / "perception")
         if model.familiarity is not None:
             model.familiarity.save(temporary / "perception")
@@ -124,6 +133,7 @@ def read_model(folder: Path) -> Model:
     _check_files(folder, manifest["files"])
     try:
         domain = load_domain(folder / "domain")
+        learned, withdrawn = read_learned(folder / LEARNED, domain.knowledge.signature)
     except SeeWhyError as problem:
         raise ModelError(f"{folder}: the model's domain cannot be read: {problem}") from None
     if domain.name != manifest["domain"]:
@@ -152,6 +162,8 @@ def read_model(folder: Path) -> Model:
     experience = json.loads((folder / "experience.json").read_text(encoding="utf-8"))
     return Model(
         domain=domain,
+        learned=learned,
+        withdrawn=withdrawn,
         extractor=extractor,
         tree=DecisionTree.load(folder / "induction"),
         answerer=answerer,

@@ -9,7 +9,7 @@ from typing import Any
 
 import typer
 
-from seewhy.cli import ask, chat, check, data, demo, evaluate, new, train
+from seewhy.cli import ask, axioms, chat, check, data, demo, evaluate, learn, new, train
 from seewhy.cli.screen import complain
 
 _INTERRUPTED = 130
@@ -27,6 +27,8 @@ app = typer.Typer(
 app.add_typer(data.app, name="data", help="Make datasets and look at them.")
 app.command("train")(train.train)
 app.command("evaluate")(evaluate.evaluate)
+app.command("learn")(learn.learn)
+app.command("axioms")(axioms.axioms)
 app.command("ask")(ask.ask)
 app.command("chat")(chat.chat)
 app.command("new")(new.new)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from seewhy.domain import Domain
-from seewhy.induction.tree import TreePath
+from seewhy.induction.tree import PathCondition, TreePath
 from seewhy.wording import join_clauses, say_values
 
 
@@ -13,26 +15,53 @@ def say_path(domain: Domain, path: TreePath) -> str:
     Examples
     --------
     >>> from seewhy.domain import load_domain
-    >>> from seewhy.induction.tree import PathCondition
     >>> path = TreePath((PathCondition("num_blocks", ("4", "5")), PathCondition("lean", ("yes",))),
     ...                 label="unstable", support=212, precision=0.94)
     >>> say_path(load_domain("structure_stability"), path)  # doctest: +NORMALIZE_WHITESPACE
     'if the structure has four or five blocks and it leans to one side, then it is unstable
      (2 of 4 features tested, 94 % of 212 structures)'
     """
+    tested = f"{len(path.conditions)} of {len(domain.features)} features tested"
+    support = f"({tested}, {path.precision:.0%} of {path.support} {things(domain)})"
+    if not path.conditions:
+        label = domain.classes[path.label].say
+        said = f"{domain.subject} is {label} unless something says otherwise"
+    else:
+        said = say_rule(domain, path.conditions, path.label)
+    return f"{said} {support.replace('%', ' %')}"
+
+
+def say_rule(domain: Domain, conditions: Sequence[PathCondition], label: str) -> str:
+    """Return conditions and the class that they make as "if … then it is …".
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> leans = PathCondition("lean", ("yes",))
+    >>> say_rule(load_domain("structure_stability"), [leans], "unstable")
+    'if the structure leans to one side, then it is unstable'
+    """
     clauses = [
         say_values(domain, c.feature, c.values)
         if c.values
         else f"the {domain.features[c.feature].name} is not known"
-        for c in path.conditions
+        for c in conditions
     ]
-    tested = f"{len(path.conditions)} of {len(domain.features)} features tested"
-    things = domain.scene.replace("_", " ") + "s"
-    support = f"({tested}, {path.precision:.0%} of {path.support} {things})".replace("%", " %")
-    label = domain.classes[path.label].say
     if not clauses:
-        return f"{domain.subject} is {label} unless something says otherwise {support}"
+        return f"{domain.subject} is {domain.classes[label].say}"
     joined = join_clauses(clauses, subject=domain.subject)
     if len(clauses) == 2:
         joined = joined.replace(", and ", " and ")
-    return f"if {joined}, then it is {label} {support}"
+    return f"if {joined}, then it is {domain.classes[label].say}"
+
+
+def things(domain: Domain) -> str:
+    """Return what several scenes of a domain are called.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> things(load_domain("structure_stability"))
+    'structures'
+    """
+    return domain.scene.replace("_", " ") + "s"

@@ -105,21 +105,29 @@ class DecisionTree:
         return () if self._tree is None else tuple(map(str, self._tree.classes_))
 
     def fit(
-        self, vectors: Sequence[FeatureVector], labels: Sequence[str], *, seed: int = 0
+        self,
+        vectors: Sequence[FeatureVector],
+        labels: Sequence[str],
+        *,
+        seed: int = 0,
+        pruned: bool = True,
     ) -> DecisionTree:
-        """Grow and prune the tree; with no scenes it stays unfitted."""
+        """Grow the tree and prune it; with no scenes it stays unfitted.
+
+        Without pruning it grows until every leaf is of one class or cannot be divided.
+        """
         if not vectors:
             self._tree = None
             return self
         table = self._encode(vectors)
         classes = np.asarray(labels)
         # The features are few and discrete: leaves need support, or they are noise.
-        smallest = max(1, min(5, len(vectors) // 50))
+        smallest = max(1, min(5, len(vectors) // 50)) if pruned else 1
         tree = DecisionTreeClassifier(
             criterion="gini", min_samples_leaf=smallest, random_state=seed
         )
         rarest = int(np.unique(classes, return_counts=True)[1].min())
-        if rarest >= 2 and len(set(labels)) > 1 and len(vectors) >= 20:
+        if pruned and rarest >= 2 and len(set(labels)) > 1 and len(vectors) >= 20:
             path = tree.cost_complexity_pruning_path(table, classes)
             alphas = np.unique(np.clip(path.ccp_alphas, 0.0, None))
             # Between two prunings: at one itself, the trees of cross-validation may keep a

@@ -102,13 +102,15 @@ class AxiomKind(StrEnum):
 class Origin:
     """Where an axiom comes from: given by a person, or learned from scenes.
 
-    ``support`` counts the scenes that a learned axiom rests on; ``precision`` is the share of
-    them on which it is right.
+    ``support`` counts the scenes that a learned axiom speaks about; ``precision`` is the share of
+    them on which it is right, ``pictures`` are theirs, and ``things`` is what they are called.
     """
 
     learned: bool = False
     support: int = 0
     precision: float = 1.0
+    pictures: tuple[str, ...] = ()
+    things: str = "scenes"
 
 
 @dataclass(frozen=True)

@@ -109,7 +109,7 @@ class Node:
         if self.axiom is not None:
             place = self.axiom.location
             origin = self.axiom.origin
-            learned = f", learned from {origin.support} scenes" if origin.learned else ""
+            learned = f", learned from {origin.support} {origin.things}" if origin.learned else ""
             file = place.file.replace("\\", "/").rsplit("/", 1)[-1]
             said = f'"{self.axiom.text}" ({file}:{place.line}{learned})'
             line = f"{line}: {said}" if self.holds else f"does not apply: {said}"

@@ -8,7 +8,7 @@ those of the user's file.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -98,13 +98,48 @@ def read_knowledge(source: str, *, file: str = "knowledge.al") -> Knowledge:
         else:
             _refuse_directive(statement)
     signature = Signature(sorts=sorts, predicates=predicates)
+    axioms = _read_axioms(rules, signature, letter="a")
+    return Knowledge(signature=signature, axioms=axioms, file=file)
+
+
+def read_axioms(
+    source: str, signature: Signature, *, file: str = "learned.al", letter: str = "l"
+) -> tuple[Axiom, ...]:
+    """Read axioms alone, over a signature that stands elsewhere.
+
+    ``letter`` begins their identifiers, so that they differ from those of other files.
+
+    Raises
+    ------
+    KnowledgeError
+        As :func:`read_knowledge`; also where something is declared.
+
+    Examples
+    --------
+    >>> known = read_knowledge("#sort structure. #static stable(structure).")
+    >>> [own.identifier for own in read_axioms("stable(S) if structure(S).", known.signature)]
+    ['l1']
+    """
+    rules = list(statements(source, file=file))
+    for statement in rules:
+        if statement.text.startswith("#"):
+            raise KnowledgeError(
+                f"{statement.location}: found '{statement.line}', expected an axiom; sorts and "
+                "statics are declared in knowledge.al"
+            )
+    return _read_axioms(rules, signature, letter=letter)
+
+
+def _read_axioms(
+    rules: Sequence[Statement], signature: Signature, *, letter: str
+) -> tuple[Axiom, ...]:
     parsed = [(statement, *_parse_rule(statement)) for statement in rules]
     axioms = tuple(
-        _read_axiom(statement, kind, rule, signature, number)
+        _read_axiom(statement, kind, rule, signature, f"{letter}{number}")
         for number, (statement, kind, rule) in enumerate(parsed, start=1)
     )
     _check_safety([(statement, rule) for statement, _, rule in parsed])
-    return Knowledge(signature=signature, axioms=axioms, file=file)
+    return axioms
 
 
 def read_literal(text: str) -> Literal:
@@ -298,7 +333,7 @@ def _syntax_message(messages: list[str], statement: Statement) -> str:
 
 
 def _read_axiom(
-    statement: Statement, kind: AxiomKind, rule: ast.AST, signature: Signature, number: int
+    statement: Statement, kind: AxiomKind, rule: ast.AST, signature: Signature, identifier: str
 ) -> Axiom:
     head = _head_of(rule)
     if head is None:
@@ -317,7 +352,7 @@ def _read_axiom(
         _check_atom(atom, signature, statement, variable_sorts)
     body = tuple(_read_condition(element) for element in rule.body)
     axiom = Axiom(
-        identifier=f"a{number}",
+        identifier=identifier,
         kind=kind,
         head=head,
         body=body,

@@ -1,0 +1,50 @@
+"""`seewhy axioms`: what a model knows, given and learned."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from seewhy.cli.learn import axiom_dict
+from seewhy.cli.options import Json, ModelFolder
+from seewhy.cli.screen import add_row, output, print_json, say, table
+
+
+def axioms(
+    model: ModelFolder,
+    remove: Annotated[
+        str | None,
+        typer.Option("--remove", metavar="ID", help="Withdraw a learned axiom."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """List the axioms of a model as sentences, given and learned, and those withdrawn."""
+    from seewhy.agent import Agent
+
+    agent = Agent.load(model)
+    if remove is not None:
+        gone = agent.withdraw(remove)
+        agent.save(model)
+        if not json:
+            say(f"withdrawn: {gone.statement}")
+            return
+    known = agent.domain.knowledge.axioms
+    if json:
+        print_json(
+            {
+                "axioms": [axiom_dict(own) for own in known],
+                "withdrawn": [
+                    {"statement": own.statement, "reason": own.reason} for own in agent.withdrawn
+                ],
+            }
+        )
+        return
+    rows = table("id", "axiom", "origin")
+    for own in known:
+        origin = own.origin
+        place = f"learned from {origin.support} {origin.things}" if origin.learned else "given"
+        add_row(rows, own.identifier, own.text, place)
+    output().print(rows)
+    for gone in agent.withdrawn:
+        say(f"withdrawn: {gone.statement} {gone.reason}")

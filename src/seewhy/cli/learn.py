@@ -1,0 +1,159 @@
+"""`seewhy learn`: find axioms in annotated pictures and reason with them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from seewhy.cli.options import Json, ModelFolder, Seed
+from seewhy.cli.screen import percent, print_json, say
+
+if TYPE_CHECKING:
+    from seewhy.agent import Agent
+    from seewhy.dataset import Dataset
+    from seewhy.knowledge.axiom import Axiom
+    from seewhy.learning import Learning
+
+
+def learn(
+    model: ModelFolder,
+    data: Annotated[Path, typer.Option("--data", help="A dataset folder: annotated pictures.")],
+    support: Annotated[
+        float,
+        typer.Option(
+            "--support",
+            min=0.0,
+            max=1.0,
+            help="The share of the scenes left open that an axiom must speak about.",
+        ),
+    ] = 0.1,
+    tolerance: Annotated[
+        float,
+        typer.Option(
+            "--tolerance", min=0.0, max=0.5, help="The share of the annotation taken to be wrong."
+        ),
+    ] = 0.0,
+    yes: Annotated[bool, typer.Option("--yes", help="Add all axioms found, do not ask.")] = False,
+    seed: Seed = 0,
+    json: Json = False,
+) -> None:
+    """Learn axioms from annotated pictures (those with split = train, where there are splits).
+
+    What the pictures let pass is shown and asked about, then added to the model's knowledge.
+    """
+    from seewhy.agent import Agent
+    from seewhy.dataset import Dataset
+    from seewhy.induction.learning import LearningOptions
+
+    agent = Agent.load(model)
+    dataset = Dataset.load(data, agent.given)
+    before = _accuracy(agent, dataset)
+    learning = agent.learn(
+        dataset,
+        options=LearningOptions(support=support, tolerance=tolerance, seed=seed),
+        accept=None if yes or json else _ask,
+        answers=agent.answerer is not None,
+    )
+    after = _accuracy(agent, dataset)
+    agent.save(model)
+    if json:
+        print_json({**learning_dict(agent, learning), "before": before, "after": after})
+        return
+    print_learning(agent, learning)
+    for name, share in before.items():
+        say(f"{name}: {percent(share)} before, {percent(after[name])} now")
+
+
+def _ask(axioms: Sequence[Axiom]) -> list[Axiom]:
+    chosen = []
+    for axiom in axioms:
+        say(f"{axiom.text}")
+        say(f"  {axiom}  learned from {_rests(axiom)}")
+        if typer.confirm("  add this axiom?", default=True):
+            chosen.append(axiom)
+    return chosen
+
+
+def _rests(axiom: Axiom) -> str:
+    origin = axiom.origin
+    return f"{origin.support} {origin.things}, {percent(origin.precision)} of them rightly"
+
+
+def _accuracy(agent: Agent, dataset: Dataset) -> dict[str, float]:
+    """How much of the annotated features is classified, and how much of the pictures to test on."""
+    scenes = dataset.of_split("test")
+    decisions = agent.reasoner.decide_all(scenes.vectors)
+    labels = [agent.decide(agent.domain.named(vector)) for vector in scenes.vectors]
+    by_knowledge = [own.label == label for own, label in zip(decisions, scenes.labels, strict=True)]
+    found = agent.classify_all(scenes.pictures(agent.domain.pictures.size))
+    pairs = zip(found, scenes.labels, strict=True)
+    right = [own == label for own, label in zip(labels, scenes.labels, strict=True)]
+    count = max(1, len(scenes))
+    return {
+        "annotated features that the knowledge decides rightly": sum(by_knowledge) / count,
+        "annotated features classified rightly": sum(right) / count,
+        "pictures classified rightly": sum(own.label == label for own, label in pairs) / count,
+    }
+
+
+def learning_dict(agent: Agent, learning: Learning) -> dict[str, Any]:
+    """What was learned, as values that JSON can hold."""
+    from seewhy.induction.sentence import say_rule
+
+    return {
+        "found": [str(own) for own in learning.found],
+        "added": [axiom_dict(own) for own in learning.added],
+        "withdrawn": [
+            {"statement": own.statement, "reason": own.reason} for own in learning.withdrawn
+        ],
+        "candidates": [
+            {
+                "text": say_rule(agent.domain, own.candidate.conditions, own.candidate.label),
+                "fate": own.fate.value,
+                "reason": own.reason,
+                "right": own.tally.right,
+                "wrong": own.tally.wrong,
+                "left_open": own.tally.left,
+            }
+            for own in learning.judgements
+        ],
+    }
+
+
+def axiom_dict(axiom: Axiom) -> dict[str, Any]:
+    """An axiom as values that JSON can hold."""
+    origin = axiom.origin
+    return {
+        "identifier": axiom.identifier,
+        "statement": str(axiom),
+        "text": axiom.text,
+        "learned": origin.learned,
+        **(
+            {
+                "support": origin.support,
+                "precision": origin.precision,
+                "pictures": list(origin.pictures),
+            }
+            if origin.learned
+            else {}
+        ),
+    }
+
+
+def print_learning(agent: Agent, learning: Learning) -> None:
+    """Print every candidate with its verdict, and what was added and withdrawn."""
+    from seewhy.induction.sentence import say_rule
+
+    for own in learning.judgements:
+        text = say_rule(agent.domain, own.candidate.conditions, own.candidate.label)
+        why = f": {own.reason}" if own.reason else ""
+        say(f"{own.fate.value}: {text} ({own.tally.right} scenes for it{why})")
+    for gone in learning.withdrawn:
+        say(f"withdrawn: {gone.statement} {gone.reason}")
+    if not learning.found:
+        say("no axiom is to be learned from these pictures")
+    for axiom in learning.added:
+        say(f"added {axiom.identifier}: {axiom}  ({_rests(axiom)})")

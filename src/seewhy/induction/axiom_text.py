@@ -1,0 +1,100 @@
+"""Write a candidate in the knowledge language."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+
+from seewhy.induction.candidate import Candidate
+from seewhy.induction.tree import PathCondition
+from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.scene import SceneSchema
+
+__all__ = ["axiom_statement", "conjunctions"]
+
+SCENE = "S"
+
+
+def conjunctions(candidate: Candidate, schema: SceneSchema) -> tuple[Candidate, ...]:
+    """Divide a candidate into candidates that are one axiom each: a body is a conjunction.
+
+    Numbers can be compared, and where fewer values are excluded than allowed those can be denied;
+    other alternatives are divided.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> from seewhy.induction.tree import PathCondition
+    >>> schema = load_domain("traffic_signs").schema
+    >>> either = Candidate("stop", (PathCondition("shape", ("circle", "octagon")),))
+    >>> [own.conditions[0].values for own in conjunctions(either, schema)]
+    [('circle',), ('octagon',)]
+    """
+    alternatives = [
+        [condition]
+        if len(condition.values) == 1 or _is_one(condition, schema)
+        else [PathCondition(condition.feature, (value,)) for value in condition.values]
+        for condition in candidate.conditions
+    ]
+    return tuple(Candidate(candidate.label, chosen) for chosen in product(*alternatives))
+
+
+def axiom_statement(candidate: Candidate, schema: SceneSchema) -> str:
+    """Return the axiom that says what one of :func:`conjunctions` says.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> from seewhy.induction.tree import PathCondition
+    >>> schema = load_domain("structure_stability").schema
+    >>> axiom_statement(Candidate("unstable", (PathCondition("num_blocks", ("4", "5")),
+    ...                                        PathCondition("lean", ("yes",)))), schema)
+    '-stable(S) if num_blocks(S, N), N > 3, lean(S).'
+    """
+    head = _of_scene(schema.classes[candidate.label], schema)
+    parts: list[str] = []
+    variables = (f"N{n}" if n else "N" for n in range(len(candidate.conditions)))
+    for condition in candidate.conditions:
+        literals = schema.features[condition.feature]
+        if len(condition.values) == 1:
+            parts.append(str(_of_scene(literals[condition.values[0]], schema)))
+        elif _are_numbers(literals):
+            parts.append(_compared(condition.values, literals, next(variables), schema))
+        else:
+            excluded = (own for value, own in literals.items() if value not in condition.values)
+            parts += [str(_of_scene(own.complement, schema)) for own in excluded]
+    return f"{head} if {', '.join(parts or [f'{schema.scene}({SCENE})'])}."
+
+
+def _is_one(condition: PathCondition, schema: SceneSchema) -> bool:
+    """Whether one conjunction says that the value is among several."""
+    literals = schema.features[condition.feature]
+    return _are_numbers(literals) or len(literals) < 2 * len(condition.values)
+
+
+def _of_scene(literal: Literal, schema: SceneSchema) -> Literal:
+    """The literal about any scene; other arguments stay what they are."""
+    arguments = tuple(SCENE if own == schema.scene else own for own in literal.arguments)
+    return Literal(literal.predicate, arguments, literal.positive)
+
+
+def _are_numbers(values: Mapping[str, Literal]) -> bool:
+    return all(value.lstrip("-").isdigit() for value in values)
+
+
+def _compared(
+    values: Sequence[str], literals: Mapping[str, Literal], variable: str, schema: SceneSchema
+) -> str:
+    """The feature's literal with a variable, and what bounds it on either side or is left out."""
+    everything = sorted(map(int, literals))
+    allowed = sorted(map(int, values))
+    some = literals[values[0]]
+    asked = Literal(some.predicate, (*_of_scene(some, schema).arguments[:-1], variable))
+    parts = [str(asked)]
+    below = [own for own in everything if own < allowed[0]]
+    above = [own for own in everything if own > allowed[-1]]
+    parts += [f"{variable} > {below[-1]}"] if below else []
+    parts += [f"{variable} < {above[0]}"] if above else []
+    between = [own for own in everything if allowed[0] < own < allowed[-1]]
+    parts += [f"{variable} != {own}" for own in between if own not in allowed]
+    return ", ".join(parts)

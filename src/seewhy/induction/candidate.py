@@ -1,0 +1,132 @@
+"""Candidate axioms: what a path of the tree proposes, in feature values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import comb
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import binom
+
+from seewhy.induction.scene_table import SceneTable
+from seewhy.induction.tree import PathCondition
+
+_IMPLAUSIBLE = 0.01  # errors that are less likely than this are no errors of annotation
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """Scenes whose features have certain values are of a class.
+
+    Attributes
+    ----------
+    label : str
+    conditions : tuple of PathCondition
+        In the order of the features; the values in the order of the feature's.
+
+    Examples
+    --------
+    >>> general = Candidate("down", (PathCondition("lean", ("yes",)),))
+    >>> special = Candidate("down", (PathCondition("lean", ("yes",)), PathCondition("n", ("4",))))
+    >>> general.covers(special), special.covers(general)
+    (True, False)
+    """
+
+    label: str
+    conditions: tuple[PathCondition, ...]
+
+    def covers(self, other: Candidate) -> bool:
+        """Whether every scene that ``other`` speaks about is spoken about by this one too."""
+        theirs = {own.feature: frozenset(own.values) for own in other.conditions}
+        return self.label == other.label and all(
+            own.feature in theirs and theirs[own.feature] <= frozenset(own.values)
+            for own in self.conditions
+        )
+
+    @property
+    def literals(self) -> int:
+        """How many feature values must be looked at."""
+        return len(self.conditions)
+
+
+@dataclass(frozen=True)
+class Tally:
+    """How the annotated scenes bear a candidate out.
+
+    ``left`` counts the scenes among those that are right which the knowledge left open or got
+    wrong.
+    """
+
+    right: int
+    wrong: int
+    left: int
+
+    @property
+    def precision(self) -> float:
+        """The share of the scenes spoken about that are of the class; 1 where there is none."""
+        return self.right / (self.right + self.wrong) if self.right + self.wrong else 1.0
+
+
+def tally(candidate: Candidate, table: SceneTable, left: NDArray[np.int64] | None = None) -> Tally:
+    """Count the scenes that speak for and against a candidate.
+
+    ``left`` counts, for every row and class of the table, the scenes that the knowledge left open
+    or got wrong; without it they are all.
+    """
+    rows = table.satisfying(candidate.conditions)
+    own = table.of_class(candidate.label)
+    right = int(own[rows].sum())
+    wrong = int(table.totals[rows].sum()) - right
+    if left is None or candidate.label not in table.classes:
+        return Tally(right, wrong, right)
+    return Tally(right, wrong, int(left[rows, table.classes.index(candidate.label)].sum()))
+
+
+def is_borne_out(candidate: Candidate, table: SceneTable, tolerance: float) -> bool:
+    """Whether all scenes that a candidate speaks about are of its class.
+
+    With a ``tolerance`` above 0, that share of the annotation is taken to be wrong: what speaks
+    against the candidate must be few enough to be such errors, in all and for every feature
+    vector, or a large number of scenes that fit would hide a kind of scene that does not.
+
+    Examples
+    --------
+    >>> from seewhy.induction.scene_table import scene_table
+    >>> vectors = [("no",)] * 20 + [("yes",)] * 3
+    >>> table = scene_table({"lean": ("yes", "no")}, vectors, ["up"] * 19 + ["down"] * 4)
+    >>> straight = Candidate("up", (PathCondition("lean", ("no",)),))
+    >>> is_borne_out(straight, table, 0.0), is_borne_out(straight, table, 0.05)
+    (False, True)
+    >>> is_borne_out(Candidate("up", ()), table, 0.05)
+    False
+    """
+    rows = table.satisfying(candidate.conditions)
+    totals = table.totals[rows]
+    wrong = totals - table.of_class(candidate.label)[rows]
+    if tolerance == 0.0:
+        return not wrong.any()
+    alone = binom.sf(wrong - 1, totals, tolerance)
+    together = binom.sf(wrong.sum() - 1, totals.sum(), tolerance)
+    return bool(np.all(alone >= _IMPLAUSIBLE) and together >= _IMPLAUSIBLE)
+
+
+def chance(candidate: Candidate, table: SceneTable, found: Tally) -> float:
+    """How likely a candidate would fit so well if features said nothing of the class.
+
+    The probability that at least as many of the scenes spoken about are of the class, times the
+    number of axioms about the same features that could have been tried (Bonferroni), so that the
+    bound holds for all of them together. Source: none; the paper asks for support alone.
+
+    Examples
+    --------
+    >>> from seewhy.induction.scene_table import scene_table
+    >>> table = scene_table({"lean": ("yes", "no")}, [("no",), ("yes",)] * 10, ["up", "down"] * 10)
+    >>> rule = Candidate("up", (PathCondition("lean", ("no",)),))
+    >>> f"{chance(rule, table, tally(rule, table)):.4f}"
+    '0.0020'
+    """
+    share = table.of_class(candidate.label).sum() / max(1, table.totals.sum())
+    alone = binom.sf(found.right - 1, found.right + found.wrong, share)
+    tried = float(np.prod([len(table.features[own.feature]) for own in candidate.conditions]))
+    return min(1.0, float(alone) * tried * comb(len(table.features), candidate.literals))

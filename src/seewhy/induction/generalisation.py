@@ -1,0 +1,159 @@
+"""Generalise candidate axioms: drop and widen what the evidence does not need."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seewhy.induction.candidate import Candidate, is_borne_out, tally
+from seewhy.induction.scene_table import SceneTable
+from seewhy.induction.tree import PathCondition
+
+__all__ = ["generalised", "most_general", "specialised"]
+
+_ALL_SUBSETS = 10  # conditions of which all choices are tried; of more, one at a time is dropped
+
+
+def specialised(
+    candidate: Candidate, table: SceneTable, left: NDArray[np.int64], *, tolerance: float
+) -> Candidate | None:
+    """Add conditions until a candidate is right on all annotated scenes.
+
+    A path is pure among the scenes that the knowledge left open; scenes that it decides may speak
+    against it. The condition that keeps most of the candidate's own scenes for each wrong one
+    that remains is added, one at a time.
+
+    Returns
+    -------
+    Candidate or None
+        None where no condition helps any more.
+
+    Examples
+    --------
+    >>> from seewhy.induction.scene_table import scene_table
+    >>> table = scene_table({"lean": ("yes", "no")}, [("no",), ("yes",)], ["up", "down"])
+    >>> specialised(Candidate("up", ()), table, table.counts, tolerance=0.0)
+    Candidate(label='up', conditions=(PathCondition(feature='lean', values=('no',)),))
+    """
+    while not is_borne_out(candidate, table, tolerance):
+        best: tuple[float, Candidate] | None = None
+        now = tally(candidate, table, left)
+        for narrower in _narrower(candidate, table):
+            own = tally(narrower, table, left)
+            if not own.left or own.wrong >= now.wrong:
+                continue
+            gain = own.left / now.left - own.wrong / now.wrong
+            if best is None or gain > best[0]:
+                best = gain, narrower
+        if best is None:
+            return None
+        candidate = best[1]
+    return candidate
+
+
+def generalised(candidate: Candidate, table: SceneTable, *, tolerance: float) -> Candidate:
+    """Drop every condition, and allow every value, that no annotated scene speaks against.
+
+    Of the smallest sets of conditions that do, the one with most scenes is kept. A further value
+    is allowed only where a scene with it speaks for the candidate.
+
+    Examples
+    --------
+    >>> from seewhy.induction.scene_table import scene_table
+    >>> table = scene_table({"base": ("wide", "narrow"), "lean": ("yes", "no")},
+    ...                     [("wide", "no"), ("narrow", "no"), ("narrow", "yes")],
+    ...                     ["up", "up", "down"])
+    >>> path = (PathCondition("base", ("wide",)), PathCondition("lean", ("no",)))
+    >>> generalised(Candidate("up", path), table, tolerance=0.0).conditions
+    (PathCondition(feature='lean', values=('no',)),)
+    """
+    return _widened(_dropped(candidate, table, tolerance), table, tolerance)
+
+
+def most_general(candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Return the candidates that no other covers, equal ones once, in their order.
+
+    Examples
+    --------
+    >>> lean = PathCondition("lean", ("yes",))
+    >>> most_general([Candidate("down", (lean, PathCondition("n", ("4",)))),
+    ...               Candidate("down", (lean,))])
+    [Candidate(label='down', conditions=(PathCondition(feature='lean', values=('yes',)),))]
+    """
+    once = list(dict.fromkeys(candidates))
+    return [own for own in once if not any(o is not own and o.covers(own) for o in once)]
+
+
+def _narrower(candidate: Candidate, table: SceneTable) -> list[Candidate]:
+    """The candidate with one more value excluded, or one value alone demanded."""
+    conditions = {own.feature: own.values for own in candidate.conditions}
+    found = []
+    for feature, values in table.features.items():
+        allowed = conditions.get(feature, values)
+        if len(allowed) < 2:
+            continue
+        for value in allowed:
+            for kept in ((value,), tuple(own for own in allowed if own != value)):
+                found.append(_with(candidate, table, feature, kept))
+    return list(dict.fromkeys(found))
+
+
+def _with(
+    candidate: Candidate, table: SceneTable, feature: str, values: tuple[str, ...]
+) -> Candidate:
+    """The candidate with these values of a feature allowed; with all of them, it is not asked."""
+    conditions = {own.feature: own.values for own in candidate.conditions}
+    conditions[feature] = values
+    return Candidate(
+        candidate.label,
+        tuple(
+            PathCondition(name, tuple(v for v in all_values if v in conditions[name]))
+            for name, all_values in table.features.items()
+            if name in conditions and len(conditions[name]) < len(all_values)
+        ),
+    )
+
+
+def _dropped(candidate: Candidate, table: SceneTable, tolerance: float) -> Candidate:
+    conditions = candidate.conditions
+    if len(conditions) > _ALL_SUBSETS:
+        return _dropped_one_by_one(candidate, table, tolerance)
+    for size in range(len(conditions)):
+        fitting = [
+            own
+            for chosen in combinations(conditions, size)
+            if is_borne_out(own := Candidate(candidate.label, chosen), table, tolerance)
+        ]
+        if fitting:
+            return max(fitting, key=lambda own: tally(own, table).right)
+    return candidate
+
+
+def _dropped_one_by_one(candidate: Candidate, table: SceneTable, tolerance: float) -> Candidate:
+    while True:
+        shorter = [
+            Candidate(candidate.label, candidate.conditions[:n] + candidate.conditions[n + 1 :])
+            for n in range(candidate.literals)
+        ]
+        fitting = [own for own in shorter if is_borne_out(own, table, tolerance)]
+        if not fitting:
+            return candidate
+        candidate = max(fitting, key=lambda own: tally(own, table).right)
+
+
+def _widened(candidate: Candidate, table: SceneTable, tolerance: float) -> Candidate:
+    for condition in candidate.conditions:
+        for value in table.features[condition.feature]:
+            allowed = {own.feature: own.values for own in candidate.conditions}.get(
+                condition.feature
+            )
+            if allowed is None or value in allowed:
+                continue
+            wider = _with(candidate, table, condition.feature, (*allowed, value))
+            more = tally(wider, table).right > tally(candidate, table).right
+            if more and is_borne_out(wider, table, tolerance):
+                candidate = wider
+    return candidate

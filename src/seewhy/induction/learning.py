@@ -1,0 +1,251 @@
+"""Learn axioms from annotated scenes: the fourth component of the architecture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import binom
+
+from seewhy.induction.candidate import Candidate, Tally, chance, is_borne_out, tally
+from seewhy.induction.generalisation import generalised, most_general, specialised
+from seewhy.induction.scene_table import SceneTable, scene_table
+from seewhy.induction.tree import DecisionTree
+from seewhy.knowledge.reasoner import Decision
+from seewhy.knowledge.scene import FeatureVector
+
+__all__ = ["DEFAULTS", "Fate", "Judgement", "Learned", "LearningOptions", "learn_axioms"]
+
+BY_CHANCE = 0.01
+"""A candidate that would fit by chance more often than this is not proposed."""
+
+_MOST_ROUNDS = 100
+
+Decide = Callable[[Sequence[Candidate], Sequence[FeatureVector]], Sequence[Decision]]
+"""The decisions about feature vectors of the knowledge with some candidates added."""
+
+
+class Fate(StrEnum):
+    """What became of a candidate."""
+
+    ACCEPTED = "accepted"
+    MERGED = "merged"
+    DROPPED = "dropped"
+    REJECTED = "rejected"
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """A candidate, what became of it, and why.
+
+    ``path`` is what the tree proposed, ``candidate`` what generalisation made of it.
+    """
+
+    path: Candidate
+    candidate: Candidate
+    tally: Tally
+    fate: Fate
+    reason: str
+
+
+@dataclass(frozen=True)
+class Learned:
+    """The candidates that became axioms, in the order of their support, and all judgements."""
+
+    accepted: tuple[Judgement, ...]
+    judgements: tuple[Judgement, ...]
+
+
+@dataclass(frozen=True)
+class LearningOptions:
+    """How much evidence an axiom needs.
+
+    Attributes
+    ----------
+    support : float, default 0.1
+        The least share, of the scenes that the knowledge left open or got wrong, that an axiom
+        must speak about. Where there are many classes it is the share of those of its class.
+    validation : float, default 0.1
+        The share of all scenes that is drawn, among those that an axiom speaks about, to see
+        whether it is right with the knowledge around it.
+    tolerance : float, default 0
+        The share of the annotation that is taken to be wrong.
+    seed : int, default 0
+    """
+
+    support: float = 0.1
+    validation: float = 0.1
+    tolerance: float = 0.0
+    seed: int = 0
+
+
+DEFAULTS = LearningOptions()
+
+
+def learn_axioms(
+    features: Mapping[str, Sequence[str]],
+    vectors: Sequence[FeatureVector],
+    labels: Sequence[str],
+    *,
+    decide: Decide,
+    options: LearningOptions = DEFAULTS,
+) -> Learned:
+    """Induce, generalise and validate axioms until the scenes give no further one.
+
+    Each round finds the scenes that the knowledge, with what was learned so far, leaves open or
+    gets wrong; grows a tree on them; and takes every path that ends in one class. A path is
+    narrowed where decided scenes speak against it, then generalised over all scenes; it becomes
+    an axiom if enough scenes bear it out, if it would hardly fit by chance, and if the knowledge
+    with it classifies the scenes that it speaks about.
+
+    Parameters
+    ----------
+    features : mapping of str to sequence of str
+    vectors, labels : sequences of one length
+        The annotated scenes.
+    decide : callable
+        See :data:`Decide`.
+    options : LearningOptions
+
+    Notes
+    -----
+    Source: Riley and Sridharan (2019), section 3.4. Departures: support is counted after
+    generalising, so that a kind of scene that the tree cut into pieces is not lost; rounds
+    repeat; chance is bounded.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.reasoner import Verdict
+    >>> vectors = [("wide", "no"), ("wide", "yes"), ("narrow", "no"), ("narrow", "yes")] * 10
+    >>> def decide(candidates, some):
+    ...     leans = {own.conditions[0].values[0]: own.label for own in candidates}
+    ...     return [Decision(leans.get(lean), Verdict.SILENT) for base, lean in some]
+    >>> learned = learn_axioms({"base": ("wide", "narrow"), "lean": ("yes", "no")}, vectors,
+    ...                        ["up", "down", "up", "down"] * 10, decide=decide)
+    >>> for own in learned.accepted:
+    ...     print(own.candidate.label, own.candidate.conditions, own.tally.right)
+    up (PathCondition(feature='lean', values=('no',)),) 20
+    down (PathCondition(feature='lean', values=('yes',)),) 20
+    """
+    table = scene_table(features, vectors, labels)
+    rng = np.random.default_rng(options.seed)
+    accepted: list[Judgement] = []
+    judged: dict[Candidate, Judgement] = {}
+    for _ in range(_MOST_ROUNDS):
+        found = len(accepted)
+        known = [own.candidate for own in accepted]
+        left = _left(table, decide(known, table.vectors))
+        for own in _proposed(table, left, options):
+            if own.candidate in judged:
+                continue
+            if own.fate is Fate.ACCEPTED:
+                own = _validated(own, table, [a.candidate for a in accepted], decide, options, rng)
+            judged[own.candidate] = own
+            if own.fate is Fate.ACCEPTED:
+                accepted.append(own)
+        if len(accepted) == found:
+            break
+    kept = set(most_general([own.candidate for own in accepted]))
+    final = tuple(own for own in accepted if own.candidate in kept)
+    return Learned(final, tuple(judged.values()))
+
+
+def _left(table: SceneTable, decisions: Sequence[Decision]) -> NDArray[np.int64]:
+    """The scenes of each row and class that are left open or decided wrongly."""
+    left = table.counts.copy()
+    for row, decision in enumerate(decisions):
+        if decision.label in table.classes:
+            left[row, table.classes.index(decision.label)] = 0
+    return left
+
+
+def _proposed(
+    table: SceneTable, left: NDArray[np.int64], options: LearningOptions
+) -> Iterator[Judgement]:
+    """The generalised paths of a tree over the scenes that are left, those with most first."""
+    rows, columns = np.nonzero(left)
+    counts = left[rows, columns]
+    if not counts.sum():
+        return
+    vectors = [table.vectors[row] for row in np.repeat(rows, counts)]
+    labels = [table.classes[column] for column in np.repeat(columns, counts)]
+    tree = DecisionTree(table.features).fit(
+        vectors, labels, seed=options.seed, pruned=options.tolerance > 0
+    )
+    of_class = dict(zip(table.classes, left.sum(axis=0).tolist(), strict=True))
+    proposed: dict[Candidate, Judgement] = {}
+    for tree_path in tree.paths():
+        asked = {own.feature: own for own in tree_path.conditions if own.values}
+        conditions = tuple(asked[f] for f in table.features if f in asked)
+        # The tree puts values that are not known with others; an axiom does not speak of them.
+        own_counts = left[table.satisfying(conditions)].sum(axis=0)
+        if not own_counts.any():
+            continue
+        path = Candidate(table.classes[int(own_counts.argmax())], conditions)
+        narrow = path
+        if not is_borne_out(path, table, options.tolerance):
+            if own_counts.max() < (1.0 - 2 * options.tolerance) * own_counts.sum():
+                continue
+            found = specialised(path, table, left, tolerance=options.tolerance)
+            if found is None:
+                continue
+            narrow = found
+        candidate = generalised(narrow, table, tolerance=options.tolerance)
+        if candidate in proposed:
+            continue
+        own = tally(candidate, table, left)
+        needed = ceil(options.support * min(len(labels), 2 * of_class[candidate.label]))
+        fate, reason = Fate.ACCEPTED, ""
+        if own.left < needed:
+            fate = Fate.DROPPED
+            reason = f"{own.left} scenes that are left open bear it out, {needed} are needed"
+        elif chance(candidate, table, own) > BY_CHANCE:
+            fate, reason = Fate.DROPPED, "so few scenes could be alike by chance"
+        proposed[candidate] = Judgement(path, candidate, own, fate, reason)
+    general = set(most_general([j.candidate for j in proposed.values() if not j.reason]))
+    for judgement in sorted(proposed.values(), key=lambda j: -j.tally.left):
+        if not judgement.reason and judgement.candidate not in general:
+            yield _with(judgement, Fate.MERGED, "a more general one says the same")
+        else:
+            yield judgement
+
+
+def _validated(
+    own: Judgement,
+    table: SceneTable,
+    known: Sequence[Candidate],
+    decide: Decide,
+    options: LearningOptions,
+    rng: np.random.Generator,
+) -> Judgement:
+    """Try a candidate with the knowledge: on scenes that it speaks about, and on all others."""
+    if any(other.covers(own.candidate) for other in known):
+        return _with(own, Fate.MERGED, "a more general one says the same")
+    before = decide(known, table.vectors)
+    after = decide([*known, own.candidate], table.vectors)
+    spoken = np.flatnonzero(table.satisfying(own.candidate.conditions))
+    scenes = np.repeat(spoken, table.totals[spoken])
+    drawn = min(len(scenes), ceil(options.validation * table.totals.sum()))
+    chosen = rng.permutation(len(scenes))[:drawn]
+    wrong = 0
+    for row in scenes[chosen]:
+        right = after[row].label
+        share = table.of_class(right)[row] / table.totals[row] if right else 0.0
+        wrong += int(rng.random() >= share)
+    if wrong and binom.sf(wrong - 1, drawn, options.tolerance) < BY_CHANCE:
+        return _with(own, Fate.REJECTED, f"{wrong} of {drawn} scenes drawn are misclassified")
+    for row, (first, then) in enumerate(zip(before, after, strict=True)):
+        if first.label is not None and then.label != first.label:
+            vector = ", ".join(str(value) for value in table.vectors[row])
+            return _with(
+                own, Fate.REJECTED, f"it contradicts what is known of the scenes ({vector})"
+            )
+    return own
+
+
+def _with(own: Judgement, fate: Fate, reason: str) -> Judgement:
+    return Judgement(own.path, own.candidate, own.tally, fate, reason)

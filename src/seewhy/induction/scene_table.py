@@ -1,0 +1,111 @@
+"""Annotated scenes as a table: equal scenes are one row with a count for each class."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seewhy.induction.tree import PathCondition
+from seewhy.knowledge.scene import FeatureVector
+
+UNKNOWN = -1
+
+Rows = NDArray[np.bool_]
+"""Which rows of a table are meant, shape (rows,)."""
+
+
+@dataclass(frozen=True)
+class SceneTable:
+    """Annotated scenes, equal feature vectors put together.
+
+    Attributes
+    ----------
+    features : mapping of str to tuple of str
+        Feature → its values; a value's place is its code.
+    classes : tuple of str
+    vectors : tuple of FeatureVector, length rows
+    codes : ndarray of int, shape (rows, features)
+        The places of the values; -1 where a value is not known.
+    counts : ndarray of int, shape (rows, classes)
+        How many scenes of each class look like this.
+    scenes : tuple of tuple of int, length rows
+        The positions of these scenes among those that the table was made of.
+
+    Examples
+    --------
+    >>> table = scene_table({"lean": ("yes", "no")}, [("no",), ("yes",), ("no",)],
+    ...                     ["up", "down", "up"])
+    >>> table.vectors, table.counts.tolist(), table.scenes
+    ((('no',), ('yes',)), [[0, 2], [1, 0]], ((0, 2), (1,)))
+    """
+
+    features: Mapping[str, tuple[str, ...]]
+    classes: tuple[str, ...]
+    vectors: tuple[FeatureVector, ...]
+    codes: NDArray[np.int64]
+    counts: NDArray[np.int64]
+    scenes: tuple[tuple[int, ...], ...]
+
+    def satisfying(self, conditions: Sequence[PathCondition]) -> Rows:
+        """Return which rows satisfy all conditions; a value that is not known satisfies none.
+
+        Examples
+        --------
+        >>> table = scene_table({"lean": ("yes", "no")}, [("no",), (None,)], ["up", "up"])
+        >>> table.satisfying([PathCondition("lean", ("yes", "no"))]).tolist()
+        [True, False]
+        """
+        rows = np.ones(len(self.vectors), dtype=bool)
+        for condition in conditions:
+            rows &= self._allows(condition)
+        return rows
+
+    def _allows(self, condition: PathCondition) -> Rows:
+        values = self.features[condition.feature]
+        allowed = np.zeros(len(values) + 1, dtype=bool)  # the last place is that of UNKNOWN
+        allowed[[values.index(own) for own in condition.values]] = True
+        column = list(self.features).index(condition.feature)
+        rows: Rows = allowed[self.codes[:, column]]
+        return rows
+
+    def of_class(self, label: str) -> NDArray[np.int64]:
+        """Return how many scenes of a class each row stands for."""
+        if label not in self.classes:
+            return np.zeros(len(self.vectors), dtype=np.int64)
+        own: NDArray[np.int64] = self.counts[:, self.classes.index(label)]
+        return own
+
+    @property
+    def totals(self) -> NDArray[np.int64]:
+        """How many scenes each row stands for."""
+        totals: NDArray[np.int64] = self.counts.sum(axis=1)
+        return totals
+
+
+def scene_table(
+    features: Mapping[str, Sequence[str]],
+    vectors: Sequence[FeatureVector],
+    labels: Sequence[str],
+) -> SceneTable:
+    """Make a table of annotated scenes, rows in the order of their first scene."""
+    values = {name: tuple(own) for name, own in features.items()}
+    places = [{value: n for n, value in enumerate(own)} for own in values.values()]
+    classes = tuple(sorted(set(labels)))
+    numbers = {label: n for n, label in enumerate(classes)}
+    found: dict[FeatureVector, list[int]] = {}
+    for position, vector in enumerate(vectors):
+        found.setdefault(tuple(vector), []).append(position)
+    codes = np.full((len(found), len(values)), UNKNOWN, dtype=np.int64)
+    counts = np.zeros((len(found), len(classes)), dtype=np.int64)
+    for row, (vector, positions) in enumerate(found.items()):
+        codes[row] = [
+            UNKNOWN if value is None else place[value]
+            for place, value in zip(places, vector, strict=True)
+        ]
+        np.add.at(counts[row], [numbers[labels[n]] for n in positions], 1)
+    return SceneTable(
+        values, classes, tuple(found), codes, counts, tuple(map(tuple, found.values()))
+    )

@@ -1,0 +1,257 @@
+"""Learn axioms for a domain: induction with the domain's knowledge around it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from seewhy.dataset import Dataset, Scene
+from seewhy.dialogue.reference import Experience
+from seewhy.domain import Domain
+from seewhy.induction.axiom_text import axiom_statement, conjunctions
+from seewhy.induction.candidate import Candidate, tally
+from seewhy.induction.learning import (
+    DEFAULTS,
+    Judgement,
+    Learned,
+    LearningOptions,
+    learn_axioms,
+)
+from seewhy.induction.scene_table import scene_table
+from seewhy.induction.sentence import say_rule, things
+from seewhy.knowledge.axiom import Axiom, Origin
+from seewhy.knowledge.language import Knowledge, read_axioms
+from seewhy.knowledge.learned_file import Withdrawn
+from seewhy.knowledge.reasoner import Decision, Minimality, Reasoner
+from seewhy.knowledge.scene import FeatureVector, SceneSchema
+
+__all__ = [
+    "AnnotatedScenes",
+    "Learning",
+    "axioms_of",
+    "contradicted",
+    "learn_axioms_from",
+    "learn_for_domain",
+    "scenes_of",
+    "with_candidates",
+]
+
+_REASONERS = 4  # the knowledge so far is asked again for every candidate
+
+
+@dataclass(frozen=True)
+class AnnotatedScenes:
+    """Feature vectors with their classes, and the pictures that they were seen in.
+
+    ``pictures`` names every scene's picture; it is empty where that is not known.
+    """
+
+    vectors: tuple[FeatureVector, ...]
+    labels: tuple[str, ...]
+    pictures: tuple[str, ...]
+
+    @staticmethod
+    def of_experience(experience: Experience) -> AnnotatedScenes:
+        """The scenes that an earlier training or learning has counted.
+
+        Examples
+        --------
+        >>> AnnotatedScenes.of_experience({("a",): {"x": 2}}).labels
+        ('x', 'x')
+        """
+        rows = [
+            (vector, label)
+            for vector, counts in experience.items()
+            for label, count in counts.items()
+            for _ in range(count)
+        ]
+        return AnnotatedScenes(
+            tuple(vector for vector, _ in rows),
+            tuple(label for _, label in rows),
+            ("",) * len(rows),
+        )
+
+
+@dataclass(frozen=True)
+class Learning:
+    """What became of learning: axioms found, added, withdrawn, and every candidate's judgement.
+
+    ``found`` are the axioms that all steps of induction let pass; ``added`` those of them that
+    were taken over.
+    """
+
+    found: tuple[Axiom, ...]
+    added: tuple[Axiom, ...]
+    withdrawn: tuple[Withdrawn, ...]
+    judgements: tuple[Judgement, ...]
+
+
+def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) -> AnnotatedScenes:
+    """Return the scenes of a dataset and those that were counted before, none of them twice.
+
+    ``known`` are the digests of the pictures that ``experience`` counts.
+    """
+    names: dict[tuple[FeatureVector, str], list[str]] = {}
+    counts: Counter[tuple[FeatureVector, str]] = Counter(
+        {(v, label): n for v, own in experience.items() for label, n in own.items()}
+    )
+    for scene, digest in zip(dataset.scenes, dataset.picture_digests(), strict=True):
+        key = scene.vector, scene.label
+        names.setdefault(key, []).append(_name(dataset, scene))
+        counts[key] += digest not in known
+    rows = [
+        (vector, label, (names.get((vector, label), []) + [""] * count)[:count])
+        for (vector, label), count in counts.items()
+    ]
+    return AnnotatedScenes(
+        tuple(vector for vector, _, own in rows for _ in own),
+        tuple(label for _, label, own in rows for _ in own),
+        tuple(name for _, _, own in rows for name in own),
+    )
+
+
+def _name(dataset: Dataset, scene: Scene) -> str:
+    folder = dataset.folder
+    inside = scene.picture.is_relative_to(folder)
+    return (scene.picture.relative_to(folder) if inside else scene.picture).as_posix()
+
+
+def learn_axioms_from(
+    domain: Domain,
+    scenes: AnnotatedScenes,
+    *,
+    minimality: Minimality = "cardinality",
+    options: LearningOptions = DEFAULTS,
+) -> tuple[tuple[Judgement, ...], tuple[Axiom, ...]]:
+    """Return the judgement of every candidate, and the axioms that those accepted become."""
+    learned = learn_for_domain(domain, scenes, minimality=minimality, options=options)
+    candidates = [own.candidate for own in learned.accepted]
+    return learned.judgements, axioms_of(domain, candidates, scenes)
+
+
+def learn_for_domain(
+    domain: Domain,
+    scenes: AnnotatedScenes,
+    *,
+    minimality: Minimality = "cardinality",
+    options: LearningOptions = DEFAULTS,
+) -> Learned:
+    """Learn what a domain's knowledge lacks from annotated scenes.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> without = replace(domain.knowledge, axioms=domain.knowledge.axioms[1:])
+    >>> domain = replace(domain, knowledge=without)
+    >>> vectors = [(n, base, "no", displaced) for n in "345" for base in ("wide", "narrow")
+    ...            for displaced in ("yes", "no")] * 10
+    >>> labels = ["unstable" if vector[3] == "yes" else "stable" for vector in vectors]
+    >>> scenes = AnnotatedScenes(tuple(vectors), tuple(labels), ("",) * len(vectors))
+    >>> learned = learn_for_domain(domain, scenes)
+    >>> for axiom in axioms_of(domain, [own.candidate for own in learned.accepted], scenes):
+    ...     print(axiom, axiom.origin.support)
+    -stable(S) if block_displaced(S). 60
+    stable(S) if -block_displaced(S). 60
+    """
+
+    @lru_cache(maxsize=_REASONERS)
+    def reasoner(candidates: tuple[Candidate, ...]) -> Reasoner:
+        knowledge = with_candidates(domain.knowledge, candidates, domain.schema)
+        return Reasoner(knowledge, domain.schema, minimality=minimality)
+
+    def decide(
+        candidates: Sequence[Candidate], some: Sequence[FeatureVector]
+    ) -> Sequence[Decision]:
+        return reasoner(tuple(candidates)).decide_all(some)
+
+    features = {key: feature.values for key, feature in domain.features.items()}
+    return learn_axioms(features, scenes.vectors, scenes.labels, decide=decide, options=options)
+
+
+def with_candidates(
+    knowledge: Knowledge, candidates: Sequence[Candidate], schema: SceneSchema
+) -> Knowledge:
+    """Return the knowledge with candidates added as axioms."""
+    single = (one for own in candidates for one in conjunctions(own, schema))
+    text = "\n".join(axiom_statement(one, schema) for one in single)
+    added = read_axioms(text, knowledge.signature, letter="c")
+    return replace(knowledge, axioms=(*knowledge.axioms, *added))
+
+
+def axioms_of(
+    domain: Domain, candidates: Sequence[Candidate], scenes: AnnotatedScenes
+) -> tuple[Axiom, ...]:
+    """Return candidates as axioms with their sentences and the scenes that they rest on."""
+    schema = domain.schema
+    features = {key: feature.values for key, feature in domain.features.items()}
+    table = scene_table(features, scenes.vectors, scenes.labels)
+    single = [one for own in candidates for one in conjunctions(own, schema)]
+    text = "\n".join(
+        f"%% {say_rule(domain, own.conditions, own.label)}\n{axiom_statement(own, schema)}"
+        for own in single
+    )
+    axioms = read_axioms(text, domain.knowledge.signature)
+    found = []
+    for own, axiom in zip(single, axioms, strict=True):
+        spoken = tally(own, table)
+        rows = np.flatnonzero(table.satisfying(own.conditions))
+        positions = sorted(n for row in rows for n in table.scenes[row])
+        pictures = (
+            scenes.pictures[n]
+            for n in positions
+            if scenes.pictures[n] and scenes.labels[n] == own.label
+        )
+        origin = Origin(
+            learned=True,
+            support=spoken.right + spoken.wrong,
+            precision=spoken.precision,
+            pictures=tuple(dict.fromkeys(pictures)),
+            things=things(domain),
+        )
+        found.append(replace(axiom, origin=origin))
+    return tuple(found)
+
+
+def contradicted(
+    domain: Domain,
+    learned: Sequence[Axiom],
+    scenes: AnnotatedScenes,
+    *,
+    tolerance: float = 0.0,
+    minimality: Minimality = "cardinality",
+) -> list[tuple[Axiom, Withdrawn]]:
+    """Return the learned axioms that scenes speak against, with the reason to withdraw them.
+
+    ``domain`` is the domain without learned axioms. An axiom is contradicted where its conditions
+    hold in scenes of another class: more than ``tolerance`` of them.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> (lean,) = read_axioms("-stable(S) if lean(S).", domain.knowledge.signature)
+    >>> scenes = AnnotatedScenes((("2", "wide", "yes", "no"),), ("stable",), ("a.png",))
+    >>> [own.reason for _, own in contradicted(domain, [lean], scenes)]
+    ['1 of 1 structures that it speaks about are otherwise, as a.png']
+    """
+    schema = domain.schema
+    found = []
+    distinct = list(dict.fromkeys(scenes.vectors))
+    for axiom in learned:
+        alone = Reasoner(replace(domain.knowledge, axioms=(axiom,)), schema, minimality=minimality)
+        concluded = dict(zip(distinct, alone.decide_all(distinct), strict=True))
+        spoken = [n for n, own in enumerate(scenes.vectors) if concluded[own].label is not None]
+        wrong = [n for n in spoken if concluded[scenes.vectors[n]].label != scenes.labels[n]]
+        if len(wrong) > tolerance * len(spoken):
+            some = next((scenes.pictures[n] for n in wrong if scenes.pictures[n]), "")
+            reason = (
+                f"{len(wrong)} of {len(spoken)} {things(domain)} that it speaks about are "
+                f"otherwise{f', as {some}' if some else ''}"
+            )
+            found.append((axiom, Withdrawn(str(axiom), reason)))
+    return found

@@ -1,0 +1,408 @@
+"""Learning axioms from annotated scenes."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import replace
+from itertools import combinations, product
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from conftest import draw_tile
+from seewhy.agent import Agent
+from seewhy.dataset import Dataset
+from seewhy.domain import Domain
+from seewhy.errors import DatasetError, KnowledgeError
+from seewhy.induction.axiom_text import axiom_statement, conjunctions
+from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
+from seewhy.induction.generalisation import generalised, most_general
+from seewhy.induction.learning import Fate, LearningOptions, learn_axioms
+from seewhy.induction.scene_table import scene_table
+from seewhy.induction.tree import PathCondition
+from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.language import read_axioms
+from seewhy.knowledge.learned_file import LEARNED, learned_text, parse_learned, read_learned
+from seewhy.knowledge.reasoner import Decision, Reasoner, Verdict
+from seewhy.learning import AnnotatedScenes, axioms_of, learn_for_domain, with_candidates
+from test_cli import Run, run
+
+__all__ = ["run"]
+
+FEATURES = {"size": ("1", "2", "3", "4"), "colour": ("red", "green", "blue"), "lean": ("yes", "no")}
+SPACE = list(product(*FEATURES.values()))
+
+
+def decide_by(candidates: list[Candidate], vectors: list[tuple[str, ...]]) -> list[Decision]:
+    """What candidates alone say: a class where all that speak agree."""
+    table = scene_table(FEATURES, vectors, ["?"] * len(vectors))
+    rows = {vector: n for n, vector in enumerate(table.vectors)}
+    spoken = [(own.label, table.satisfying(own.conditions)) for own in candidates]
+    decisions = []
+    for vector in vectors:
+        labels = {label for label, covered in spoken if covered[rows[vector]]}
+        label = labels.pop() if len(labels) == 1 else None
+        decisions.append(Decision(label, Verdict.BELIEVED if label else Verdict.SILENT))
+    return decisions
+
+
+def scenes(vectors: list[tuple[str | None, ...]], labels: list[str]) -> AnnotatedScenes:
+    return AnnotatedScenes(tuple(vectors), tuple(labels), ("",) * len(labels))
+
+
+def learned_texts(domain: Domain, some: AnnotatedScenes) -> list[str]:
+    learned = learn_for_domain(domain, some)
+    found = axioms_of(domain, [own.candidate for own in learned.accepted], some)
+    return [str(own) for own in found]
+
+
+# Induction ------------------------------------------------------------------------------------
+
+
+def test_two_rules_are_found_as_they_are() -> None:
+    vectors = SPACE * 10
+    labels = ["down" if v[2] == "yes" and int(v[0]) > 2 else "up" for v in vectors]
+    learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by)
+    assert {own.candidate for own in learned.accepted} == {
+        Candidate("up", (PathCondition("size", ("1", "2")),)),
+        Candidate("up", (PathCondition("lean", ("no",)),)),
+        Candidate("down", (PathCondition("size", ("3", "4")), PathCondition("lean", ("yes",)))),
+    }
+
+
+@settings(max_examples=40, deadline=None)
+@given(data=st.data())
+def test_nothing_learned_is_wrong_about_the_scenes_it_was_learned_from(data: st.DataObject) -> None:
+    rows = data.draw(st.lists(st.sampled_from(SPACE), min_size=4, max_size=60))
+    labels = [data.draw(st.sampled_from(["up", "down", "odd"])) for _ in set(rows)]
+    of = dict(zip(dict.fromkeys(rows), labels, strict=True))
+    vectors = rows * 3
+    learned = learn_axioms(FEATURES, vectors, [of[v] for v in vectors], decide=decide_by)
+    table = scene_table(FEATURES, vectors, [of[v] for v in vectors])
+    for own in learned.accepted:
+        assert tally(own.candidate, table).wrong == 0
+        assert own.tally.right >= 1
+    assert not [
+        (one, other)
+        for one, other in combinations([own.candidate for own in learned.accepted], 2)
+        if one.covers(other) or other.covers(one)
+    ]
+
+
+@settings(max_examples=40, deadline=None)
+@given(data=st.data())
+def test_no_condition_can_be_left_out_of_what_is_generalised(data: st.DataObject) -> None:
+    rows = data.draw(st.lists(st.sampled_from(SPACE), min_size=1, max_size=30, unique=True))
+    labels = [data.draw(st.sampled_from(["up", "down"])) for _ in rows]
+    table = scene_table(FEATURES, rows, labels)
+    start = Candidate(
+        labels[0],
+        tuple(PathCondition(f, (v,)) for f, v in zip(FEATURES, rows[0], strict=True)),
+    )
+    general = generalised(start, table, tolerance=0.0)
+    assert general.covers(start)
+    assert is_borne_out(general, table, 0.0)
+    for left_out in general.conditions:
+        rest = tuple(own for own in general.conditions if own is not left_out)
+        assert not is_borne_out(Candidate(general.label, rest), table, 0.0)
+
+
+def test_shuffled_labels_lead_to_nothing() -> None:
+    rng = np.random.default_rng(0)
+    silly = 0
+    for _ in range(100):
+        vectors = [SPACE[n] for n in rng.integers(len(SPACE), size=200)]
+        labels = [("up", "up", "down")[n] for n in rng.integers(3, size=200)]
+        learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by)
+        silly += bool(learned.accepted)
+    assert silly <= 5
+
+
+def test_wrong_annotation_is_tolerated_only_where_that_is_asked() -> None:
+    rng = np.random.default_rng(1)
+    vectors = SPACE * 40
+    truth = ["down" if v[2] == "yes" else "up" for v in vectors]
+    noisy = [("up" if own == "down" else "down") if rng.random() < 0.05 else own for own in truth]
+    assert not learn_axioms(FEATURES, vectors, noisy, decide=decide_by).accepted
+    tolerant = learn_axioms(
+        FEATURES, vectors, noisy, decide=decide_by, options=LearningOptions(tolerance=0.05)
+    )
+    assert {own.candidate for own in tolerant.accepted} == {
+        Candidate("down", (PathCondition("lean", ("yes",)),)),
+        Candidate("up", (PathCondition("lean", ("no",)),)),
+    }
+
+
+@pytest.mark.parametrize(
+    ("vectors", "labels"),
+    [
+        ([], []),
+        ([("1", "red", "no")] * 50, ["up"] * 50),
+        ([("1", "red", "no"), ("2", "red", "no")], ["up", "down"]),
+        ([(None, None, None)] * 20, ["up", "down"] * 10),
+    ],
+    ids=["no scene", "one class", "fewer scenes than features", "nothing known"],
+)
+def test_where_there_is_nothing_to_learn(
+    vectors: list[tuple[str | None, ...]], labels: list[str]
+) -> None:
+    assert not learn_axioms(FEATURES, vectors, labels, decide=decide_by).accepted
+
+
+def test_values_that_are_not_known_and_features_that_do_not_vary() -> None:
+    vectors = [(n, "red", lean) for n in ("1", None, "3") for lean in ("yes", "no", None)] * 20
+    labels = [{"yes": "down", "no": "up"}.get(str(v[2]), "odd") for v in vectors]
+    learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by)
+    assert {own.candidate for own in learned.accepted} == {
+        Candidate("down", (PathCondition("lean", ("yes",)),)),
+        Candidate("up", (PathCondition("lean", ("no",)),)),
+    }
+
+
+def test_too_few_scenes_are_named() -> None:
+    vectors = SPACE * 10 + [("1", "red", "yes")] * 2
+    labels = ["down" if v[2] == "yes" and v[0] == "4" and v[1] == "red" else "up" for v in vectors]
+    learned = learn_axioms(
+        FEATURES, vectors, labels, decide=decide_by, options=LearningOptions(support=0.9)
+    )
+    reasons = [own.reason for own in learned.judgements if own.fate is Fate.DROPPED]
+    assert any("are needed" in reason for reason in reasons)
+
+
+def test_chance_falls_with_the_scenes_and_grows_with_what_was_tried() -> None:
+    table = scene_table(FEATURES, SPACE * 4, ["up", "down"] * (2 * len(SPACE)))
+    one = Candidate("up", (PathCondition("lean", ("yes",)),))
+    two = Candidate("up", (PathCondition("colour", ("red",)), PathCondition("lean", ("yes",))))
+    few, many = tally(one, table), replace(tally(one, table), right=90)
+    assert chance(one, table, many) < chance(one, table, few)
+    assert chance(two, table, few) > chance(one, table, few)
+
+
+def test_equal_candidates_are_kept_once() -> None:
+    lean = Candidate("up", (PathCondition("lean", ("yes",)),))
+    assert most_general([lean, lean]) == [lean]
+
+
+# With knowledge -------------------------------------------------------------------------------
+
+
+def test_removed_axioms_are_found_again(structures: Domain) -> None:
+    """Every fifth way to remove four of the eight axioms; experiments run all seventy."""
+    full = Reasoner(structures.knowledge, structures.schema)
+    space = list(product(*(own.values for own in structures.features.values())))
+    truth = {vector: full.decide(vector).label for vector in space}
+    rng = np.random.default_rng(0)
+    agreed, exact = [], 0
+    for gone in list(combinations(range(8), 4))[::5]:
+        vectors = [space[n] for n in rng.integers(len(space), size=1000)]
+        labels = [truth[v] or ("stable", "unstable")[rng.integers(2)] for v in vectors]
+        kept = tuple(own for n, own in enumerate(structures.knowledge.axioms) if n not in gone)
+        domain = replace(structures, knowledge=replace(structures.knowledge, axioms=kept))
+        learned = learn_for_domain(domain, scenes(vectors, labels))
+        knowledge = with_candidates(
+            domain.knowledge, [own.candidate for own in learned.accepted], domain.schema
+        )
+        reasoner = Reasoner(knowledge, domain.schema)
+        settled = [v for v in space if truth[v] is not None and v in set(vectors)]
+        same = [reasoner.decide(v).label == truth[v] for v in settled]
+        agreed.append(np.mean(same))
+        exact += all(same)
+    assert np.mean(agreed) >= 0.99
+    assert exact >= len(agreed) / 2
+
+
+def test_an_axiom_that_contradicts_what_is_known_is_not_learned(structures: Domain) -> None:
+    """The knowledge says that displaced blocks fall; pictures of some that stand are of no use."""
+    vectors = [(n, "wide", "no", "yes") for n in "345"] * 20
+    others = [("2", "narrow", "yes", "no")] * 40
+    some = scenes([*vectors, *others], ["stable"] * 60 + ["unstable"] * 40)
+    learned = learn_for_domain(structures, some)
+    assert learned_texts(structures, some) == [
+        str(own)
+        for own in axioms_of(structures, [j.candidate for j in learned.accepted], some)
+        if "-stable" in str(own)
+    ]
+    assert any(own.fate is Fate.REJECTED for own in learned.judgements)
+
+
+def test_alternatives_become_an_axiom_each_and_what_is_excluded_is_denied() -> None:
+    from seewhy.domain import load_domain
+
+    signs = load_domain("traffic_signs")
+    shapes = signs.features["shape"].values
+    label = next(iter(signs.classes))
+    two = Candidate(label, (PathCondition("shape", shapes[:2]),))
+    most = Candidate(label, (PathCondition("shape", shapes[:-1]),))
+    assert len(conjunctions(two, signs.schema)) == 2
+    (one,) = conjunctions(most, signs.schema)
+    assert axiom_statement(one, signs.schema).endswith(f"if -shape(S, {shapes[-1]}).")
+
+
+@settings(max_examples=30, deadline=None)
+@given(data=st.data())
+def test_a_statement_says_what_its_candidate_says(structures: Domain, data: st.DataObject) -> None:
+    conditions = []
+    for key, feature in structures.features.items():
+        values = data.draw(st.sets(st.sampled_from(feature.values), min_size=1))
+        if len(values) < len(feature.values):
+            conditions.append(PathCondition(key, tuple(v for v in feature.values if v in values)))
+    candidate = Candidate("unstable", tuple(conditions))
+    nothing = replace(structures.knowledge, axioms=())
+    reasoner = Reasoner(with_candidates(nothing, [candidate], structures.schema), structures.schema)
+    space = list(product(*(own.values for own in structures.features.values())))
+    features = {key: own.values for key, own in structures.features.items()}
+    table = scene_table(features, space, ["unstable"] * len(space))
+    said = [own.label == "unstable" for own in reasoner.decide_all(table.vectors)]
+    assert said == table.satisfying(candidate.conditions).tolist()
+
+
+# The file -------------------------------------------------------------------------------------
+
+
+def test_learned_axioms_are_read_as_they_were_written(structures: Domain, tmp_path: Path) -> None:
+    vectors = [(n, "wide", "no", moved) for n in "45" for moved in ("yes", "no")] * 20
+    nothing = replace(structures, knowledge=replace(structures.knowledge, axioms=()))
+    some = AnnotatedScenes(
+        tuple(vectors),
+        tuple("unstable" if v[3] == "yes" else "stable" for v in vectors),
+        tuple(f"images/{n}.png" for n in range(len(vectors))),
+    )
+    learned = learn_for_domain(nothing, some)
+    axioms = axioms_of(nothing, [own.candidate for own in learned.accepted], some)
+    assert [own.origin.support for own in axioms] == [40, 40]
+    assert axioms[0].origin.pictures[0].startswith("images/")
+    text = learned_text(axioms)
+    again = parse_learned(text, structures.knowledge.signature)
+    assert [(str(own), own.text, own.origin) for own in again] == [
+        (str(own), own.text, own.origin) for own in axioms
+    ]
+    (tmp_path / LEARNED).write_text(text, encoding="utf-8")
+    assert read_learned(tmp_path / LEARNED, structures.knowledge.signature) == (
+        tuple(
+            replace(own, location=replace(own.location, file=str(tmp_path / LEARNED)))
+            for own in again
+        ),
+        (),
+    )
+
+
+def test_an_axiom_without_what_it_was_learned_from(structures: Domain) -> None:
+    with pytest.raises(KnowledgeError, match=r"learned\.al:1:1: nothing says what"):
+        parse_learned("stable(S) if num_blocks(S, 2).", structures.knowledge.signature)
+
+
+def test_declarations_have_no_place_among_learned_axioms(structures: Domain) -> None:
+    with pytest.raises(KnowledgeError, match="declared in knowledge"):
+        read_axioms("#sort colour = {red}.", structures.knowledge.signature)
+
+
+# The agent ------------------------------------------------------------------------------------
+
+
+def test_learning_from_pictures_reasons_with_what_it_learned(
+    agent: Agent, model_folder: Path, dataset: Dataset, tmp_path: Path
+) -> None:
+    own = Agent.load(model_folder)
+    learning = own.learn(dataset)
+    assert learning.added
+    assert own.learned == learning.added
+    assert [axiom.identifier for axiom in own.learned] == [
+        f"l{n}" for n in range(1, len(own.learned) + 1)
+    ]
+    for axiom in own.learned:
+        assert axiom.origin.learned
+        assert axiom.origin.things == "tiles"
+        assert axiom.origin.pictures
+    assert len(own.given.knowledge.axioms) == len(agent.domain.knowledge.axioms)
+    own.save(tmp_path / "model")
+    again = Agent.load(tmp_path / "model")
+    assert [str(axiom) for axiom in again.learned] == [str(axiom) for axiom in own.learned]
+    vectors = dataset.vectors
+    assert again.reasoner.decide_all(vectors) == own.reasoner.decide_all(vectors)
+
+
+def test_a_second_learning_from_the_same_pictures_finds_nothing_new(
+    model_folder: Path, dataset: Dataset
+) -> None:
+    own = Agent.load(model_folder)
+    first = own.learn(dataset)
+    counted = sum(sum(counts.values()) for counts in own.experience.values())
+    second = own.learn(dataset)
+    assert (second.added, second.withdrawn) == ((), ())
+    assert own.learned == first.added
+    assert sum(sum(counts.values()) for counts in own.experience.values()) == counted
+
+
+def test_pictures_that_contradict_an_axiom_withdraw_it(
+    tiles: Domain, model_folder: Path, dataset: Dataset, tmp_path: Path
+) -> None:
+    own = Agent.load(model_folder)
+    own.learn(dataset)
+    before = [str(axiom) for axiom in own.learned]
+    (tmp_path / "images").mkdir()
+    kinds = [(c, r) for c in ("red", "green", "blue") for r in ("yes", "no")]
+    rows = ["image,class,colour,round"]
+    for number, (colour, is_round) in enumerate(kinds * 3):
+        draw_tile(colour, is_round, 1000 + number).save(tmp_path / "images" / f"{number}.png")
+        label = own.decide({"colour": colour, "round": is_round})
+        other = "good" if label == "bad" else "bad"
+        rows.append(f"images/{number}.png,{other},{colour},{is_round}")
+    (tmp_path / "scenes.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
+    learning = own.learn(Dataset.load(tmp_path, tiles))
+    assert [gone.statement for gone in learning.withdrawn] == before
+    assert all("are otherwise, as images/" in gone.reason for gone in learning.withdrawn)
+    assert own.withdrawn == learning.withdrawn
+
+
+def test_only_what_is_accepted_is_added(model_folder: Path, dataset: Dataset) -> None:
+    own = Agent.load(model_folder)
+    asked: list[Axiom] = []
+    learning = own.learn(dataset, accept=lambda found: asked.extend(found) or [])
+    assert tuple(asked) == learning.found
+    assert learning.found
+    assert own.learned == ()
+
+
+def test_a_dataset_of_another_domain(
+    model_folder: Path, structures: Domain, dataset: Dataset
+) -> None:
+    with pytest.raises(DatasetError, match="is of the domain 'structure_stability'"):
+        Agent.load(model_folder).learn(replace(dataset, domain=structures))
+
+
+# The command line -----------------------------------------------------------------------------
+
+
+def test_learn_and_axioms(run: Run, model_folder: Path, tiles_data: Path, tmp_path: Path) -> None:
+    model = tmp_path / "model"
+    shutil.copytree(model_folder, model)
+    refused = run("learn", model, "--data", tiles_data, stdin="n\n" * 20)
+    assert refused.code == 0
+    assert "add this axiom?" in refused.out
+    assert "added" not in refused.out
+    result = run("learn", model, "--data", tiles_data, "--yes")
+    assert result.code == 0
+    assert "added l1:" in result.out
+    assert "pictures classified rightly:" in result.out
+    listed = run("axioms", model)
+    assert "learned from" in listed.out
+    found = json.loads(run("axioms", model, "--json").out)
+    learned = [own for own in found["axioms"] if own["learned"]]
+    assert learned[0]["identifier"] == "l1"
+    assert learned[0]["support"] >= len(learned[0]["pictures"]) > 0
+    removed = run("axioms", model, "--remove", "l1")
+    assert removed.out == f"withdrawn: {learned[0]['statement']}\n"
+    after = json.loads(run("axioms", model, "--json").out)
+    assert after["withdrawn"] == [
+        {"statement": learned[0]["statement"], "reason": "a person withdrew it"}
+    ]
+
+
+def test_an_axiom_that_is_not_there(run: Run, model_folder: Path) -> None:
+    result = run("axioms", model_folder, "--remove", "l7")
+    assert (result.code, result.out) == (2, "")
+    assert result.err == "seewhy: 'l7' is no learned axiom: none was learned\n"
