@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import binom
 
-from seewhy.induction.scene_table import SceneTable
+from seewhy.induction.scene_table import Rows, SceneTable
 from seewhy.induction.tree import PathCondition
 
 _IMPLAUSIBLE = 0.01  # errors that are less likely than this are no errors of annotation
@@ -109,6 +109,23 @@ def is_borne_out(candidate: Candidate, table: SceneTable, tolerance: float) -> b
     alone = binom.sf(wrong - 1, totals, tolerance)
     together = binom.sf(wrong.sum() - 1, totals.sum(), tolerance)
     return bool(np.all(alone >= _IMPLAUSIBLE) and together >= _IMPLAUSIBLE)
+
+
+def settled(table: SceneTable, tolerance: float) -> Rows:
+    """Return the rows whose scenes are all of one class, but for errors of annotation.
+
+    Examples
+    --------
+    >>> from seewhy.induction.scene_table import scene_table
+    >>> table = scene_table({"lean": ("yes", "no")}, [("no",), ("yes",), ("no",)],
+    ...                     ["up", "down", "down"])
+    >>> settled(table, 0.0).tolist()
+    [False, True]
+    """
+    wrong = table.totals - table.counts.max(axis=1, initial=0)
+    if tolerance == 0.0:
+        return np.asarray(wrong == 0)
+    return np.asarray(binom.sf(wrong - 1, table.totals, tolerance) >= _IMPLAUSIBLE)
 
 
 def chance(candidate: Candidate, table: SceneTable, found: Tally) -> float:

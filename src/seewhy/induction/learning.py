@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import binom
 
-from seewhy.induction.candidate import Candidate, Tally, chance, is_borne_out, tally
+from seewhy.induction.candidate import Candidate, Tally, chance, is_borne_out, settled, tally
 from seewhy.induction.generalisation import generalised, most_general, specialised
 from seewhy.induction.scene_table import SceneTable, scene_table
 from seewhy.induction.tree import DecisionTree
@@ -166,7 +166,11 @@ def _left(table: SceneTable, decisions: Sequence[Decision]) -> NDArray[np.int64]
 def _proposed(
     table: SceneTable, left: NDArray[np.int64], options: LearningOptions
 ) -> Iterator[Judgement]:
-    """The generalised paths of a tree over the scenes that are left, those with most first."""
+    """The generalised paths of a tree over the scenes that are left, those with most first.
+
+    Scenes that look the same and are of several classes are left out: no axiom can tell them apart.
+    """
+    left = left * settled(table, options.tolerance)[:, None]
     rows, columns = np.nonzero(left)
     counts = left[rows, columns]
     if not counts.sum():
