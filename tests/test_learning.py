@@ -124,7 +124,7 @@ def test_shuffled_labels_lead_to_nothing() -> None:
 
 def test_wrong_annotation_is_tolerated_only_where_that_is_asked() -> None:
     rng = np.random.default_rng(1)
-    vectors = SPACE * 40
+    vectors = SPACE * 150
     truth = ["down" if v[2] == "yes" else "up" for v in vectors]
     noisy = [("up" if own == "down" else "down") if rng.random() < 0.05 else own for own in truth]
     assert not learn_axioms(FEATURES, vectors, noisy, decide=decide_by).accepted
