@@ -57,9 +57,18 @@ def turns(decided: dict[str, FeatureVector]) -> list[list[str]]:
 
 
 def turn(
-    scenes: Dataset, withheld: list[str], left_open: list[str], *, drawn: int, seed: int
+    scenes: Dataset,
+    withheld: list[str],
+    left_open: list[str],
+    *,
+    drawn: int,
+    seed: int,
+    model: Path,
 ) -> dict[str, dict[str, float]]:
-    """Train without some classes; return what happens to the photographs of each class."""
+    """Train without some classes; return what happens to the photographs of each class.
+
+    The model is kept: signs_unknown.py says more about what it refuses.
+    """
     domain = scenes.domain
     tested = in_fold(scenes, seed)
     hidden = {*withheld, *left_open}
@@ -68,6 +77,7 @@ def turn(
         scenes, scenes=tuple(s for s, out in zip(scenes.scenes, tested, strict=True) if not out)
     )
     agent.fit(train, without=sorted(hidden), drawn=drawn, answers=False)
+    agent.save(model)
     baseline = end_to_end(train.without_classes(sorted(hidden)), seed=seed)
     chosen = tuple(
         scene
@@ -113,7 +123,14 @@ def main() -> None:
     for number, withheld in enumerate(turns(decided)):
         file = options.out / f"turn-{options.drawn}-{number}.json"
         if not file.exists():
-            rows = turn(scenes, withheld, left_open, drawn=options.drawn, seed=number)
+            rows = turn(
+                scenes,
+                withheld,
+                left_open,
+                drawn=options.drawn,
+                seed=number,
+                model=options.out / f"model-{options.drawn}-{number}",
+            )
             write_whole(file, json.dumps(rows, indent=1))
         results.append(json.loads(file.read_text()))
     print(f"| withheld | photographs | {' | '.join(COLUMNS)} |")
