@@ -187,6 +187,26 @@ def test_equal_candidates_are_kept_once() -> None:
     assert most_general([lean, lean]) == [lean]
 
 
+def test_the_paths_that_became_axioms_are_marked() -> None:
+    vectors = [v for v in SPACE for _ in range(10)]
+    odd = [("4", "red", "yes"), ("4", "red", "no")]
+    labels = ["up" if v in odd else "down" if v[2] == "yes" else "up" for v in vectors]
+    learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by)
+    paths = learned.tree.paths()
+    marked = [paths[n] for n in sorted(learned.accepted_leaves)]
+    assert marked
+    for path in marked:
+        assert any(
+            own.candidate.covers(
+                Candidate(
+                    path.label,
+                    tuple(c for f in FEATURES for c in path.conditions if c.feature == f),
+                )
+            )
+            for own in learned.accepted
+        )
+
+
 # With knowledge -------------------------------------------------------------------------------
 
 
@@ -384,7 +404,9 @@ def test_learn_and_axioms(run: Run, model_folder: Path, tiles_data: Path, tmp_pa
     assert refused.code == 0
     assert "add this axiom?" in refused.out
     assert "added" not in refused.out
-    result = run("learn", model, "--data", tiles_data, "--yes")
+    drawn = tmp_path / "tree.svg"
+    result = run("learn", model, "--data", tiles_data, "--yes", "--picture", drawn)
+    assert "stroke='#1c7a3d'" in drawn.read_text(encoding="utf-8")
     assert result.code == 0
     assert "added l1:" in result.out
     assert "pictures classified rightly:" in result.out

@@ -350,7 +350,7 @@ class Agent:
         DatasetError
             If the dataset is of another domain, or there is one class only.
         """
-        from seewhy.learning import contradicted, learn_axioms_from, scenes_of
+        from seewhy.learning import axioms_of, contradicted, learn_for_domain, scenes_of
 
         self._require_own(dataset)
         train = dataset.of_split("train")
@@ -366,15 +366,21 @@ class Agent:
         )
         kept = [own for own in self.learned if own not in [axiom for axiom, _ in gone]]
         self._know(kept)
-        judged, found = learn_axioms_from(
-            self.domain, scenes, minimality=self.minimality, options=options
-        )
+        learned = learn_for_domain(self.domain, scenes, minimality=self.minimality, options=options)
+        found = axioms_of(self.domain, [own.candidate for own in learned.accepted], scenes)
         chosen = tuple(found if accept is None else accept(found))
         self.withdrawn = (*self.withdrawn, *(own for _, own in gone))
         self._know([*kept, *chosen])
         self.trained_on |= frozenset(train.picture_digests())
         self.fit_induction(scenes.vectors, scenes.labels, answers=answers)
-        return Learning(found, self.learned[len(kept) :], tuple(own for _, own in gone), judged)
+        return Learning(
+            found,
+            self.learned[len(kept) :],
+            tuple(own for _, own in gone),
+            learned.judgements,
+            learned.tree,
+            learned.accepted_leaves,
+        )
 
     def withdraw(self, identifier: str, *, reason: str = "a person withdrew it") -> Withdrawn:
         """Know a learned axiom no more; the tree and the answers are trained again without it.

@@ -23,6 +23,7 @@ from seewhy.induction.learning import (
 )
 from seewhy.induction.scene_table import scene_table
 from seewhy.induction.sentence import say_rule, things
+from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.axiom import Axiom, Origin
 from seewhy.knowledge.language import Knowledge, read_axioms
 from seewhy.knowledge.learned_file import Withdrawn
@@ -34,7 +35,6 @@ __all__ = [
     "Learning",
     "axioms_of",
     "contradicted",
-    "learn_axioms_from",
     "learn_for_domain",
     "scenes_of",
     "with_candidates",
@@ -81,13 +81,16 @@ class Learning:
     """What became of learning: axioms found, added, withdrawn, and every candidate's judgement.
 
     ``found`` are the axioms that all steps of induction let pass; ``added`` those of them that
-    were taken over.
+    were taken over. ``tree`` is the tree of the first round, ``accepted_leaves`` the places of its
+    paths that the axioms found cover.
     """
 
     found: tuple[Axiom, ...]
     added: tuple[Axiom, ...]
     withdrawn: tuple[Withdrawn, ...]
     judgements: tuple[Judgement, ...]
+    tree: DecisionTree
+    accepted_leaves: frozenset[int]
 
 
 def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) -> AnnotatedScenes:
@@ -118,19 +121,6 @@ def _name(dataset: Dataset, scene: Scene) -> str:
     folder = dataset.folder
     inside = scene.picture.is_relative_to(folder)
     return (scene.picture.relative_to(folder) if inside else scene.picture).as_posix()
-
-
-def learn_axioms_from(
-    domain: Domain,
-    scenes: AnnotatedScenes,
-    *,
-    minimality: Minimality = "cardinality",
-    options: LearningOptions = DEFAULTS,
-) -> tuple[tuple[Judgement, ...], tuple[Axiom, ...]]:
-    """Return the judgement of every candidate, and the axioms that those accepted become."""
-    learned = learn_for_domain(domain, scenes, minimality=minimality, options=options)
-    candidates = [own.candidate for own in learned.accepted]
-    return learned.judgements, axioms_of(domain, candidates, scenes)
 
 
 def learn_for_domain(

@@ -37,6 +37,13 @@ def learn(
         ),
     ] = 0.0,
     yes: Annotated[bool, typer.Option("--yes", help="Add all axioms found, do not ask.")] = False,
+    picture: Annotated[
+        Path | None,
+        typer.Option(
+            "--picture",
+            help="Draw the tree, with the paths that became axioms marked (SVG).",
+        ),
+    ] = None,
     seed: Seed = 0,
     json: Json = False,
 ) -> None:
@@ -59,6 +66,12 @@ def learn(
     )
     after = _accuracy(agent, dataset)
     agent.save(model)
+    if picture is not None:
+        from seewhy.files import write_whole
+        from seewhy.report.tree import draw_tree
+
+        tree = draw_tree(agent.domain, learning.tree, accepted=learning.accepted_leaves)
+        write_whole(picture, tree.svg)
     if json:
         print_json({**learning_dict(agent, learning), "before": before, "after": after})
         return

@@ -54,10 +54,24 @@ class Judgement:
 
 @dataclass(frozen=True)
 class Learned:
-    """The candidates that became axioms, in the order of their support, and all judgements."""
+    """What came of learning.
+
+    Attributes
+    ----------
+    accepted : tuple of Judgement
+        The candidates that became axioms, in the order in which they were accepted.
+    judgements : tuple of Judgement
+        All candidates.
+    tree : DecisionTree
+        The tree of the first round; unfitted where the knowledge decides all scenes.
+    accepted_leaves : frozenset of int
+        The places, among the tree's paths, of those that accepted axioms cover.
+    """
 
     accepted: tuple[Judgement, ...]
     judgements: tuple[Judgement, ...]
+    tree: DecisionTree
+    accepted_leaves: frozenset[int]
 
 
 @dataclass(frozen=True)
@@ -97,7 +111,8 @@ def learn_axioms(
     """Induce, generalise and validate axioms until the scenes give no further one.
 
     Each round finds the scenes that the knowledge, with what was learned so far, leaves open or
-    gets wrong; grows a tree on them; and takes every path that ends in one class. A path is
+    gets wrong, but for those that look the same and are of several classes (no axiom could tell
+    them apart); grows a tree on them; and takes every path that ends in one class. A path is
     narrowed where decided scenes speak against it, then generalised over all scenes; it becomes
     an axiom if enough scenes bear it out, if it would hardly fit by chance, and if the knowledge
     with it classifies the scenes that it speaks about.
@@ -135,11 +150,16 @@ def learn_axioms(
     rng = np.random.default_rng(options.seed)
     accepted: list[Judgement] = []
     judged: dict[Candidate, Judgement] = {}
+    first: tuple[DecisionTree, list[Candidate | None]] | None = None
     for _ in range(_MOST_ROUNDS):
         found = len(accepted)
         known = [own.candidate for own in accepted]
         left = _left(table, decide(known, table.vectors))
-        for own in _proposed(table, left, options):
+        left *= settled(table, options.tolerance)[:, None]
+        tree = _grown(table, left, options)
+        paths = _paths(tree, table, left)
+        first = first or (tree, paths)
+        for own in _proposed(paths, table, left, options):
             if own.candidate in judged:
                 continue
             if own.fate is Fate.ACCEPTED:
@@ -151,7 +171,11 @@ def learn_axioms(
             break
     kept = set(most_general([own.candidate for own in accepted]))
     final = tuple(own for own in accepted if own.candidate in kept)
-    return Learned(final, tuple(judged.values()))
+    tree, paths = first or (DecisionTree(table.features), [])
+    leaves = frozenset(
+        n for n, path in enumerate(paths) if path and any(own.covers(path) for own in kept)
+    )
+    return Learned(final, tuple(judged.values()), tree, leaves)
 
 
 def _left(table: SceneTable, decisions: Sequence[Decision]) -> NDArray[np.int64]:
@@ -163,36 +187,52 @@ def _left(table: SceneTable, decisions: Sequence[Decision]) -> NDArray[np.int64]
     return left
 
 
-def _proposed(
-    table: SceneTable, left: NDArray[np.int64], options: LearningOptions
-) -> Iterator[Judgement]:
-    """The generalised paths of a tree over the scenes that are left, those with most first.
-
-    Scenes that look the same and are of several classes are left out: no axiom can tell them apart.
-    """
-    left = left * settled(table, options.tolerance)[:, None]
+def _grown(table: SceneTable, left: NDArray[np.int64], options: LearningOptions) -> DecisionTree:
+    """A tree over the scenes that are left; unfitted where there are none."""
     rows, columns = np.nonzero(left)
     counts = left[rows, columns]
-    if not counts.sum():
-        return
-    vectors = [table.vectors[row] for row in np.repeat(rows, counts)]
-    labels = [table.classes[column] for column in np.repeat(columns, counts)]
-    tree = DecisionTree(table.features).fit(
-        vectors, labels, seed=options.seed, pruned=options.tolerance > 0
+    return DecisionTree(table.features).fit(
+        [table.vectors[row] for row in np.repeat(rows, counts)],
+        [table.classes[column] for column in np.repeat(columns, counts)],
+        seed=options.seed,
+        pruned=options.tolerance > 0,
     )
+
+
+def _paths(
+    tree: DecisionTree, table: SceneTable, left: NDArray[np.int64]
+) -> list[Candidate | None]:
+    """What each path of the tree proposes; None where it holds only scenes with unknown values.
+
+    The tree puts values that are not known with others; an axiom does not speak of them.
+    """
+    found: list[Candidate | None] = []
+    for path in tree.paths():
+        asked = {own.feature: own for own in path.conditions if own.values}
+        conditions = tuple(asked[f] for f in table.features if f in asked)
+        counts = left[table.satisfying(conditions)].sum(axis=0)
+        label = table.classes[int(counts.argmax())] if counts.any() else None
+        found.append(None if label is None else Candidate(label, conditions))
+    return found
+
+
+def _proposed(
+    paths: Sequence[Candidate | None],
+    table: SceneTable,
+    left: NDArray[np.int64],
+    options: LearningOptions,
+) -> Iterator[Judgement]:
+    """The generalised paths of a tree over the scenes that are left, those with most first."""
+    total = int(left.sum())
     of_class = dict(zip(table.classes, left.sum(axis=0).tolist(), strict=True))
     proposed: dict[Candidate, Judgement] = {}
-    for tree_path in tree.paths():
-        asked = {own.feature: own for own in tree_path.conditions if own.values}
-        conditions = tuple(asked[f] for f in table.features if f in asked)
-        # The tree puts values that are not known with others; an axiom does not speak of them.
-        own_counts = left[table.satisfying(conditions)].sum(axis=0)
-        if not own_counts.any():
+    for path in paths:
+        if path is None:
             continue
-        path = Candidate(table.classes[int(own_counts.argmax())], conditions)
         narrow = path
         if not is_borne_out(path, table, options.tolerance):
-            if own_counts.max() < (1.0 - 2 * options.tolerance) * own_counts.sum():
+            counts = left[table.satisfying(path.conditions)].sum(axis=0)
+            if counts.max() < (1.0 - 2 * options.tolerance) * counts.sum():
                 continue
             found = specialised(path, table, left, tolerance=options.tolerance)
             if found is None:
@@ -202,7 +242,7 @@ def _proposed(
         if candidate in proposed:
             continue
         own = tally(candidate, table, left)
-        needed = ceil(options.support * min(len(labels), 2 * of_class[candidate.label]))
+        needed = ceil(options.support * min(total, 2 * of_class[candidate.label]))
         fate, reason = Fate.ACCEPTED, ""
         if own.left < needed:
             fate = Fate.DROPPED

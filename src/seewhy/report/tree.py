@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from seewhy.domain import Domain
@@ -20,10 +21,15 @@ class _Placed:
     x: float
     depth: int
     below: tuple[_Placed, ...] = ()
+    marked: bool = False
 
 
-def draw_tree(domain: Domain, tree: DecisionTree) -> Figure:
-    """Return the tree as a figure; an unfitted tree as a figure that says so."""
+def draw_tree(domain: Domain, tree: DecisionTree, *, accepted: Collection[int] = ()) -> Figure:
+    """Return the tree as a figure; an unfitted tree as a figure that says so.
+
+    ``accepted`` are the places, among the tree's paths, of those that became axioms: they are
+    drawn strong.
+    """
     root = tree.root()
     if root is None:
         text, _ = text_lines(
@@ -32,7 +38,7 @@ def draw_tree(domain: Domain, tree: DecisionTree) -> Figure:
         )  # fmt: skip
         return Figure(width=480, height=40, content=text)
     leaves: list[_Placed] = []
-    placed = _place(root, 0, leaves)
+    placed = _place(root, 0, leaves, accepted)
     deepest = max(leaf.depth for leaf in leaves)
     parts: list[str] = []
     _draw(domain, placed, parts)
@@ -43,13 +49,15 @@ def draw_tree(domain: Domain, tree: DecisionTree) -> Figure:
     )
 
 
-def _place(node: TreeNode, depth: int, leaves: list[_Placed]) -> _Placed:
+def _place(node: TreeNode, depth: int, leaves: list[_Placed], accepted: Collection[int]) -> _Placed:
     if not node.branches:
-        leaf = _Placed(node, 16 + _WIDTH / 2 + len(leaves) * (_WIDTH + 16), depth)
+        x = 16 + _WIDTH / 2 + len(leaves) * (_WIDTH + 16)
+        leaf = _Placed(node, x, depth, marked=len(leaves) in accepted)
         leaves.append(leaf)
         return leaf
-    below = tuple(_place(branch, depth + 1, leaves) for branch in node.branches)
-    return _Placed(node, sum(b.x for b in below) / len(below), depth, below)
+    below = tuple(_place(branch, depth + 1, leaves, accepted) for branch in node.branches)
+    x = sum(own.x for own in below) / len(below)
+    return _Placed(node, x, depth, below, marked=any(own.marked for own in below))
 
 
 def _draw(domain: Domain, placed: _Placed, parts: list[str]) -> None:
@@ -57,7 +65,8 @@ def _draw(domain: Domain, placed: _Placed, parts: list[str]) -> None:
     for below in placed.below:
         top = 10 + below.depth * _LEVEL
         parts.append(
-            f"<path d='M{x:g},{y + _BOX} L{below.x:g},{top}' stroke='#999999' fill='none'/>"
+            f"<path d='M{x:g},{y + _BOX} L{below.x:g},{top}' "
+            f"{_line(below, '#999999')} fill='none'/>"
         )
         own = domain.features[node.feature or ""]
         allowed = below.node.allowed
@@ -76,7 +85,7 @@ def _draw(domain: Domain, placed: _Placed, parts: list[str]) -> None:
     support = f"{node.precision:.0%} of {node.support}".replace("%", " %")
     parts.append(
         f"<rect x='{x - _WIDTH / 2:g}' y='{y}' width='{_WIDTH}' height='{_BOX}' rx='6' "
-        f"fill='{fill}' stroke='#888888'/>"
+        f"fill='{fill}' {_line(placed, '#888888')}/>"
     )
     lines = int(_WIDTH / CHARACTER)
     for text, dy, weight in ((label, 22, "bold"), (f"{node.label}: {support}", 40, "normal")):
@@ -86,3 +95,8 @@ def _draw(domain: Domain, placed: _Placed, parts: list[str]) -> None:
         parts.append(drawn)
     for below in placed.below:
         _draw(domain, below, parts)
+
+
+def _line(placed: _Placed, plain: str) -> str:
+    """The stroke of a box, or of the line that leads to it."""
+    return "stroke='#1c7a3d' stroke-width='3'" if placed.marked else f"stroke='{plain}'"
