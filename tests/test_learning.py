@@ -21,13 +21,18 @@ from seewhy.errors import DatasetError, KnowledgeError
 from seewhy.induction.axiom_text import axiom_statement, conjunctions
 from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
 from seewhy.induction.generalisation import generalised, most_general
-from seewhy.induction.learning import Fate, LearningOptions, learn_axioms
+from seewhy.induction.learning import (
+    Fate,
+    LearningOptions,
+    decide_by_candidates,
+    learn_axioms,
+)
 from seewhy.induction.scene_table import scene_table
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.language import read_axioms
 from seewhy.knowledge.learned_file import LEARNED, learned_text, parse_learned, read_learned
-from seewhy.knowledge.reasoner import Decision, Reasoner, Verdict
+from seewhy.knowledge.reasoner import Reasoner
 from seewhy.learning import AnnotatedScenes, axioms_of, learn_for_domain, with_candidates
 from test_cli import Run, run
 
@@ -35,19 +40,7 @@ __all__ = ["run"]
 
 FEATURES = {"size": ("1", "2", "3", "4"), "colour": ("red", "green", "blue"), "lean": ("yes", "no")}
 SPACE = list(product(*FEATURES.values()))
-
-
-def decide_by(candidates: list[Candidate], vectors: list[tuple[str, ...]]) -> list[Decision]:
-    """What candidates alone say: a class where all that speak agree."""
-    table = scene_table(FEATURES, vectors, ["?"] * len(vectors))
-    rows = {vector: n for n, vector in enumerate(table.vectors)}
-    spoken = [(own.label, table.satisfying(own.conditions)) for own in candidates]
-    decisions = []
-    for vector in vectors:
-        labels = {label for label, covered in spoken if covered[rows[vector]]}
-        label = labels.pop() if len(labels) == 1 else None
-        decisions.append(Decision(label, Verdict.BELIEVED if label else Verdict.SILENT))
-    return decisions
+decide_by = decide_by_candidates(FEATURES)
 
 
 def scenes(vectors: list[tuple[str | None, ...]], labels: list[str]) -> AnnotatedScenes:

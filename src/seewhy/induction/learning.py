@@ -15,10 +15,18 @@ from seewhy.induction.candidate import Candidate, Tally, chance, is_borne_out, s
 from seewhy.induction.generalisation import generalised, most_general, specialised
 from seewhy.induction.scene_table import SceneTable, scene_table
 from seewhy.induction.tree import DecisionTree
-from seewhy.knowledge.reasoner import Decision
+from seewhy.knowledge.reasoner import Decision, Verdict
 from seewhy.knowledge.scene import FeatureVector
 
-__all__ = ["DEFAULTS", "Fate", "Judgement", "Learned", "LearningOptions", "learn_axioms"]
+__all__ = [
+    "DEFAULTS",
+    "Fate",
+    "Judgement",
+    "Learned",
+    "LearningOptions",
+    "decide_by_candidates",
+    "learn_axioms",
+]
 
 BY_CHANCE = 0.01
 """A candidate that would fit by chance more often than this is not proposed."""
@@ -100,6 +108,38 @@ class LearningOptions:
 DEFAULTS = LearningOptions()
 
 
+def decide_by_candidates(features: Mapping[str, Sequence[str]]) -> Decide:
+    """Return how candidates decide where there is no other knowledge.
+
+    A scene is of a class if all candidates that speak about it agree.
+
+    Examples
+    --------
+    >>> from seewhy.induction.tree import PathCondition
+    >>> decide = decide_by_candidates({"lean": ("yes", "no")})
+    >>> [own.label for own in decide([Candidate("down", (PathCondition("lean", ("yes",)),))],
+    ...                              [("yes",), ("no",)])]
+    ['down', None]
+    """
+
+    def decide(candidates: Sequence[Candidate], vectors: Sequence[FeatureVector]) -> list[Decision]:
+        table = scene_table(features, vectors, ["?"] * len(vectors))
+        classes: list[set[str]] = [set() for _ in table.vectors]
+        for own in candidates:
+            for row in np.flatnonzero(table.satisfying(own.conditions)):
+                classes[row].add(own.label)
+        found = {}
+        for vector, own_classes in zip(table.vectors, classes, strict=True):
+            if len(own_classes) == 1:
+                found[vector] = Decision(next(iter(own_classes)), Verdict.BELIEVED)
+            else:
+                verdict = Verdict.CONTRADICTION if own_classes else Verdict.SILENT
+                found[vector] = Decision(None, verdict)
+        return [found[tuple(vector)] for vector in vectors]
+
+    return decide
+
+
 def learn_axioms(
     features: Mapping[str, Sequence[str]],
     vectors: Sequence[FeatureVector],
@@ -134,13 +174,10 @@ def learn_axioms(
 
     Examples
     --------
-    >>> from seewhy.knowledge.reasoner import Verdict
+    >>> features = {"base": ("wide", "narrow"), "lean": ("yes", "no")}
     >>> vectors = [("wide", "no"), ("wide", "yes"), ("narrow", "no"), ("narrow", "yes")] * 10
-    >>> def decide(candidates, some):
-    ...     leans = {own.conditions[0].values[0]: own.label for own in candidates}
-    ...     return [Decision(leans.get(lean), Verdict.SILENT) for base, lean in some]
-    >>> learned = learn_axioms({"base": ("wide", "narrow"), "lean": ("yes", "no")}, vectors,
-    ...                        ["up", "down", "up", "down"] * 10, decide=decide)
+    >>> learned = learn_axioms(features, vectors, ["up", "down", "up", "down"] * 10,
+    ...                        decide=decide_by_candidates(features))
     >>> for own in learned.accepted:
     ...     print(own.candidate.label, own.candidate.conditions, own.tally.right)
     up (PathCondition(feature='lean', values=('no',)),) 20

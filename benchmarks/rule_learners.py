@@ -1,0 +1,209 @@
+"""Learn rules from the same tables: SeeWhy, FOLD-R++, scikit-learn's tree, imodels.
+
+Numbers are cut into four at the quartiles of the training rows, for all learners alike; labels of
+training rows are wrong as often as `noise` says, those of testing rows never. Literals are the
+tests of features in all rules together (of a tree: on all its paths). SeeWhy's tolerance is the one
+of three that does best in threefold cross-validation on the training rows; the time includes it.
+
+    pip install -e '.[benchmarks]'
+    python benchmarks/rule_learners.py
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+import warnings
+from collections.abc import Callable, Sequence
+from itertools import product
+
+import numpy as np
+from sklearn import datasets
+from sklearn.model_selection import StratifiedKFold, StratifiedShuffleSplit
+from sklearn.preprocessing import KBinsDiscretizer
+from sklearn.tree import DecisionTreeClassifier
+
+from seewhy.domain import load_domain
+from seewhy.induction.learning import LearningOptions, decide_by_candidates, learn_axioms
+from seewhy.knowledge.reasoner import Reasoner
+
+SEEDS = 5
+NOISE = (0.0, 0.05, 0.1)
+TOLERANCES = (0.0, 0.05, 0.1)
+SCENES = 1000
+
+Rows = np.ndarray
+Fitted = tuple[Callable[[Rows], np.ndarray], int]
+"""How rows are classified, and the number of literals."""
+
+
+def structures(seed: int) -> tuple[Rows, np.ndarray, bool]:
+    """Scenes of the structures, annotated by the knowledge."""
+    domain = load_domain("structure_stability")
+    space = list(product(*(own.values for own in domain.features.values())))
+    decisions = Reasoner(domain.knowledge, domain.schema).decide_all(space)
+    decided = [(v, own.label) for v, own in zip(space, decisions, strict=True) if own.label]
+    drawn = np.random.default_rng(seed).integers(len(decided), size=SCENES)
+    places = [{v: n for n, v in enumerate(own.values)} for own in domain.features.values()]
+    rows = [[p[v] for p, v in zip(places, decided[n][0], strict=True)] for n in drawn]
+    return np.array(rows), np.array([decided[n][1] == "stable" for n in drawn]), False
+
+
+def shipped(load: Callable[[], object], positive: int) -> Callable[[int], tuple]:
+    """A table of scikit-learn: whether a row is of one class."""
+
+    def table(_: int) -> tuple[Rows, np.ndarray, bool]:
+        own = load()
+        return own.data, own.target == positive, True
+
+    return table
+
+
+TABLES = {
+    "structures": structures,
+    "iris (versicolor)": shipped(datasets.load_iris, 1),
+    "wine (first)": shipped(datasets.load_wine, 0),
+    "breast cancer": shipped(datasets.load_breast_cancer, 1),
+    "digits (zero)": shipped(datasets.load_digits, 0),
+}
+
+
+def seewhy_rules(rows: Rows, labels: np.ndarray, tolerance: float) -> Fitted:
+    """Axioms; where none speaks, the class that most such training rows are of."""
+    values = tuple(str(n) for n in range(int(rows.max()) + 1))
+    features = {f"f{n}": values for n in range(rows.shape[1])}
+    vectors = [tuple(map(str, row)) for row in rows]
+    decide = decide_by_candidates(features)
+    learned = learn_axioms(
+        features, vectors, list(map(str, labels)), decide=decide,
+        options=LearningOptions(tolerance=tolerance),
+    )  # fmt: skip
+    candidates = [own.candidate for own in learned.accepted]
+    open_rows = np.array([own.label is None for own in decide(candidates, vectors)])
+    rest = labels[open_rows] if open_rows.any() else labels
+    default = bool(rest.mean() >= 0.5)
+
+    def predict(some: Rows) -> np.ndarray:
+        some = np.minimum(some, len(values) - 1)
+        found = decide(candidates, [tuple(map(str, row)) for row in some])
+        return np.array([default if own.label is None else own.label == "True" for own in found])
+
+    return predict, sum(own.literals for own in candidates)
+
+
+def seewhy_chosen(rows: Rows, labels: np.ndarray, seed: int) -> Fitted:
+    """The same with the tolerance that cross-validation prefers."""
+    folds = list(StratifiedKFold(3, shuffle=True, random_state=seed).split(rows, labels))
+    scores = []
+    for tolerance in TOLERANCES:
+        right = []
+        for train, test in folds:
+            predict, _ = seewhy_rules(rows[train], labels[train], tolerance)
+            right.append((predict(rows[test]) == labels[test]).mean())
+        scores.append(np.mean(right))
+    return seewhy_rules(rows, labels, TOLERANCES[int(np.argmax(scores))])
+
+
+def foldrpp_rules(rows: Rows, labels: np.ndarray, _: int) -> Fitted:
+    """FOLD-R++ on numbers, as it is."""
+    from foldrpp import Foldrpp, num_predicates
+
+    names = [f"f{n}" for n in range(rows.shape[1])]
+
+    def dictionaries(some: Rows) -> list[dict[str, float]]:
+        return [dict(zip(names, map(float, row), strict=True)) for row in some]
+
+    model = Foldrpp(str_attrs=[], num_attrs=names, label="label", pos_val="1")
+    data = dictionaries(rows)
+    for own, label in zip(data, labels, strict=True):
+        own["label"] = int(label)
+    model.fit(data)
+
+    def predict(some: Rows) -> np.ndarray:
+        return np.array(model.predict(dictionaries(some))).astype(bool)
+
+    return predict, num_predicates(model.rules)
+
+
+def tree_rules(rows: Rows, labels: np.ndarray, seed: int) -> Fitted:
+    """scikit-learn's tree, pruned by cross-validation."""
+    from sklearn.model_selection import GridSearchCV
+
+    alphas = DecisionTreeClassifier(random_state=seed).cost_complexity_pruning_path(rows, labels)
+    grid = {"ccp_alpha": np.unique(np.clip(alphas.ccp_alphas, 0, None))[:-1][-25:]}
+    search = GridSearchCV(DecisionTreeClassifier(random_state=seed), grid, cv=5)
+    tree = search.fit(rows, labels).best_estimator_.tree_
+    return search.predict, _path_literals(tree)
+
+
+def _path_literals(tree: object) -> int:
+    def below(node: int, depth: int) -> int:
+        if tree.children_left[node] == -1:
+            return depth
+        return below(tree.children_left[node], depth + 1) + below(
+            tree.children_right[node], depth + 1
+        )
+
+    return below(0, 0)
+
+
+def imodels_rules(rows: Rows, labels: np.ndarray, _: int) -> Fitted:
+    """The greedy rule list of imodels."""
+    from imodels import GreedyRuleListClassifier
+
+    model = GreedyRuleListClassifier()
+    model.fit(rows, labels.astype(int))
+    return lambda some: model.predict(some).astype(bool), len(model.rules_)
+
+
+LEARNERS = {
+    "SeeWhy": seewhy_chosen,
+    "FOLD-R++": foldrpp_rules,
+    "tree": tree_rules,
+    "imodels": imodels_rules,
+}
+
+
+def one(name: str, noise: float, seed: int) -> dict[str, tuple[float, int, float]]:
+    """Accuracy, literals and seconds of every learner on one split of a table."""
+    rows, labels, numbers = TABLES[name](seed)
+    splitter = StratifiedShuffleSplit(1, test_size=1 / 3, random_state=seed)
+    ((train, test),) = splitter.split(rows, labels)
+    if numbers:
+        cutter = KBinsDiscretizer(4, encode="ordinal", strategy="quantile")
+        cutter.fit(rows[train])
+        rows = cutter.transform(rows).astype(int)
+    wrong = np.random.default_rng([seed, 1]).random(len(train)) < noise
+    shown = np.where(wrong, ~labels[train], labels[train])
+    found = {}
+    for learner, fit in LEARNERS.items():
+        began = time.perf_counter()
+        predict, literals = fit(rows[train], shown, seed)
+        seconds = time.perf_counter() - began
+        found[learner] = ((predict(rows[test]) == labels[test]).mean(), literals, seconds)
+    return found
+
+
+def main() -> None:
+    """Print a row for every table and noise: accuracy, literals and seconds of each learner."""
+    warnings.filterwarnings("ignore")
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--tables", nargs="*", default=list(TABLES), choices=list(TABLES))
+    parser.add_argument("--seeds", type=int, default=SEEDS)
+    options = parser.parse_args()
+    print(f"| table | noise | {' | '.join(LEARNERS)} |")
+    print("|---|---" + "|---" * len(LEARNERS) + "|")
+    for name in options.tables:
+        for noise in NOISE:
+            found = [one(name, noise, seed) for seed in range(options.seeds)]
+            cells: Sequence[str] = [
+                "{:.1f} %, {:.1f}, {:.2f} s".format(
+                    *np.mean([(100 * a, b, c) for a, b, c in (own[key] for own in found)], axis=0)
+                )
+                for key in LEARNERS
+            ]
+            print(f"| {name} | {noise:.0%} | {' | '.join(cells)} |".replace("%,", "%,"), flush=True)
+
+
+if __name__ == "__main__":
+    main()
