@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import comb
 
 import numpy as np
@@ -102,13 +103,22 @@ def is_borne_out(candidate: Candidate, table: SceneTable, tolerance: float) -> b
     False
     """
     rows = table.satisfying(candidate.conditions)
-    totals = table.totals[rows]
-    wrong = totals - table.of_class(candidate.label)[rows]
+    if _speaks_against(table, candidate.label, tolerance)[rows].any():
+        return False
     if tolerance == 0.0:
-        return not wrong.any()
-    alone = binom.sf(wrong - 1, totals, tolerance)
-    together = binom.sf(wrong.sum() - 1, totals.sum(), tolerance)
-    return bool(np.all(alone >= _IMPLAUSIBLE) and together >= _IMPLAUSIBLE)
+        return True
+    scenes = int(table.totals[rows].sum())
+    wrong = scenes - int(table.of_class(candidate.label)[rows].sum())
+    return bool(binom.sf(wrong - 1, scenes, tolerance) >= _IMPLAUSIBLE)
+
+
+@lru_cache(maxsize=256)
+def _speaks_against(table: SceneTable, label: str, tolerance: float) -> Rows:
+    """The rows with more scenes of other classes than errors of annotation explain."""
+    wrong = table.totals - table.of_class(label)
+    if tolerance == 0.0:
+        return np.asarray(wrong > 0)
+    return np.asarray(binom.sf(wrong - 1, table.totals, tolerance) < _IMPLAUSIBLE)
 
 
 def settled(table: SceneTable, tolerance: float) -> Rows:

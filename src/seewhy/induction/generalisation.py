@@ -39,19 +39,45 @@ def specialised(
     Candidate(label='up', conditions=(PathCondition(feature='lean', values=('no',)),))
     """
     while not is_borne_out(candidate, table, tolerance):
-        best: tuple[float, Candidate] | None = None
-        now = tally(candidate, table, left)
-        for narrower in _narrower(candidate, table):
-            own = tally(narrower, table, left)
-            if not own.left or own.wrong >= now.wrong:
-                continue
-            gain = own.left / now.left - own.wrong / now.wrong
-            if best is None or gain > best[0]:
-                best = gain, narrower
-        if best is None:
+        narrower = _narrowed(candidate, table, left)
+        if narrower is None:
             return None
-        candidate = best[1]
+        candidate = narrower
     return candidate
+
+
+def _narrowed(candidate: Candidate, table: SceneTable, left: NDArray[np.int64]) -> Candidate | None:
+    """The candidate with the best value demanded alone, or the worst one excluded."""
+    spoken = table.satisfying(candidate.conditions)
+    own = table.of_class(candidate.label)
+    wrong = np.where(spoken, table.totals - own, 0)
+    ours = np.where(spoken, left[:, table.classes.index(candidate.label)], 0)
+    conditions = {own.feature: own.values for own in candidate.conditions}
+    best: tuple[float, str, tuple[str, ...]] | None = None
+    for feature, values in table.features.items():
+        allowed = conditions.get(feature, values)
+        if len(allowed) < 2:
+            continue
+        showing = table.showing[feature]
+        by_value = {
+            v: (int(ours[showing[n]].sum()), int(wrong[showing[n]].sum()))
+            for n, v in enumerate(values)
+            if v in allowed
+        }
+        all_ours = sum(count for count, _ in by_value.values())
+        all_wrong = sum(count for _, count in by_value.values())
+        for value, (some, against) in by_value.items():
+            others = tuple(v for v in allowed if v != value)
+            for kept, right, rest in (
+                ((value,), some, against),
+                (others, all_ours - some, all_wrong - against),
+            ):
+                if not right or rest >= wrong.sum():
+                    continue
+                gain = right / ours.sum() - rest / wrong.sum()
+                if best is None or gain > best[0]:
+                    best = gain, feature, kept
+    return None if best is None else _with(candidate, table, *best[1:])
 
 
 def generalised(candidate: Candidate, table: SceneTable, *, tolerance: float) -> Candidate:
@@ -85,20 +111,6 @@ def most_general(candidates: Sequence[Candidate]) -> list[Candidate]:
     """
     once = list(dict.fromkeys(candidates))
     return [own for own in once if not any(o is not own and o.covers(own) for o in once)]
-
-
-def _narrower(candidate: Candidate, table: SceneTable) -> list[Candidate]:
-    """The candidate with one more value excluded, or one value alone demanded."""
-    conditions = {own.feature: own.values for own in candidate.conditions}
-    found = []
-    for feature, values in table.features.items():
-        allowed = conditions.get(feature, values)
-        if len(allowed) < 2:
-            continue
-        for value in allowed:
-            for kept in ((value,), tuple(own for own in allowed if own != value)):
-                found.append(_with(candidate, table, feature, kept))
-    return list(dict.fromkeys(found))
 
 
 def _with(

@@ -191,7 +191,8 @@ def learn_axioms(
     for _ in range(_MOST_ROUNDS):
         found = len(accepted)
         known = [own.candidate for own in accepted]
-        left = _left(table, decide(known, table.vectors))
+        decisions = decide(known, table.vectors)
+        left = _left(table, decisions)
         left *= settled(table, options.tolerance)[:, None]
         tree = _grown(table, left, options)
         paths = _paths(tree, table, left)
@@ -232,7 +233,7 @@ def _grown(table: SceneTable, left: NDArray[np.int64], options: LearningOptions)
         [table.vectors[row] for row in np.repeat(rows, counts)],
         [table.classes[column] for column in np.repeat(columns, counts)],
         seed=options.seed,
-        pruned=options.tolerance > 0,
+        smallest_leaf=1 if options.tolerance == 0 else max(1, int(counts.sum()) // 50),
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +18,9 @@ Rows = NDArray[np.bool_]
 """Which rows of a table are meant, shape (rows,)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SceneTable:
-    """Annotated scenes, equal feature vectors put together.
+    """Annotated scenes, equal feature vectors put together; a table equals itself alone.
 
     Attributes
     ----------
@@ -65,11 +66,16 @@ class SceneTable:
 
     def _allows(self, condition: PathCondition) -> Rows:
         values = self.features[condition.feature]
-        allowed = np.zeros(len(values) + 1, dtype=bool)  # the last place is that of UNKNOWN
-        allowed[[values.index(own) for own in condition.values]] = True
-        column = list(self.features).index(condition.feature)
-        rows: Rows = allowed[self.codes[:, column]]
-        return rows
+        chosen = [values.index(own) for own in condition.values]
+        return np.asarray(self.showing[condition.feature][chosen].any(axis=0))
+
+    @cached_property
+    def showing(self) -> dict[str, NDArray[np.bool_]]:
+        """Feature → which rows show each of its values, shape (values, rows)."""
+        return {
+            feature: self.codes[:, column] == np.arange(len(values))[:, None]
+            for column, (feature, values) in enumerate(self.features.items())
+        }
 
     def of_class(self, label: str) -> NDArray[np.int64]:
         """Return how many scenes of a class each row stands for."""
@@ -78,7 +84,7 @@ class SceneTable:
         own: NDArray[np.int64] = self.counts[:, self.classes.index(label)]
         return own
 
-    @property
+    @cached_property
     def totals(self) -> NDArray[np.int64]:
         """How many scenes each row stands for."""
         totals: NDArray[np.int64] = self.counts.sum(axis=1)

@@ -110,11 +110,12 @@ class DecisionTree:
         labels: Sequence[str],
         *,
         seed: int = 0,
-        pruned: bool = True,
+        smallest_leaf: int | None = None,
     ) -> DecisionTree:
         """Grow the tree and prune it; with no scenes it stays unfitted.
 
-        Without pruning it grows until every leaf is of one class or cannot be divided.
+        With ``smallest_leaf`` it is not pruned: it grows until every leaf is of one class or
+        cannot be divided into leaves of so many scenes.
         """
         if not vectors:
             self._tree = None
@@ -122,7 +123,8 @@ class DecisionTree:
         table = self._encode(vectors)
         classes = np.asarray(labels)
         # The features are few and discrete: leaves need support, or they are noise.
-        smallest = max(1, min(5, len(vectors) // 50)) if pruned else 1
+        pruned = smallest_leaf is None
+        smallest = smallest_leaf or max(1, min(5, len(vectors) // 50))
         tree = DecisionTreeClassifier(
             criterion="gini", min_samples_leaf=smallest, random_state=seed
         )
