@@ -29,11 +29,17 @@ from seewhy.induction.learning import (
 )
 from seewhy.induction.scene_table import scene_table
 from seewhy.induction.tree import PathCondition
-from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.axiom import Axiom, Origin
 from seewhy.knowledge.language import read_axioms
 from seewhy.knowledge.learned_file import LEARNED, learned_text, parse_learned, read_learned
 from seewhy.knowledge.reasoner import Reasoner
-from seewhy.learning import AnnotatedScenes, axioms_of, learn_for_domain, with_candidates
+from seewhy.learning import (
+    AnnotatedScenes,
+    axioms_of,
+    contradicted,
+    learn_for_domain,
+    with_candidates,
+)
 from test_cli import Run, run
 
 __all__ = ["run"]
@@ -387,12 +393,30 @@ def test_a_dataset_of_another_domain(
         Agent.load(model_folder).learn(replace(dataset, domain=structures))
 
 
+def test_an_axiom_learned_with_tolerance_is_not_withdrawn_for_the_same_errors(
+    structures: Domain,
+) -> None:
+    (leans,) = read_axioms("-stable(S) if lean(S).", structures.knowledge.signature)
+    leans = replace(leans, origin=Origin(learned=True, support=20, precision=0.95))
+    vectors = [("2", "narrow", "yes", "no")] * 20
+    same = scenes(vectors, ["unstable"] * 19 + ["stable"])
+    worse = scenes(vectors, ["unstable"] * 18 + ["stable"] * 2)
+    assert contradicted(structures, [leans], same) == []
+    assert [own for own, _ in contradicted(structures, [leans], worse)] == [leans]
+
+
 # The command line -----------------------------------------------------------------------------
 
 
 def test_learn_and_axioms(run: Run, model_folder: Path, tiles_data: Path, tmp_path: Path) -> None:
     model = tmp_path / "model"
     shutil.copytree(model_folder, model)
+    shown = json.loads(run("learn", model, "--data", tiles_data, "--json").out)
+    assert shown["found"]
+    assert shown["added"] == []
+    silent = run("learn", model, "--data", tiles_data, stdin="")
+    assert silent.code == 2
+    assert silent.err.startswith("seewhy: no answer to 'add this axiom?', the model stays")
     refused = run("learn", model, "--data", tiles_data, stdin="n\n" * 20)
     assert refused.code == 0
     assert "add this axiom?" in refused.out

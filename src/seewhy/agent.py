@@ -25,7 +25,14 @@ from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.learned_file import Withdrawn, learned_text, parse_learned
 from seewhy.knowledge.reasoner import Minimality, Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.learning import AnnotatedScenes, Learning
+from seewhy.learning import (
+    AnnotatedScenes,
+    Learning,
+    axioms_of,
+    contradicted,
+    learn_for_domain,
+    scenes_of,
+)
 from seewhy.nearest import did_you_mean
 from seewhy.reading import (
     READINGS,
@@ -350,8 +357,6 @@ class Agent:
         DatasetError
             If the dataset is of another domain, or there is one class only.
         """
-        from seewhy.learning import axioms_of, contradicted, learn_for_domain, scenes_of
-
         self._require_own(dataset)
         train = dataset.of_split("train")
         scenes = scenes_of(train, self.experience, self.trained_on)

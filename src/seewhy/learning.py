@@ -40,6 +40,7 @@ __all__ = [
     "with_candidates",
 ]
 
+_ROUNDED = 0.0005  # the file of learned axioms gives shares with one decimal of a per cent
 _REASONERS = 4  # the knowledge so far is asked again for every candidate
 
 
@@ -218,7 +219,8 @@ def contradicted(
     """Return the learned axioms that scenes speak against, with the reason to withdraw them.
 
     ``domain`` is the domain without learned axioms. An axiom is contradicted where its conditions
-    hold in scenes of another class: more than ``tolerance`` of them.
+    hold in scenes of another class: in more than ``tolerance`` of them, and than when it was
+    learned.
 
     Examples
     --------
@@ -237,7 +239,8 @@ def contradicted(
         concluded = dict(zip(distinct, alone.decide_all(distinct), strict=True))
         spoken = [n for n, own in enumerate(scenes.vectors) if concluded[own].label is not None]
         wrong = [n for n in spoken if concluded[scenes.vectors[n]].label != scenes.labels[n]]
-        if len(wrong) > tolerance * len(spoken):
+        allowed = max(tolerance, 1.0 - axiom.origin.precision + _ROUNDED)
+        if wrong and len(wrong) > allowed * len(spoken):
             some = next((scenes.pictures[n] for n in wrong if scenes.pictures[n]), "")
             reason = (
                 f"{len(wrong)} of {len(spoken)} {things(domain)} that it speaks about are "

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from seewhy.cli.options import Json, ModelFolder, Seed
+from seewhy.cli.options import DataFolder, Json, ModelFolder, Seed
 from seewhy.cli.screen import percent, print_json, say
+from seewhy.errors import SeeWhyError
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 def learn(
     model: ModelFolder,
-    data: Annotated[Path, typer.Option("--data", help="A dataset folder: annotated pictures.")],
+    data: DataFolder,
     support: Annotated[
         float,
         typer.Option(
@@ -49,7 +50,8 @@ def learn(
 ) -> None:
     """Learn axioms from annotated pictures (those with split = train, where there are splits).
 
-    What the pictures let pass is shown and asked about, then added to the model's knowledge.
+    What the pictures let pass is shown and asked about, then added to the model's knowledge. With
+    --json nothing is asked: it is added with --yes, and only shown without.
     """
     from seewhy.agent import Agent
     from seewhy.dataset import Dataset
@@ -61,7 +63,7 @@ def learn(
     learning = agent.learn(
         dataset,
         options=LearningOptions(support=support, tolerance=tolerance, seed=seed),
-        accept=None if yes or json else _ask,
+        accept=None if yes else _none if json else _ask,
         answers=agent.answerer is not None,
     )
     after = _accuracy(agent, dataset)
@@ -85,9 +87,19 @@ def _ask(axioms: Sequence[Axiom]) -> list[Axiom]:
     for axiom in axioms:
         say(f"{axiom.text}")
         say(f"  {axiom}  learned from {_rests(axiom)}")
-        if typer.confirm("  add this axiom?", default=True):
-            chosen.append(axiom)
+        try:
+            if typer.confirm("  add this axiom?", default=True):
+                chosen.append(axiom)
+        except typer.Abort:
+            raise SeeWhyError(
+                "no answer to 'add this axiom?', the model stays as it was; answer y or n, or "
+                "give --yes to add all"
+            ) from None
     return chosen
+
+
+def _none(_: Sequence[Axiom]) -> list[Axiom]:
+    return []
 
 
 def _rests(axiom: Axiom) -> str:
@@ -158,12 +170,12 @@ def axiom_dict(axiom: Axiom) -> dict[str, Any]:
 
 def print_learning(agent: Agent, learning: Learning) -> None:
     """Print every candidate with its verdict, and what was added and withdrawn."""
-    from seewhy.induction.sentence import say_rule
+    from seewhy.induction.sentence import say_rule, things
 
     for own in learning.judgements:
         text = say_rule(agent.domain, own.candidate.conditions, own.candidate.label)
         why = f": {own.reason}" if own.reason else ""
-        say(f"{own.fate.value}: {text} ({own.tally.right} scenes for it{why})")
+        say(f"{own.fate.value}: {text} ({own.tally.right} {things(agent.domain)} for it{why})")
     for gone in learning.withdrawn:
         say(f"withdrawn: {gone.statement} {gone.reason}")
     if not learning.found:

@@ -90,7 +90,7 @@ class LearningOptions:
     ----------
     support : float, default 0.1
         The least share, of the scenes that the knowledge left open or got wrong, that an axiom
-        must speak about. Where there are many classes it is the share of those of its class.
+        must speak about; or twice that share of those of its class, where that is less.
     validation : float, default 0.1
         The share of all scenes that is drawn, among those that an axiom speaks about, to see
         whether it is right with the knowledge around it.
