@@ -206,6 +206,24 @@ def test_the_paths_that_became_axioms_are_marked() -> None:
         )
 
 
+def test_a_path_that_was_narrowed_is_marked_too() -> None:
+    """What is left open is of one class: the tree is a leaf, and decided scenes narrow it."""
+    vectors = SPACE * 10
+    labels = ["down" if v[2] == "yes" else "up" for v in vectors]
+    known = Candidate("down", (PathCondition("lean", ("yes",)),))
+    learned = learn_axioms(
+        FEATURES,
+        vectors,
+        labels,
+        decide=lambda candidates, some: decide_by([known, *candidates], some),
+    )
+    assert [own.candidate.conditions for own in learned.accepted] == [
+        (PathCondition("lean", ("no",)),)
+    ]
+    assert len(learned.tree.paths()) == 1
+    assert learned.accepted_leaves == {0}
+
+
 # With knowledge -------------------------------------------------------------------------------
 
 

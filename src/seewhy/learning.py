@@ -83,7 +83,7 @@ class Learning:
 
     ``found`` are the axioms that all steps of induction let pass; ``added`` those of them that
     were taken over. ``tree`` is the tree of the first round, ``accepted_leaves`` the places of its
-    paths that the axioms found cover.
+    paths that the axioms found come from or cover.
     """
 
     found: tuple[Axiom, ...]

@@ -73,7 +73,7 @@ class Learned:
     tree : DecisionTree
         The tree of the first round; unfitted where the knowledge decides all scenes.
     accepted_leaves : frozenset of int
-        The places, among the tree's paths, of those that accepted axioms cover.
+        The places, among the tree's paths, of those that accepted axioms come from or cover.
     """
 
     accepted: tuple[Judgement, ...]
@@ -210,8 +210,11 @@ def learn_axioms(
     kept = set(most_general([own.candidate for own in accepted]))
     final = tuple(own for own in accepted if own.candidate in kept)
     tree, paths = first or (DecisionTree(table.features), [])
+    proposals = {own.path for own in final}
     leaves = frozenset(
-        n for n, path in enumerate(paths) if path and any(own.covers(path) for own in kept)
+        n
+        for n, path in enumerate(paths)
+        if path in proposals or (path and any(own.covers(path) for own in kept))
     )
     return Learned(final, tuple(judged.values()), tree, leaves)
 
