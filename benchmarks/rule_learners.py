@@ -25,6 +25,7 @@ from sklearn.tree import DecisionTreeClassifier
 
 from seewhy.domain import load_domain
 from seewhy.induction.learning import LearningOptions, decide_by_candidates, learn_axioms
+from seewhy.induction.scene_table import scene_table
 from seewhy.knowledge.reasoner import Reasoner
 
 SEEDS = 5
@@ -69,26 +70,41 @@ TABLES = {
 
 
 def seewhy_rules(rows: Rows, labels: np.ndarray, tolerance: float) -> Fitted:
-    """Axioms; where none speaks, the class that most such training rows are of."""
+    """The axioms of one class, the other being the rest: as the rule learners beside it do.
+
+    Axioms are learned for both; kept are those that classify the training rows better, or as well
+    with fewer literals.
+    """
     values = tuple(str(n) for n in range(int(rows.max()) + 1))
     features = {f"f{n}": values for n in range(rows.shape[1])}
     vectors = [tuple(map(str, row)) for row in rows]
-    decide = decide_by_candidates(features)
     learned = learn_axioms(
-        features, vectors, list(map(str, labels)), decide=decide,
+        features, vectors, list(map(str, labels)), decide=decide_by_candidates(features),
         options=LearningOptions(tolerance=tolerance),
     )  # fmt: skip
-    candidates = [own.candidate for own in learned.accepted]
-    open_rows = np.array([own.label is None for own in decide(candidates, vectors)])
-    rest = labels[open_rows] if open_rows.any() else labels
-    default = bool(rest.mean() >= 0.5)
 
-    def predict(some: Rows) -> np.ndarray:
-        some = np.minimum(some, len(values) - 1)
-        found = decide(candidates, [tuple(map(str, row)) for row in some])
-        return np.array([default if own.label is None else own.label == "True" for own in found])
+    def spoken(some: Rows, label: bool) -> np.ndarray:
+        own = [tuple(map(str, row)) for row in np.minimum(some, len(values) - 1)]
+        table = scene_table(features, own, ["?"] * len(own))
+        by_row = np.zeros(len(table.vectors), dtype=bool)
+        for axiom in (own.candidate for own in learned.accepted):
+            if axiom.label == str(label):
+                by_row |= table.satisfying(axiom.conditions)
+        found = np.zeros(len(own), dtype=bool)
+        for speaks, positions in zip(by_row, table.scenes, strict=True):
+            found[list(positions)] = speaks
+        return found if label else ~found
 
-    return predict, sum(own.literals for own in candidates)
+    literals = {
+        label: sum(
+            o.candidate.literals for o in learned.accepted if o.candidate.label == str(label)
+        )
+        for label in (True, False)
+    }
+    chosen = max(
+        (True, False), key=lambda own: ((spoken(rows, own) == labels).mean(), -literals[own])
+    )
+    return lambda some: spoken(some, chosen), literals[chosen]
 
 
 def seewhy_chosen(rows: Rows, labels: np.ndarray, seed: int) -> Fitted:
@@ -122,7 +138,8 @@ def foldrpp_rules(rows: Rows, labels: np.ndarray, _: int) -> Fitted:
     def predict(some: Rows) -> np.ndarray:
         return np.array(model.predict(dictionaries(some))).astype(bool)
 
-    return predict, num_predicates(model.rules)
+    model.asp()  # writes exceptions as rules of their own, so that they are counted too
+    return predict, num_predicates(model.flat_rules)
 
 
 def tree_rules(rows: Rows, labels: np.ndarray, seed: int) -> Fitted:

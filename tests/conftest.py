@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import csv
+import io
 import os
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
@@ -21,6 +23,7 @@ os.environ["OMP_NUM_THREADS"] = "1"
 from PIL import Image, ImageDraw
 
 from seewhy.agent import Agent
+from seewhy.cli.main import main
 from seewhy.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
@@ -258,3 +261,28 @@ def photographs() -> Path:
     if not path.exists():
         pytest.skip("the photographs of BelgiumTS are not here; SEEWHY_BELGIUMTS names an archive")
     return path
+
+
+class Result(NamedTuple):
+    code: int
+    out: str
+    err: str
+
+
+Run = Callable[..., Result]
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    """Run the program in this process."""
+
+    def run(*arguments: object, stdin: str | io.TextIOWrapper = "") -> Result:
+        monkeypatch.setattr(sys, "argv", ["seewhy", *map(str, arguments)])
+        stream = io.StringIO(stdin) if isinstance(stdin, str) else stdin
+        monkeypatch.setattr(sys, "stdin", stream)
+        with pytest.raises(SystemExit) as exit_:
+            main()
+        captured = capsys.readouterr()
+        return Result(exit_.value.code or 0, captured.out, captured.err)  # type: ignore[arg-type]
+
+    return run

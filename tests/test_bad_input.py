@@ -9,10 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from conftest import draw_tile, write_domain, write_tiles
-from test_cli import Run, run
-
-__all__ = ["run"]
+from conftest import Run, draw_tile, write_domain, write_tiles
 
 
 @pytest.fixture

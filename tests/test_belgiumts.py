@@ -24,15 +24,12 @@ from belgiumts_archives import (
     training,
     unpack,
 )
-from conftest import write_domain
+from conftest import Run, write_domain
 from seewhy.belgiumts.conversion import ImportedDataset, import_photographs
 from seewhy.belgiumts.layout import Region
 from seewhy.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError
-from test_cli import Run, run
-
-__all__ = ["run"]
 
 CLASSES = "class_id,class,said,colour,round\n0,good,a good tile,red,yes\n1,bad,a bad tile,blue,no\n"
 SCENES = """\

@@ -12,14 +12,11 @@ from pathlib import Path
 import pytest
 
 from belgiumts_archives import Files, half, other_half, pack, training
-from conftest import write_domain
+from conftest import Run, write_domain
 from seewhy.belgiumts import download
 from seewhy.belgiumts.download import ARCHIVES, fetch_archives
 from seewhy.errors import DatasetError
 from test_belgiumts import CLASSES, SCENES
-from test_cli import Run, run
-
-__all__ = ["run"]
 
 TRAINING, TESTING = ARCHIVES.values()
 

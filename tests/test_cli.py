@@ -7,16 +7,15 @@ import json
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import pytest
 
-from conftest import DOMAIN, draw_tile, write_domain, write_tiles
+from conftest import DOMAIN, Result, Run, draw_tile, write_domain, write_tiles
 from seewhy.agent import Agent
-from seewhy.cli.main import main
 from seewhy.domain import Domain, load_domain
 
 COMMANDS = [
@@ -32,31 +31,6 @@ COMMANDS = [
     "demo",
     "data",
 ]
-
-
-class Result(NamedTuple):
-    code: int
-    out: str
-    err: str
-
-
-Run = Callable[..., Result]
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    """Run the program in this process."""
-
-    def run(*arguments: object, stdin: str | io.TextIOWrapper = "") -> Result:
-        monkeypatch.setattr(sys, "argv", ["seewhy", *map(str, arguments)])
-        stream = io.StringIO(stdin) if isinstance(stdin, str) else stdin
-        monkeypatch.setattr(sys, "stdin", stream)
-        with pytest.raises(SystemExit) as exit_:
-            main()
-        captured = capsys.readouterr()
-        return Result(exit_.value.code or 0, captured.out, captured.err)  # type: ignore[arg-type]
-
-    return run
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from conftest import draw_tile
+from conftest import Run, draw_tile
 from seewhy.agent import Agent
 from seewhy.dataset import Dataset
 from seewhy.domain import Domain
@@ -40,9 +40,6 @@ from seewhy.learning import (
     learn_for_domain,
     with_candidates,
 )
-from test_cli import Run, run
-
-__all__ = ["run"]
 
 FEATURES = {"size": ("1", "2", "3", "4"), "colour": ("red", "green", "blue"), "lean": ("yes", "no")}
 SPACE = list(product(*FEATURES.values()))

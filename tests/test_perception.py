@@ -17,7 +17,7 @@ import pytest
 import torch
 
 from seewhy.errors import DatasetError, DomainError, ModelError, SeeWhyError
-from seewhy.perception import parallel
+from seewhy.perception import extractor as perception_extractor
 from seewhy.perception.augmentation import augment
 from seewhy.perception.calibration import fitted_temperature
 from seewhy.perception.events import TrainingEvent
@@ -220,7 +220,7 @@ def test_temperature_makes_overconfident_logits_honest() -> None:
     said = np.where(rng.random(2000) < 0.8, truth, 1 - truth)  # right in 80 of 100 …
     logits = np.zeros((2000, 2))
     logits[np.arange(2000), said] = 8.0  # … but sure as if in 2999 of 3000
-    temperature = fitted_temperature(torch.from_numpy(logits), torch.from_numpy(truth))
+    temperature = fitted_temperature((torch.from_numpy(logits), torch.from_numpy(truth)))
     assert 1 / (1 + np.exp(-8.0 / temperature)) == pytest.approx(0.8, abs=0.02)
 
 
@@ -545,7 +545,7 @@ def test_an_interruption_ends_the_workers_and_keeps_what_they_did(
 
 def test_an_error_in_a_worker_arrives_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     # Labels are checked before any worker starts; here only the workers check them.
-    monkeypatch.setattr(parallel, "labelled", lambda *_, **__: None)
+    monkeypatch.setattr(perception_extractor, "labelled", lambda *_, **__: None)
     labels = {"side": ["left"] * 60, "count": ["1", "7"] * 30}
     with pytest.raises(DatasetError) as caught:
         fit_two(2, labels=labels)

@@ -238,6 +238,7 @@ class Agent:
                 count=drawn,
                 seed=self.seed,
                 without=without,
+                together=self.reading == "consistent",
                 workers=workers,
                 checkpoints=checkpoints,
                 on_picture=on_picture,
@@ -254,6 +255,7 @@ class Agent:
             checkpoints=checkpoints,
             start_from=earlier,
             rehearsal=first.rehearsal if first else None,
+            together=self.reading == "consistent",
             workers=workers,
             on_progress=on_progress,
         )
@@ -295,11 +297,13 @@ class Agent:
         *,
         uncertain: Sequence[int] = (),
         answers: bool = True,
+        reference: ReferenceAnswers | None = None,
     ) -> Agent:
         """Train the tree, and with ``answers`` the recurrent network, on what is left open.
 
         Only scenes whose annotated features the knowledge does not decide, or decides wrongly,
-        are used (section 3.3 of the paper), and those at the positions ``uncertain``.
+        are used (section 3.3 of the paper), and those at the positions ``uncertain``. The answers
+        to learn are those of ``reference``; without it, those that follow from what is known.
         """
         from seewhy.dialogue.learned import fit_learned_answers
 
@@ -315,7 +319,7 @@ class Agent:
             self.answerer = fit_learned_answers(
                 self.domain,
                 self.questions,
-                self.reference,
+                reference or self.reference,
                 left_vectors,
                 left_labels,
                 seed=self.seed,

@@ -20,6 +20,7 @@ from seewhy.reply import UNKNOWN
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
+    from seewhy.dialogue.reference import ReferenceAnswers
 
 EXPLANATORY = (
     Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS, Asks.DIFFERENCE_TO_CLASS
@@ -107,12 +108,14 @@ def evaluate(
     *,
     questions_per_scene: int = 8,
     seed: int = 0,
+    reference: ReferenceAnswers | None = None,
     on_progress: Callable[[int], None] | None = None,
 ) -> Evaluation:
     """Evaluate an agent on the scenes of a dataset (those with split "test", if there are splits).
 
     For every scene, ``questions_per_scene`` of the domain's questions are drawn at random.
-    Correct answers are those of :mod:`seewhy.dialogue.reference`.
+    Correct answers are those of :mod:`seewhy.dialogue.reference`: of what the agent itself knows,
+    or of ``reference``, where somebody knows more.
 
     Examples
     --------
@@ -136,7 +139,7 @@ def evaluate(
             if true[position] is not None
         ]
         features[key] = _share([seen == true for seen, true in pairs])
-    reference = agent.reference
+    reference = reference or agent.reference
     generator = np.random.default_rng(seed)
     possible = [q for q in agent.questions.one_of_each() if q.asks is not Asks.EXPLAIN]
     scored: list[tuple[bool, bool, bool]] = []

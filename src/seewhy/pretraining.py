@@ -41,6 +41,7 @@ def pretrained(
     count: int,
     seed: int = 0,
     without: Sequence[str] = (),
+    together: bool = False,
     workers: int = -1,
     checkpoints: Path | None = None,
     on_picture: Callable[[int], None] | None = None,
@@ -60,6 +61,8 @@ def pretrained(
     seed : int, default 0
     without : sequence of str
         Classes of which no drawing is used.
+    together : bool, default False
+        See :func:`seewhy.perception.extractor.fit_extractor`.
     workers : int, default -1
         Processes that draw and train; -1: one a core.
     checkpoints : Path, optional
@@ -104,6 +107,7 @@ def pretrained(
             labels,
             values=values,
             options=training_options(domain, seed=seed),
+            together=together,
             workers=workers,
             checkpoints=folder / "drawn.training",
             on_progress=on_progress,

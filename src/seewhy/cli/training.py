@@ -63,6 +63,7 @@ def train_model(
     from seewhy.agent import Agent
     from seewhy.dataset import Dataset
     from seewhy.model import check_target
+    from seewhy.perception.joint_training import TOGETHER
 
     check_target(out)
     dataset = Dataset.load(data, domain)
@@ -72,6 +73,7 @@ def train_model(
     with progress() as bars:
         drawing = bars.add_task("drawing pictures", total=None, visible=False)
         tasks = {key: bars.add_task(key, total=None) for key in domain.features}
+        tasks[TOGETHER] = bars.add_task(TOGETHER, total=None, visible=False)
 
         def on_progress(event: TrainingEvent) -> None:
             bars.update(
@@ -80,6 +82,7 @@ def train_model(
                 f"validation {percent(event.validation_accuracy)}",
                 completed=event.epoch,
                 total=event.epochs,
+                visible=True,
             )
             if event.kind in ("grown", "done"):
                 remark(event.message)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from dataclasses import asdict
 from pathlib import Path
 from typing import NamedTuple
@@ -14,11 +15,15 @@ from pydantic import BaseModel, ConfigDict
 
 from seewhy.errors import DatasetError, ModelError
 from seewhy.perception.events import FeatureRecord, Progress
-from seewhy.perception.network import GrowingNetwork, Standard
+from seewhy.perception.joint_training import train_jointly
+from seewhy.perception.labels import labelled
+from seewhy.perception.network import GrowingNetwork, Standard, deepest
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.parallel import train_networks
 from seewhy.perception.picture import SMALLEST_SIDE
+from seewhy.perception.randomness import seeded
 from seewhy.perception.rehearsal import Rehearsal
+from seewhy.perception.training import new_network
 from seewhy.weights import REMEDY, Described, read_weights, write_weights
 
 __all__ = ["FeatureExtractor", "Seen", "fit_extractor"]
@@ -225,6 +230,7 @@ def fit_extractor(
     checkpoints: Path | None = None,
     start_from: FeatureExtractor | None = None,
     rehearsal: Rehearsal | None = None,
+    together: bool = False,
     workers: int = -1,
     on_progress: Progress | None = None,
 ) -> FeatureExtractor:
@@ -251,6 +257,10 @@ def fit_extractor(
         Earlier networks to train on instead of growing new ones; features that it lacks grow.
     rehearsal : Rehearsal, optional
         Pictures that ``start_from`` was trained on, to go over again.
+    together : bool, default False
+        Train the networks of all features together, to tell annotated feature vectors apart; see
+        :func:`seewhy.perception.joint_training.train_jointly`. Those that have to grow are
+        trained by themselves before.
     workers : int, default -1
         Features trained at the same time, each in a process of its own; -1: one a core. The
         weights do not depend on it.
@@ -294,6 +304,7 @@ def fit_extractor(
             raise DatasetError(
                 f"{name} must have one label a picture ({len(batch)}), got {len(column)}"
             )
+        labelled(column, feature=name, values=values[name])  # or hours of training are lost
     if groups is not None and len(groups) != len(batch):
         raise DatasetError(
             f"groups must have one entry a picture ({len(batch)}), got {len(groups)}"
@@ -305,24 +316,75 @@ def fit_extractor(
         else (options or {}).get(name, TrainingOptions())
         for name in labels
     }
+    earlier = {} if start_from is None else start_from.networks
+    ready: dict[str, GrowingNetwork] = {}
+    if together:
+        ready = _ready(labels, values, chosen, earlier, size=batch.shape[1])
     trained = train_networks(
         batch,
-        labels,
+        {name: column for name, column in labels.items() if name not in ready},
         values=values,
         options=chosen,
         groups=groups,
         validation=validation,
         checkpoints=checkpoints,
-        start_from=None if start_from is None else start_from.networks,
+        start_from=earlier,
         rehearsal=rehearsal,
         workers=workers,
         on_progress=on_progress,
     )
+    if together:
+        grown = {name: own for name, (own, record) in trained.items() if record.epochs}
+        joint = {**ready, **grown}
+        trained |= train_jointly(
+            {name: joint[name] for name in labels if name in joint},
+            batch,
+            labels,
+            values=values,
+            options=chosen,
+            fine_tune=bool(grown or earlier),
+            groups=groups,
+            validation=validation,
+            checkpoints=checkpoints,
+            rehearsal=rehearsal,
+            workers=workers,
+            on_progress=on_progress,
+        )
+    trained = {name: trained[name] for name in labels}
     return FeatureExtractor(
         {name: network for name, (network, _) in trained.items()},
         values=values,
         records={name: record for name, (_, record) in trained.items()},
     )
+
+
+def _ready(
+    labels: Mapping[str, Sequence[str | None]],
+    values: Mapping[str, Sequence[str]],
+    options: Mapping[str, TrainingOptions],
+    earlier: Mapping[str, GrowingNetwork],
+    *,
+    size: int,
+) -> dict[str, GrowingNetwork]:
+    """Networks that need no training of their own before they are trained together.
+
+    Those that are trained already; and new ones, where all features start as deep as can be. A
+    feature that shows one value only has nothing to learn.
+    """
+    if earlier:
+        return {
+            name: deepcopy(network)
+            for name, network in earlier.items()
+            if name in labels and (network.size, network.values) == (size, len(values[name]))
+        }
+    if any(own.depth < deepest(size) for own in options.values()):
+        return {}
+    found = {}
+    for name, own in options.items():
+        if len({value for value in labels[name] if value is not None}) > 1:
+            with seeded(torch.device("cpu"), own.seed, name, "first"):
+                found[name] = new_network(size, len(values[name]), own)
+    return found
 
 
 class _Feature(BaseModel):

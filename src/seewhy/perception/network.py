@@ -191,7 +191,7 @@ class GrowingNetwork(nn.Module):
 
     def forward(self, pictures: torch.Tensor) -> torch.Tensor:
         """Logits of shape (n, values) for pictures of shape (n, size, size, 3) in 0..255."""
-        return self._logits(self.embeddings(pictures))
+        return self.logits(self.embeddings(pictures))
 
     def embeddings(self, pictures: torch.Tensor) -> torch.Tensor:
         """Outputs of the dense layer, shape (n, dense): what the logits are computed from."""
@@ -206,12 +206,13 @@ class GrowingNetwork(nn.Module):
     def see(self, pictures: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
         """Calibrated probabilities, shape (n, values), and the embeddings that they come from."""
         embeddings = self.embeddings(pictures)
-        return torch.softmax(self._logits(embeddings) / self.temperature, dim=1), embeddings
+        return torch.softmax(self.logits(embeddings) / self.temperature, dim=1), embeddings
 
-    def _logits(self, embeddings: torch.Tensor) -> torch.Tensor:
+    def logits(self, embeddings: torch.Tensor) -> torch.Tensor:
+        """Logits of shape (n, values) for embeddings of shape (n, dense)."""
         *_, dropout, last = self.head
-        logits: torch.Tensor = last(dropout(embeddings))
-        return logits
+        found: torch.Tensor = last(dropout(embeddings))
+        return found
 
     def decayed_and_free(self) -> tuple[list[nn.Parameter], list[nn.Parameter]]:
         """Parameters that weight decay shrinks (matrices) and those it leaves alone (vectors)."""

@@ -20,7 +20,6 @@ import torch
 
 from seewhy.errors import SeeWhyError
 from seewhy.perception.events import FeatureRecord, Progress, TrainingEvent
-from seewhy.perception.labels import labelled
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
@@ -51,7 +50,7 @@ def train_networks(
     Networks this small gain little from a second thread and lose much where the cores are busy,
     so each is trained on one, and as many at a time as there are ``workers`` (-1: one a core).
     The weights do not depend on the number of workers. Where there is a GPU, features are trained
-    one after another. Labels are checked before anything is trained.
+    one after another.
 
     Raises
     ------
@@ -62,8 +61,6 @@ def train_networks(
     """
     from loky import cpu_count  # counts the cores that this process may use
 
-    for name, column in labels.items():
-        labelled(column, feature=name, values=values[name])
     earlier = start_from or {}
     arguments: dict[str, dict[str, Any]] = {
         name: {
@@ -79,6 +76,8 @@ def train_networks(
         }
         for name, column in labels.items()
     }
+    if not arguments:
+        return {}
     at_once = min(len(labels), cpu_count() if workers < 1 else workers)
     if at_once < 2 or torch.cuda.is_available():
         return {name: _on_one_thread(pictures, own, on_progress) for name, own in arguments.items()}

@@ -29,9 +29,9 @@ from seewhy.perception.optimisation import (
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.randomness import seed_of, seeded
 from seewhy.perception.rehearsal import Rehearsal
-from seewhy.perception.validation import split
+from seewhy.perception.validation import clearly_better, split
 
-__all__ = ["train_network"]
+__all__ = ["new_network", "planned_epochs", "train_network"]
 
 ENOUGH_PICTURES = 1000  # what `max_epochs` is meant for; fewer pictures get more epochs
 PLENTY = 5000  # more pictures get fewer epochs, at least half
@@ -42,6 +42,25 @@ MINIMAL_GAIN = 0.005  # in accuracy, for a growth to count as one that helped
 
 Pictures = npt.NDArray[np.uint8]
 Indices = npt.NDArray[np.int64]
+
+
+def planned_epochs(epochs: int, *, pictures: int, fine_tune: bool = False) -> int:
+    """Passes over so many training pictures, where ``epochs`` are meant for 1,000 to 5,000.
+
+    Up to four times as many where pictures are fewer, down to half where they are more; half of
+    that where networks are trained already.
+
+    Examples
+    --------
+    >>> [planned_epochs(16, pictures=count) for count in (100, 500, 1000, 9000)]
+    [64, 32, 16, 9]
+    """
+    fewer = max(0.5, min(1.0, PLENTY / pictures))
+    return math.ceil(epochs * _more_for(pictures) * fewer * (0.5 if fine_tune else 1.0))
+
+
+def _more_for(pictures: int) -> float:
+    return min(4.0, max(1.0, ENOUGH_PICTURES / pictures))
 
 
 def train_network(
@@ -245,16 +264,15 @@ class _Training:
             self.device
         )
 
-        more = min(4.0, max(1.0, ENOUGH_PICTURES / len(self.train)))
-        fewer = max(0.5, min(1.0, PLENTY / len(self.train)))
-        settling = math.ceil(options.max_epochs * more * fewer * (0.5 if start_from else 1.0))
-        growing = math.ceil(options.growing_epochs * more * fewer)
-        self.patience = math.ceil(options.patience * more)
+        count, tuning = len(self.train), start_from is not None
+        settling = planned_epochs(options.max_epochs, pictures=count, fine_tune=tuning)
+        growing = planned_epochs(options.growing_epochs, pictures=count)
+        self.patience = math.ceil(options.patience * _more_for(count))
         self.planned = {"growing": growing, "settling": settling, "finished": settling}
         self.peak_rate = options.learning_rate / (3.0 if start_from else 1.0)
 
         with self.seeded("first"):
-            self.network = _first_network(pictures, values, options)
+            self.network = new_network(pictures.shape[1], values, options)
         self.network.standardise_by(pictures[self.train])
         self.position = Position(depth=self.network.depth)
         if self.network.depth == self.network.deepest:
@@ -377,11 +395,15 @@ class _Training:
         return self.event(kind, accuracy)
 
     def finish(self) -> TrainingEvent:
-        """Keep the best weights and calibrate them."""
-        self.network.load_state_dict(self.best)
+        """Keep the last weights, or others that did clearly better, and calibrate them."""
+        last = self.score()
+        if clearly_better(self.position.best[0], than=last[0], pictures=len(self.judged)):
+            self.network.load_state_dict(self.best)
+        else:
+            self.position.best = last
         self.position.stage = "finished"
         logits, targets = self.judged_logits(), self.y[self.judged]
-        self.network.temperature.fill_(fitted_temperature(logits.cpu(), targets.cpu()))
+        self.network.temperature.fill_(fitted_temperature((logits.cpu(), targets.cpu())))
         return self.event("done", self.position.best[0])
 
     def judged_logits(self) -> torch.Tensor:
@@ -421,9 +443,8 @@ class _Training:
         )
 
 
-def _first_network(pictures: Pictures, values: int, options: TrainingOptions) -> GrowingNetwork:
-    """The network that growing starts from."""
-    size = pictures.shape[1]
+def new_network(size: int, values: int, options: TrainingOptions) -> GrowingNetwork:
+    """An untrained network for pictures of ``size`` pixels, as deep as it starts."""
     return GrowingNetwork(
         size=size,
         values=values,
@@ -445,7 +466,7 @@ def _constant(
 ) -> tuple[GrowingNetwork, FeatureRecord]:
     """Where only one value occurs nothing can be learned from the pictures: answer it always."""
     with seeded(torch.device("cpu"), options.seed, feature, "first"):
-        network = _first_network(pictures, len(values), options)
+        network = new_network(pictures.shape[1], len(values), options)
     network.standardise_by(pictures)
     # One more picture of each value is supposed, so that the others stay possible.
     counts = np.bincount(targets, minlength=len(values)) + 1.0
