@@ -2,8 +2,9 @@
 
 Numbers are cut into four at the quartiles of the training rows, for all learners alike; labels of
 training rows are wrong as often as `noise` says, those of testing rows never. Literals are the
-tests of features in all rules together (of a tree: on all its paths). SeeWhy's tolerance is the one
-of three that does best in threefold cross-validation on the training rows; the time includes it.
+tests of features in all rules together (of a tree: on all its paths). SeeWhy's tolerance (of three)
+and the tree's pruning are those that do best in cross-validation on the training rows, which the
+time does not include.
 
     pip install -e '.[benchmarks]'
     python benchmarks/rule_learners.py
@@ -12,6 +13,7 @@ of three that does best in threefold cross-validation on the training rows; the 
 from __future__ import annotations
 
 import argparse
+import csv
 import time
 import warnings
 from collections.abc import Callable, Sequence
@@ -19,7 +21,7 @@ from itertools import product
 
 import numpy as np
 from sklearn import datasets
-from sklearn.model_selection import StratifiedKFold, StratifiedShuffleSplit
+from sklearn.model_selection import GridSearchCV, StratifiedKFold, StratifiedShuffleSplit
 from sklearn.preprocessing import KBinsDiscretizer
 from sklearn.tree import DecisionTreeClassifier
 
@@ -50,6 +52,17 @@ def structures(seed: int) -> tuple[Rows, np.ndarray, bool]:
     return np.array(rows), np.array([decided[n][1] == "stable" for n in drawn]), False
 
 
+def signs(seed: int) -> tuple[Rows, np.ndarray, bool]:
+    """Traffic signs, all kinds equally often: whether one warns of a danger (code A…)."""
+    domain = load_domain("traffic_signs")
+    with (domain.folder / "classes.csv").open(encoding="utf-8", newline="") as stream:
+        kinds = list(csv.DictReader(stream))
+    places = {key: {v: n for n, v in enumerate(f.values)} for key, f in domain.features.items()}
+    drawn = np.random.default_rng(seed).integers(len(kinds), size=SCENES)
+    rows = [[place[kinds[n][key]] for key, place in places.items()] for n in drawn]
+    return np.array(rows), np.array([kinds[n]["code"].startswith("A") for n in drawn]), False
+
+
 def shipped(load: Callable[[], object], positive: int) -> Callable[[int], tuple]:
     """A table of scikit-learn: whether a row is of one class."""
 
@@ -62,6 +75,7 @@ def shipped(load: Callable[[], object], positive: int) -> Callable[[int], tuple]
 
 TABLES = {
     "structures": structures,
+    "signs (warning)": signs,
     "iris (versicolor)": shipped(datasets.load_iris, 1),
     "wine (first)": shipped(datasets.load_wine, 0),
     "breast cancer": shipped(datasets.load_breast_cancer, 1),
@@ -75,8 +89,8 @@ def seewhy_rules(rows: Rows, labels: np.ndarray, tolerance: float) -> Fitted:
     Axioms are learned for both; kept are those that classify the training rows better, or as well
     with fewer literals.
     """
-    values = tuple(str(n) for n in range(int(rows.max()) + 1))
-    features = {f"f{n}": values for n in range(rows.shape[1])}
+    most = rows.max(axis=0)
+    features = {f"f{n}": tuple(map(str, range(int(own) + 1))) for n, own in enumerate(most)}
     vectors = [tuple(map(str, row)) for row in rows]
     learned = learn_axioms(
         features, vectors, list(map(str, labels)), decide=decide_by_candidates(features),
@@ -84,7 +98,7 @@ def seewhy_rules(rows: Rows, labels: np.ndarray, tolerance: float) -> Fitted:
     )  # fmt: skip
 
     def spoken(some: Rows, label: bool) -> np.ndarray:
-        own = [tuple(map(str, row)) for row in np.minimum(some, len(values) - 1)]
+        own = [tuple(map(str, row)) for row in np.minimum(some, most)]
         table = scene_table(features, own, ["?"] * len(own))
         by_row = np.zeros(len(table.vectors), dtype=bool)
         for axiom in (own.candidate for own in learned.accepted):
@@ -107,8 +121,8 @@ def seewhy_rules(rows: Rows, labels: np.ndarray, tolerance: float) -> Fitted:
     return lambda some: spoken(some, chosen), literals[chosen]
 
 
-def seewhy_chosen(rows: Rows, labels: np.ndarray, seed: int) -> Fitted:
-    """The same with the tolerance that cross-validation prefers."""
+def best_tolerance(rows: Rows, labels: np.ndarray, seed: int) -> float:
+    """The tolerance that cross-validation prefers."""
     folds = list(StratifiedKFold(3, shuffle=True, random_state=seed).split(rows, labels))
     scores = []
     for tolerance in TOLERANCES:
@@ -117,10 +131,10 @@ def seewhy_chosen(rows: Rows, labels: np.ndarray, seed: int) -> Fitted:
             predict, _ = seewhy_rules(rows[train], labels[train], tolerance)
             right.append((predict(rows[test]) == labels[test]).mean())
         scores.append(np.mean(right))
-    return seewhy_rules(rows, labels, TOLERANCES[int(np.argmax(scores))])
+    return TOLERANCES[int(np.argmax(scores))]
 
 
-def foldrpp_rules(rows: Rows, labels: np.ndarray, _: int) -> Fitted:
+def foldrpp_rules(rows: Rows, labels: np.ndarray, _: float) -> Fitted:
     """FOLD-R++ on numbers, as it is."""
     from foldrpp import Foldrpp, num_predicates
 
@@ -142,15 +156,18 @@ def foldrpp_rules(rows: Rows, labels: np.ndarray, _: int) -> Fitted:
     return predict, num_predicates(model.flat_rules)
 
 
-def tree_rules(rows: Rows, labels: np.ndarray, seed: int) -> Fitted:
-    """scikit-learn's tree, pruned by cross-validation."""
-    from sklearn.model_selection import GridSearchCV
-
+def best_pruning(rows: Rows, labels: np.ndarray, seed: int) -> float:
+    """The strength of pruning that cross-validation prefers."""
     alphas = DecisionTreeClassifier(random_state=seed).cost_complexity_pruning_path(rows, labels)
     grid = {"ccp_alpha": np.unique(np.clip(alphas.ccp_alphas, 0, None))[:-1][-25:]}
     search = GridSearchCV(DecisionTreeClassifier(random_state=seed), grid, cv=5)
-    tree = search.fit(rows, labels).best_estimator_.tree_
-    return search.predict, _path_literals(tree)
+    return float(search.fit(rows, labels).best_params_["ccp_alpha"])
+
+
+def tree_rules(rows: Rows, labels: np.ndarray, pruning: float) -> Fitted:
+    """scikit-learn's tree."""
+    tree = DecisionTreeClassifier(random_state=0, ccp_alpha=pruning).fit(rows, labels)
+    return tree.predict, _path_literals(tree.tree_)
 
 
 def _path_literals(tree: object) -> int:
@@ -164,7 +181,7 @@ def _path_literals(tree: object) -> int:
     return below(0, 0)
 
 
-def imodels_rules(rows: Rows, labels: np.ndarray, _: int) -> Fitted:
+def imodels_rules(rows: Rows, labels: np.ndarray, _: float) -> Fitted:
     """The greedy rule list of imodels."""
     from imodels import GreedyRuleListClassifier
 
@@ -173,12 +190,18 @@ def imodels_rules(rows: Rows, labels: np.ndarray, _: int) -> Fitted:
     return lambda some: model.predict(some).astype(bool), len(model.rules_)
 
 
+def nothing(*_: object) -> float:
+    """There is nothing to choose."""
+    return 0.0
+
+
 LEARNERS = {
-    "SeeWhy": seewhy_chosen,
-    "FOLD-R++": foldrpp_rules,
-    "tree": tree_rules,
-    "imodels": imodels_rules,
+    "SeeWhy": (best_tolerance, seewhy_rules),
+    "FOLD-R++": (nothing, foldrpp_rules),
+    "tree": (best_pruning, tree_rules),
+    "imodels": (nothing, imodels_rules),
 }
+"""Learner → how an option is chosen, and how rules are learned with it."""
 
 
 def one(name: str, noise: float, seed: int) -> dict[str, tuple[float, int, float]]:
@@ -193,9 +216,10 @@ def one(name: str, noise: float, seed: int) -> dict[str, tuple[float, int, float
     wrong = np.random.default_rng([seed, 1]).random(len(train)) < noise
     shown = np.where(wrong, ~labels[train], labels[train])
     found = {}
-    for learner, fit in LEARNERS.items():
+    for learner, (choose, fit) in LEARNERS.items():
+        option = choose(rows[train], shown, seed)
         began = time.perf_counter()
-        predict, literals = fit(rows[train], shown, seed)
+        predict, literals = fit(rows[train], shown, option)
         seconds = time.perf_counter() - began
         found[learner] = ((predict(rows[test]) == labels[test]).mean(), literals, seconds)
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import shutil
 from dataclasses import replace
@@ -390,6 +391,26 @@ def test_pictures_that_contradict_an_axiom_withdraw_it(
     assert [gone.statement for gone in learning.withdrawn] == before
     assert all("are otherwise, as images/" in gone.reason for gone in learning.withdrawn)
     assert own.withdrawn == learning.withdrawn
+
+
+def test_a_more_general_axiom_takes_the_place_of_a_learned_one(
+    tiles: Domain, dataset: Dataset
+) -> None:
+    general = next(
+        own for own in Agent(tiles).learn(dataset, answers=False).added if len(own.body) == 1
+    )
+    value = "round" if "colour" in str(general) else "colour"
+    more = {"round": "round(T)", "colour": "colour(T, red)"}[value].replace("T", "S")
+    text = f"{str(general)[:-1]}, {more}."
+    (narrow,) = read_axioms(text, tiles.knowledge.signature)
+    narrow = dataclasses.replace(narrow, origin=Origin(learned=True, support=3))
+    agent = Agent(tiles, learned=[narrow])
+    learning = agent.learn(dataset, answers=False)
+    assert str(general) in [str(own) for own in learning.added]
+    assert [str(own) for own in agent.learned].count(text) == 0
+    (gone,) = learning.withdrawn
+    assert (gone.statement, gone.reason) == (text, f"{general} says it of more scenes")
+    assert agent.withdrawn == (gone,)
 
 
 def test_only_what_is_accepted_is_added(model_folder: Path, dataset: Dataset) -> None:

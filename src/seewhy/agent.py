@@ -32,6 +32,7 @@ from seewhy.learning import (
     contradicted,
     learn_for_domain,
     scenes_of,
+    superseded,
 )
 from seewhy.nearest import did_you_mean
 from seewhy.reading import (
@@ -337,8 +338,9 @@ class Agent:
         """Learn axioms from annotated pictures, and reason with them from now on.
 
         The pictures seen before count too. Axioms learned earlier that the pictures contradict
-        are withdrawn. What the knowledge still leaves open trains the tree and the recurrent
-        network again; the networks that see are not touched.
+        are withdrawn, as are those that a more general new one makes needless. What the knowledge
+        still leaves open trains the tree and the recurrent network again; the networks that see
+        are not touched.
 
         Parameters
         ----------
@@ -378,6 +380,9 @@ class Agent:
         learned = learn_for_domain(self.domain, scenes, minimality=self.minimality, options=options)
         found = axioms_of(self.domain, [own.candidate for own in learned.accepted], scenes)
         chosen = tuple(found if accept is None else accept(found))
+        narrow = superseded(kept, chosen)
+        kept = [own for own in kept if own not in [axiom for axiom, _ in narrow]]
+        gone += narrow
         self.withdrawn = (*self.withdrawn, *(own for _, own in gone))
         self._know([*kept, *chosen])
         self.trained_on |= frozenset(train.picture_digests())

@@ -37,6 +37,7 @@ __all__ = [
     "contradicted",
     "learn_for_domain",
     "scenes_of",
+    "superseded",
     "with_candidates",
 ]
 
@@ -247,4 +248,28 @@ def contradicted(
                 f"otherwise{f', as {some}' if some else ''}"
             )
             found.append((axiom, Withdrawn(str(axiom), reason)))
+    return found
+
+
+def superseded(learned: Sequence[Axiom], newer: Sequence[Axiom]) -> list[tuple[Axiom, Withdrawn]]:
+    """Return the learned axioms of which a newer one is a more general version.
+
+    It concludes the same from some of the same conditions.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> signature = load_domain("structure_stability").knowledge.signature
+    >>> old = read_axioms("-stable(S) if lean(S), base(S, narrow).", signature)
+    >>> new = read_axioms("-stable(S) if lean(S).", signature)
+    >>> [own.reason for _, own in superseded(old, new)]
+    ['-stable(S) if lean(S). says it of more scenes']
+    """
+    found = []
+    for axiom in learned:
+        conditions = {own.text for own in axiom.body}
+        for other in newer:
+            if other.head == axiom.head and {own.text for own in other.body} <= conditions:
+                found.append((axiom, Withdrawn(str(axiom), f"{other} says it of more scenes")))
+                break
     return found

@@ -201,7 +201,8 @@ def learn_axioms(
             if own.candidate in judged:
                 continue
             if own.fate is Fate.ACCEPTED:
-                own = _validated(own, table, [a.candidate for a in accepted], decide, options, rng)
+                known = [a.candidate for a in accepted]
+                own = _validated(own, table, left, known, decide, options, rng)
             judged[own.candidate] = own
             if own.fate is Fate.ACCEPTED:
                 accepted.append(own)
@@ -302,6 +303,7 @@ def _proposed(
 def _validated(
     own: Judgement,
     table: SceneTable,
+    left: NDArray[np.int64],
     known: Sequence[Candidate],
     decide: Decide,
     options: LearningOptions,
@@ -311,6 +313,12 @@ def _validated(
     if any(other.covers(own.candidate) for other in known):
         return _with(own, Fate.MERGED, "a more general one says the same")
     before = decide(known, table.vectors)
+    labels = np.array([decision.label or "" for decision in before])
+    ours = table.satisfying(own.candidate.conditions) & (
+        left[:, table.classes.index(own.candidate.label)] > 0
+    )
+    if (labels[ours] == own.candidate.label).all():
+        return _with(own, Fate.MERGED, "others say the same of all these scenes")
     after = decide([*known, own.candidate], table.vectors)
     spoken = np.flatnonzero(table.satisfying(own.candidate.conditions))
     scenes = np.repeat(spoken, table.totals[spoken])
