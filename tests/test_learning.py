@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import shutil
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations, product
 from pathlib import Path
@@ -14,10 +15,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from conftest import Run, draw_tile
+from conftest import KNOWLEDGE, Run, draw_tile, write_domain
 from seewhy.agent import Agent
 from seewhy.dataset import Dataset
-from seewhy.domain import Domain
+from seewhy.domain import Domain, load_domain
 from seewhy.errors import DatasetError, KnowledgeError
 from seewhy.induction.axiom_text import axiom_statement, conjunctions
 from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
@@ -32,7 +33,13 @@ from seewhy.induction.scene_table import scene_table
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.axiom import Axiom, Origin
 from seewhy.knowledge.language import read_axioms
-from seewhy.knowledge.learned_file import LEARNED, learned_text, parse_learned, read_learned
+from seewhy.knowledge.learned_file import (
+    LEARNED,
+    Withdrawn,
+    learned_text,
+    parse_learned,
+    read_learned,
+)
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.learning import (
     AnnotatedScenes,
@@ -41,6 +48,7 @@ from seewhy.learning import (
     learn_for_domain,
     with_candidates,
 )
+from seewhy.refutation import refuted
 
 FEATURES = {"size": ("1", "2", "3", "4"), "colour": ("red", "green", "blue"), "lean": ("yes", "no")}
 SPACE = list(product(*FEATURES.values()))
@@ -441,6 +449,100 @@ def test_an_axiom_learned_with_tolerance_is_not_withdrawn_for_the_same_errors(
     assert [own for own, _ in contradicted(structures, [leans], worse)] == [leans]
 
 
+# Given axioms that scenes refute ----------------------------------------------------------------
+
+WRONG = "round(T) if colour(T, red)."
+
+
+@pytest.fixture
+def misled(tmp_path: Path) -> Domain:
+    """The tiles with an axiom about features that does not hold."""
+    text = f"{KNOWLEDGE}\n%% red tiles are round\n{WRONG}\n"
+    return load_domain(write_domain(tmp_path / "misled", knowledge=text))
+
+
+def test_an_axiom_that_scenes_refute_is_set_aside(misled: Domain, dataset: Dataset) -> None:
+    agent = Agent(misled)
+    cornered = {"colour": "red", "round": "no"}
+    assert agent.decide(cornered) is None  # a contradiction
+    learning = agent.learn(dataset, answers=False)
+    (gone,) = learning.withdrawn
+    assert (gone.statement, gone.given) == (WRONG, True)
+    assert gone.reason.startswith("7 of 14 tiles that it speaks about are otherwise, as images/")
+    assert agent.decide(cornered) == "good"
+    assert WRONG not in map(str, agent.domain.knowledge.axioms)
+    assert WRONG in map(str, agent.given.knowledge.axioms)
+    assert agent.learn(dataset, answers=False).withdrawn == ()
+    agent.restore("a3")
+    assert agent.withdrawn == ()
+    assert agent.reasoner.decide(agent.domain.vector(cornered)).label is None
+    with pytest.raises(KnowledgeError, match="'a3' is not set aside: no given axiom is"):
+        agent.restore("a3")
+
+
+def test_a_person_may_keep_an_axiom_that_scenes_refute(misled: Domain, dataset: Dataset) -> None:
+    agent = Agent(misled)
+    asked: list[str] = []
+
+    def keep(refuted: Sequence[Withdrawn]) -> list[Withdrawn]:
+        asked.extend(own.statement for own in refuted)
+        return []
+
+    learning = agent.learn(dataset, set_aside=keep, answers=False)
+    assert asked == [WRONG]
+    assert learning.withdrawn == ()
+    assert WRONG in map(str, agent.domain.knowledge.axioms)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "tolerance", "gone"), [(1, 0.0, 0), (2, 0.0, 0), (9, 0.0, 1), (9, 0.1, 0)]
+)
+def test_a_few_annotations_do_not_refute_an_axiom(
+    misled: Domain, wrong: int, tolerance: float, gone: int
+) -> None:
+    vectors = [("red", "yes")] * (100 - wrong) + [("red", "no")] * wrong
+    some = scenes(vectors, ["good"] * 100)
+    assert len(refuted(misled, some, tolerance=tolerance)) == gone
+
+
+def test_defaults_and_unknown_values_refute_nothing(tmp_path: Path, misled: Domain) -> None:
+    unknown = scenes([("red", None), (None, "no")] * 50, ["good"] * 100)
+    assert refuted(misled, unknown) == []
+    text = f"{KNOWLEDGE}\ndefault {WRONG}\n"
+    usual = load_domain(write_domain(tmp_path / "usual", knowledge=text))
+    assert refuted(usual, scenes([("red", "no")] * 50, ["good"] * 50)) == []
+
+
+def test_what_is_set_aside_is_kept_in_the_model(
+    run: Run, misled: Domain, dataset: Dataset, model_folder: Path, tiles_data: Path, tmp_path: Path
+) -> None:
+    agent = Agent(misled)
+    agent.extractor = Agent.load(model_folder).extractor
+    agent.fit_induction(dataset.vectors, dataset.labels, answers=False)
+    model = tmp_path / "model"
+    agent.save(model)
+    silent = run("learn", model, "--data", tiles_data, stdin="")
+    assert silent.code == 2
+    assert silent.err.startswith("seewhy: no answer to 'set this axiom aside?', the model stays")
+    shown = json.loads(run("learn", model, "--data", tiles_data, "--json").out)
+    assert shown["withdrawn"] == []
+    result = run("learn", model, "--data", tiles_data, "--yes")
+    line = next(own for own in result.out.splitlines() if own.startswith("set aside"))
+    assert line.startswith(f"set aside a3: {WRONG} ")
+    assert "tiles that it speaks about are otherwise, as images/" in line
+    again = Agent.load(model)
+    assert [own.given for own in again.withdrawn] == [True]
+    assert again.reasoner.decide(("red", "no")).label == "good"
+    assert "set aside a3: " in run("axioms", model).out
+    (gone,) = json.loads(run("axioms", model, "--json").out)["withdrawn"]
+    assert (gone["statement"], gone["identifier"]) == (WRONG, "a3")
+    assert run("axioms", model, "--restore", "a3").out == f"known again: {WRONG}\n"
+    assert Agent.load(model).withdrawn == ()
+    failed = run("axioms", model, "--restore", "a3")
+    assert failed.code == 2
+    assert failed.err == "seewhy: 'a3' is not set aside: no given axiom is\n"
+
+
 # The command line -----------------------------------------------------------------------------
 
 
@@ -473,7 +575,11 @@ def test_learn_and_axioms(run: Run, model_folder: Path, tiles_data: Path, tmp_pa
     assert removed.out == f"withdrawn: {learned[0]['statement']}\n"
     after = json.loads(run("axioms", model, "--json").out)
     assert after["withdrawn"] == [
-        {"statement": learned[0]["statement"], "reason": "a person withdrew it"}
+        {
+            "statement": learned[0]["statement"],
+            "reason": "a person withdrew it",
+            "given": False,
+        }
     ]
 
 

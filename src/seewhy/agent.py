@@ -45,6 +45,7 @@ from seewhy.reading import (
     reading_rule,
 )
 from seewhy.refusal import refusal_threshold
+from seewhy.refutation import refuted
 from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
 from seewhy.wording import say_literal
 
@@ -71,8 +72,8 @@ class Agent:
     Parameters
     ----------
     domain : Domain
-        As its folder says it. What was learned is added: ``agent.domain`` has it, ``agent.given``
-        has not.
+        As its folder says it. What was learned is added and what is set aside is left out:
+        ``agent.domain`` is what is reasoned with, ``agent.given`` what the folder says.
     minimality : {"cardinality", "inclusion"}
         Which exceptions to defaults are preferred; see
         :class:`~seewhy.knowledge.reasoner.Reasoner`.
@@ -93,6 +94,8 @@ class Agent:
         every picture. What the domain says where left out.
     learned : sequence of Axiom, optional
         Axioms that were learned before.
+    withdrawn : sequence of Withdrawn, optional
+        Axioms that are known no more; given ones among them are set aside.
 
     Raises
     ------
@@ -120,6 +123,7 @@ class Agent:
         gate: float | None = None,
         known_share: float | None = None,
         learned: Sequence[Axiom] = (),
+        withdrawn: Sequence[Withdrawn] = (),
     ) -> None:
         self.given = domain
         self.seed = seed
@@ -130,7 +134,7 @@ class Agent:
         self.minimality: Minimality = minimality
         self.questions = Questions(domain)
         answer_templates(domain)  # a wrong template is found here, not after the training
-        self.withdrawn: tuple[Withdrawn, ...] = ()
+        self.withdrawn = tuple(withdrawn)
         self._know(learned)
         self.tree = DecisionTree({key: f.values for key, f in domain.features.items()})
         self.extractor: FeatureExtractor | None = None
@@ -148,11 +152,13 @@ class Agent:
             raise DomainError(f"known_share must be above 0, at most 1, got {self.known_share!r}")
 
     def _know(self, learned: Sequence[Axiom]) -> None:
-        """Reason with what is given and with these axioms."""
+        """Reason with what is given, but for what is set aside, and with these axioms."""
+        aside = {own.statement for own in self.withdrawn if own.given}
         text = learned_text(learned)
         signature = self.given.knowledge.signature
         self.learned = parse_learned(text, signature) if learned else ()
-        axioms = (*self.given.knowledge.axioms, *self.learned)
+        given = (own for own in self.given.knowledge.axioms if str(own) not in aside)
+        axioms = (*given, *self.learned)
         self.domain = replace(self.given, knowledge=replace(self.given.knowledge, axioms=axioms))
         self.reasoner = Reasoner(
             self.domain.knowledge, self.domain.schema, minimality=self.minimality
@@ -333,6 +339,7 @@ class Agent:
         *,
         options: LearningOptions = DEFAULTS,
         accept: Callable[[Sequence[Axiom]], Sequence[Axiom]] | None = None,
+        set_aside: Callable[[Sequence[Withdrawn]], Sequence[Withdrawn]] | None = None,
         answers: bool = True,
     ) -> Learning:
         """Learn axioms from annotated pictures, and reason with them from now on.
@@ -350,6 +357,10 @@ class Agent:
             How much evidence an axiom needs.
         accept : callable, optional
             Called with the axioms found; returns those to add. All are added without it.
+        set_aside : callable, optional
+            Called, before anything is learned, with the given axioms that the pictures refute
+            (:func:`seewhy.refutation.refuted`), if there are any; returns those to set aside. All
+            are without it.
         answers : bool, default True
             False leaves the recurrent network out.
 
@@ -368,6 +379,7 @@ class Agent:
         scenes = scenes_of(train, self.experience, self.trained_on)
         if len(set(scenes.labels)) < 2:
             train.require_two_classes()
+        before = len(self.withdrawn)
         gone = contradicted(
             self.given,
             self.learned,
@@ -376,21 +388,23 @@ class Agent:
             minimality=self.minimality,
         )
         kept = [own for own in self.learned if own not in [axiom for axiom, _ in gone]]
+        wrong = [own for _, own in refuted(self.domain, scenes, tolerance=options.tolerance)]
+        aside = tuple(wrong if set_aside is None or not wrong else set_aside(wrong))
+        self.withdrawn = (*self.withdrawn, *(own for _, own in gone), *aside)
         self._know(kept)
         learned = learn_for_domain(self.domain, scenes, minimality=self.minimality, options=options)
         found = axioms_of(self.domain, [own.candidate for own in learned.accepted], scenes)
         chosen = tuple(found if accept is None else accept(found))
         narrow = superseded(kept, chosen)
         kept = [own for own in kept if own not in [axiom for axiom, _ in narrow]]
-        gone += narrow
-        self.withdrawn = (*self.withdrawn, *(own for _, own in gone))
+        self.withdrawn = (*self.withdrawn, *(own for _, own in narrow))
         self._know([*kept, *chosen])
         self.trained_on |= frozenset(train.picture_digests())
         self.fit_induction(scenes.vectors, scenes.labels, answers=answers)
         return Learning(
             found,
             self.learned[len(kept) :],
-            tuple(own for _, own in gone),
+            self.withdrawn[before:],
             learned.judgements,
             learned.tree,
             learned.accepted_leaves,
@@ -418,6 +432,33 @@ class Agent:
         scenes = AnnotatedScenes.of_experience(self.experience)
         self.fit_induction(scenes.vectors, scenes.labels, answers=self.answerer is not None)
         return gone
+
+    def restore(self, identifier: str) -> Axiom:
+        """Know a given axiom again that was set aside.
+
+        Raises
+        ------
+        KnowledgeError
+            If no axiom with this identifier is set aside.
+        """
+        aside = {own.statement for own in self.withdrawn if own.given}
+        candidates = {
+            own.identifier: own for own in self.given.knowledge.axioms if str(own) in aside
+        }
+        if identifier not in candidates:
+            raise KnowledgeError(
+                f"'{identifier}' is not set aside; {did_you_mean(identifier, list(candidates))}"
+                if candidates
+                else f"'{identifier}' is not set aside: no given axiom is"
+            )
+        axiom = candidates[identifier]
+        self.withdrawn = tuple(
+            own for own in self.withdrawn if not (own.given and own.statement == str(axiom))
+        )
+        self._know(self.learned)
+        scenes = AnnotatedScenes.of_experience(self.experience)
+        self.fit_induction(scenes.vectors, scenes.labels, answers=self.answerer is not None)
+        return axiom
 
     def _require_own(self, dataset: Dataset) -> None:
         if dataset.domain.name != self.domain.name:
@@ -768,8 +809,8 @@ class Agent:
             gate=model.gate if gate is None else gate,
             known_share=model.known_share if known_share is None else known_share,
             learned=model.learned,
+            withdrawn=model.withdrawn,
         )
-        agent.withdrawn = model.withdrawn
         agent.extractor, agent.tree, agent.answerer = model.extractor, model.tree, model.answerer
         agent.experience, agent.trained_on = model.experience, model.trained_on
         agent.familiarity = model.familiarity

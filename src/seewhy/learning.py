@@ -83,8 +83,9 @@ class Learning:
     """What became of learning: axioms found, added, withdrawn, and every candidate's judgement.
 
     ``found`` are the axioms that all steps of induction let pass; ``added`` those of them that
-    were taken over. ``tree`` is the tree of the first round, ``accepted_leaves`` the places of its
-    paths that the axioms found come from or cover.
+    were taken over; ``withdrawn`` has the given axioms that were set aside, too. ``tree`` is the
+    tree of the first round, ``accepted_leaves`` the places of its paths that the axioms found come
+    from or cover.
     """
 
     found: tuple[Axiom, ...]

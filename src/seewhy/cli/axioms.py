@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from seewhy.cli.learn import axiom_dict
+from seewhy.cli.learn import axiom_dict, withdrawn_dict, withdrawn_line
 from seewhy.cli.options import Json, ModelFolder
 from seewhy.cli.screen import add_row, output, print_json, say, table
 
@@ -17,9 +17,13 @@ def axioms(
         str | None,
         typer.Option("--remove", metavar="ID", help="Withdraw a learned axiom."),
     ] = None,
+    restore: Annotated[
+        str | None,
+        typer.Option("--restore", metavar="ID", help="Know a given axiom again, set aside before."),
+    ] = None,
     json: Json = False,
 ) -> None:
-    """List the axioms of a model as sentences, given and learned, and those withdrawn."""
+    """List the axioms of a model as sentences, given and learned, and those known no more."""
     from seewhy.agent import Agent
 
     agent = Agent.load(model)
@@ -29,14 +33,18 @@ def axioms(
         if not json:
             say(f"withdrawn: {gone.statement}")
             return
+    if restore is not None:
+        axiom = agent.restore(restore)
+        agent.save(model)
+        if not json:
+            say(f"known again: {axiom}")
+            return
     known = agent.domain.knowledge.axioms
     if json:
         print_json(
             {
                 "axioms": [axiom_dict(own) for own in known],
-                "withdrawn": [
-                    {"statement": own.statement, "reason": own.reason} for own in agent.withdrawn
-                ],
+                "withdrawn": [withdrawn_dict(agent, own) for own in agent.withdrawn],
             }
         )
         return
@@ -47,4 +55,4 @@ def axioms(
         add_row(rows, own.identifier, own.text, place)
     output().print(rows)
     for gone in agent.withdrawn:
-        say(f"withdrawn: {gone.statement} {gone.reason}")
+        say(f"{withdrawn_line(agent, gone)}")

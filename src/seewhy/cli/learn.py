@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from seewhy.agent import Agent
     from seewhy.dataset import Dataset
     from seewhy.knowledge.axiom import Axiom
+    from seewhy.knowledge.learned_file import Withdrawn
     from seewhy.learning import Learning
 
 
@@ -64,6 +65,7 @@ def learn(
         dataset,
         options=LearningOptions(support=support, tolerance=tolerance, seed=seed),
         accept=None if yes else _none if json else _ask,
+        set_aside=None if yes else _none if json else _ask_aside,
         answers=agent.answerer is not None,
     )
     after = _accuracy(agent, dataset)
@@ -87,18 +89,32 @@ def _ask(axioms: Sequence[Axiom]) -> list[Axiom]:
     for axiom in axioms:
         say(f"{axiom.text}")
         say(f"  {axiom}  learned from {_rests(axiom)}")
-        try:
-            if typer.confirm("  add this axiom?", default=True):
-                chosen.append(axiom)
-        except typer.Abort:
-            raise SeeWhyError(
-                "no answer to 'add this axiom?', the model stays as it was; answer y or n, or "
-                "give --yes to add all"
-            ) from None
+        if _confirmed("add this axiom?"):
+            chosen.append(axiom)
     return chosen
 
 
-def _none(_: Sequence[Axiom]) -> list[Axiom]:
+def _ask_aside(refuted: Sequence[Withdrawn]) -> list[Withdrawn]:
+    chosen = []
+    for own in refuted:
+        say(f"given: {own.statement}")
+        say(f"  {own.reason}")
+        if _confirmed("set this axiom aside?"):
+            chosen.append(own)
+    return chosen
+
+
+def _confirmed(question: str) -> bool:
+    try:
+        return typer.confirm(f"  {question}", default=True)
+    except typer.Abort:
+        raise SeeWhyError(
+            f"no answer to '{question}', the model stays as it was; answer y or n, or give --yes "
+            "to agree to everything"
+        ) from None
+
+
+def _none(_: Sequence[object]) -> list[Any]:
     return []
 
 
@@ -131,9 +147,7 @@ def learning_dict(agent: Agent, learning: Learning) -> dict[str, Any]:
     return {
         "found": [str(own) for own in learning.found],
         "added": [axiom_dict(own) for own in learning.added],
-        "withdrawn": [
-            {"statement": own.statement, "reason": own.reason} for own in learning.withdrawn
-        ],
+        "withdrawn": [withdrawn_dict(agent, own) for own in learning.withdrawn],
         "candidates": [
             {
                 "text": say_rule(agent.domain, own.candidate.conditions, own.candidate.label),
@@ -168,6 +182,23 @@ def axiom_dict(axiom: Axiom) -> dict[str, Any]:
     }
 
 
+def withdrawn_dict(agent: Agent, gone: Withdrawn) -> dict[str, Any]:
+    """An axiom that is known no more, as values that JSON can hold."""
+    found = {"statement": gone.statement, "reason": gone.reason, "given": gone.given}
+    return {**found, "identifier": _identifier(agent, gone)} if gone.given else found
+
+
+def withdrawn_line(agent: Agent, gone: Withdrawn) -> str:
+    """An axiom that is known no more, and why; given ones with the name to restore them by."""
+    name = f" {_identifier(agent, gone)}" if gone.given else ""
+    return f"{gone.fate}{name}: {gone.statement} {gone.reason}"
+
+
+def _identifier(agent: Agent, gone: Withdrawn) -> str:
+    axioms = agent.given.knowledge.axioms
+    return next((own.identifier for own in axioms if str(own) == gone.statement), "")
+
+
 def print_learning(agent: Agent, learning: Learning) -> None:
     """Print every candidate with its verdict, and what was added and withdrawn."""
     from seewhy.induction.sentence import say_rule, things
@@ -177,7 +208,7 @@ def print_learning(agent: Agent, learning: Learning) -> None:
         why = f": {own.reason}" if own.reason else ""
         say(f"{own.fate.value}: {text} ({own.tally.right} {things(agent.domain)} for it{why})")
     for gone in learning.withdrawn:
-        say(f"withdrawn: {gone.statement} {gone.reason}")
+        say(withdrawn_line(agent, gone))
     if not learning.found:
         say("no axiom is to be learned from these pictures")
     for axiom in learning.added:

@@ -19,15 +19,21 @@ LEARNED = "learned.al"
 
 _FROM = re.compile(r"% learned from (\d+) (.+), ([0-9.]+) % of them rightly$")
 _RESTS = re.compile(r"% rests on (.+)$")
-_WITHDRAWN = re.compile(r"% withdrawn: (.+?\.) because (.+)$")
+_WITHDRAWN = re.compile(r"% (withdrawn|set aside): (.+?\.) because (.+)$")
 
 
 @dataclass(frozen=True)
 class Withdrawn:
-    """An axiom that was learned once and is known no more."""
+    """An axiom that was learned once and is known no more, or a given one that is set aside."""
 
     statement: str
     reason: str
+    given: bool = False
+
+    @property
+    def fate(self) -> str:
+        """What became of the axiom, in words."""
+        return "set aside" if self.given else "withdrawn"
 
 
 def learned_text(axioms: Iterable[Axiom], withdrawn: Iterable[Withdrawn] = ()) -> str:
@@ -62,7 +68,7 @@ def learned_text(axioms: Iterable[Axiom], withdrawn: Iterable[Withdrawn] = ()) -
             str(axiom),
             "",
         ]
-    lines += [f"% withdrawn: {own.statement} because {own.reason}" for own in withdrawn]
+    lines += [f"% {own.fate}: {own.statement} because {own.reason}" for own in withdrawn]
     return "\n".join(lines) + "\n"
 
 
@@ -89,7 +95,10 @@ def read_learned(
     axioms = parse_learned(source, signature, file=str(path))
     lines = source.splitlines()
     found = (match for line in lines if (match := _WITHDRAWN.match(line)))
-    return axioms, tuple(Withdrawn(own.group(1), own.group(2)) for own in found)
+    gone = (own.groups() for own in found)
+    return axioms, tuple(
+        Withdrawn(statement, reason, fate == "set aside") for fate, statement, reason in gone
+    )
 
 
 def parse_learned(source: str, signature: Signature, *, file: str = LEARNED) -> tuple[Axiom, ...]:
