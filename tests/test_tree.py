@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from itertools import product
 from pathlib import Path
 
@@ -145,6 +146,13 @@ def test_the_nodes_are_those_of_the_paths() -> None:
     assert [(n.label, n.support, n.precision) for n in leaves(root)] == [
         (path.label, path.support, path.precision) for path in tree.paths()
     ]
+
+
+def test_many_classes_of_few_scenes_are_no_reason_to_warn() -> None:
+    vectors = list(product(*FEATURES.values()))[:30]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        DecisionTree(FEATURES).fit(vectors, [str(n) for n in range(30)])
 
 
 def test_the_same_seed_grows_the_same_tree() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -128,21 +129,12 @@ class DecisionTree:
         tree = DecisionTreeClassifier(
             criterion="gini", min_samples_leaf=smallest, random_state=seed
         )
-        rarest = int(np.unique(classes, return_counts=True)[1].min())
-        if pruned and rarest >= 2 and len(set(labels)) > 1 and len(vectors) >= 20:
-            path = tree.cost_complexity_pruning_path(table, classes)
-            alphas = np.unique(np.clip(path.ccp_alphas, 0.0, None))
-            # Between two prunings: at one itself, the trees of cross-validation may keep a
-            # branch that the tree of all scenes loses.
-            alphas = np.sqrt(alphas[:-1] * alphas[1:]) if len(alphas) > 1 else alphas
-            search = GridSearchCV(
-                tree,
-                {"ccp_alpha": sorted(_thin(alphas))},
-                cv=StratifiedKFold(min(5, rarest), shuffle=True, random_state=seed),
-            )
-            search.fit(table, classes)
-            tree = _largest_alpha(search, tree)
-        tree.fit(table, classes)
+        with warnings.catch_warnings():
+            # Of a few scenes of many classes scikit-learn suspects that they are no classes.
+            warnings.filterwarnings("ignore", message="The number of unique classes is greater")
+            if pruned:
+                tree = _pruned(tree, table, classes, seed=seed)
+            tree.fit(table, classes)
         self._tree = tree
         return self
 
@@ -338,6 +330,28 @@ def _thin(alphas: NDArray[np.float64], *, most: int = 25) -> list[float]:
     if len(alphas) <= most:
         return [float(alpha) for alpha in alphas]
     return [float(alphas[i]) for i in np.linspace(0, len(alphas) - 1, most).astype(int)]
+
+
+def _pruned(
+    tree: DecisionTreeClassifier, table: NDArray[np.float64], classes: NDArray[Any], *, seed: int
+) -> DecisionTreeClassifier:
+    """The tree, not yet grown, with the pruning that does best in cross-validation."""
+    counts = np.unique(classes, return_counts=True)[1]
+    rarest = int(counts.min())
+    if rarest < 2 or len(counts) < 2 or len(classes) < 20:
+        return tree
+    path = tree.cost_complexity_pruning_path(table, classes)
+    alphas = np.unique(np.clip(path.ccp_alphas, 0.0, None))
+    # Between two prunings: at one itself, the trees of cross-validation may keep a branch that the
+    # tree of all scenes loses.
+    alphas = np.sqrt(alphas[:-1] * alphas[1:]) if len(alphas) > 1 else alphas
+    search = GridSearchCV(
+        tree,
+        {"ccp_alpha": sorted(_thin(alphas))},
+        cv=StratifiedKFold(min(5, rarest), shuffle=True, random_state=seed),
+    )
+    search.fit(table, classes)
+    return _largest_alpha(search, tree)
 
 
 def _largest_alpha(search: GridSearchCV, tree: DecisionTreeClassifier) -> DecisionTreeClassifier:
