@@ -81,8 +81,8 @@ def train_network(
 
     A network of ``options.depth`` convolutions is trained for a few epochs; while its validation
     accuracy is below the threshold and still improves, a convolution is added and the whole is
-    trained again. The depth found is then trained until it no longer improves, and the weights
-    that did best on the validation pictures are kept.
+    trained again. The depth found is then trained until it no longer improves. The last weights
+    are kept, unless others did clearly better on the validation pictures.
 
     Parameters
     ----------
