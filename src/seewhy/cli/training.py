@@ -72,8 +72,11 @@ def train_model(
     agent = Agent(domain, seed=seed, reading=reading, gate=gate, known_share=known_share)
     with progress() as bars:
         drawing = bars.add_task("drawing pictures", total=None, visible=False)
-        tasks = {key: bars.add_task(key, total=None) for key in domain.features}
-        tasks[TOGETHER] = bars.add_task(TOGETHER, total=None, visible=False)
+        together = agent.reading == "consistent"
+        tasks = {
+            key: bars.add_task(key, total=None, visible=together == (key == TOGETHER))
+            for key in (*domain.features, TOGETHER)
+        }
 
         def on_progress(event: TrainingEvent) -> None:
             bars.update(
