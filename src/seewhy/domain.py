@@ -198,7 +198,7 @@ def load_domain(name: str | Path) -> Domain:
             )
     path = folder / "domain.toml"
     table = read_toml(path, DomainFile)
-    knowledge = read_knowledge_file(folder / "knowledge.al")
+    knowledge = read_knowledge_file(folder / "knowledge.al").without_change
     questions = read_toml(folder / "questions.toml", QuestionsFile)
     place = _Place(path)
     _check_scene(table, knowledge, place)

@@ -49,3 +49,7 @@ class QuestionError(SeeWhyError, LookupError):
 
 class NotFittedError(SeeWhyError, ValueError):
     """An agent was asked before it was trained."""
+
+
+class PlanningError(SeeWhyError, ValueError):
+    """A goal, a history or a simulation cannot be used as it stands."""

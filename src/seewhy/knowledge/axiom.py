@@ -88,8 +88,7 @@ class Condition:
 class AxiomKind(StrEnum):
     """The statements of the action language AL_d (section 3.2 of the paper).
 
-    Causal laws and executability conditions speak of actions and time; the reader does not take
-    them yet.
+    A default with a fluent as its head is about the initial state.
     """
 
     STATE_CONSTRAINT = "state constraint"
@@ -117,6 +116,9 @@ class Origin:
 class Axiom:
     """One statement of the knowledge: the head is believed where all conditions hold.
 
+    ``action`` is what a causal law or an executability condition speaks of; the head is then its
+    effect in the next state, or the action denied.
+
     ``text`` is the sentence that the author put above it (``%%``), or the statement itself.
 
     Examples
@@ -143,16 +145,28 @@ class Axiom:
     text: str
     location: Location
     origin: Origin = Origin()
+    action: Literal | None = None
 
     def __str__(self) -> str:
-        default = "default " if self.kind is AxiomKind.DEFAULT else ""
+        head = {
+            AxiomKind.STATE_CONSTRAINT: f"{self.head}",
+            AxiomKind.DEFAULT: f"default {self.head}",
+            AxiomKind.CAUSAL_LAW: f"{self.action} causes {self.head}",
+            AxiomKind.EXECUTABILITY_CONDITION: f"impossible {self.action}",
+        }[self.kind]
         # After 'p(X) : q(X)' a comma would go on with what stands behind the colon.
         ends = ["; " if own.is_local and "{" not in own.text else ", " for own in self.body]
         body = "".join(f"{own}{end}" for own, end in zip(self.body, ends, strict=True))
-        return f"{default}{self.head}{' if ' if body else ''}{body[:-2]}."
+        return f"{head}{' if ' if body else ''}{body[:-2]}."
 
     @property
     def variables(self) -> tuple[str, ...]:
         """The variables of head and body, those of local conditions left out, in order."""
-        parts = [str(self.head), *(c.text for c in self.body if not c.is_local)]
+        parts = [str(self.action or ""), str(self.head)]
+        parts += [own.text for own in self.body if not own.is_local]
         return variables_in(" ".join(parts))
+
+    @property
+    def ranging_variables(self) -> tuple[str, ...]:
+        """The variables of head and action, which range over the sorts of their places."""
+        return variables_in(f"{self.action or ''} {self.head}")

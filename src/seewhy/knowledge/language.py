@@ -1,15 +1,15 @@
-"""Read the knowledge language: sorts, statics and axioms, checked against the signature.
+"""Read the knowledge language: declarations and axioms, checked against the signature.
 
 The language is that of the paper (AL_d and answer set prolog) over clingo terms. ``if`` is
-replaced by ``:-``, which is as long, so that the positions that clingo's parser reports are
-those of the user's file.
+replaced by ``:-``, and ``causes`` by ``;`` and blanks, which are as long, so that the positions
+that clingo's parser reports are those of the user's file.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import clingo
@@ -17,19 +17,19 @@ from clingo import ast
 
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal
-from seewhy.knowledge.signature import Location, Predicate, PredicateKind, Signature, Sort
+from seewhy.knowledge.axiom_kinds import check_kinds
+from seewhy.knowledge.declarations import Declarations
+from seewhy.knowledge.signature import Signature, Sort
 from seewhy.knowledge.statements import Statement, one_line, statements
 from seewhy.nearest import did_you_mean
 
-_NAME = r"_*[a-z][A-Za-z0-9_]*"
-_SORT = re.compile(rf"#sort\s+({_NAME})\s*(?:=\s*(\S.*))?$", re.DOTALL)
-_STATIC = re.compile(rf"#static\s+({_NAME})\s*(?:\(([^()]*)\))?\s*$", re.DOTALL)
-_RANGE = re.compile(r"(-?\d+)\s*\.\.\s*(-?\d+)$")
 _WORD = re.compile(r"\"(?:[^\"\\]|\\.)*\"|[A-Za-z0-9_']+")
 _CLINGO_ERROR = re.compile(r":(\d+):(\d+)(?:-[\d:]+)?: error: (.+)", re.DOTALL)
+_FIRST_WORDS = {
+    "default": AxiomKind.DEFAULT,
+    "impossible": AxiomKind.EXECUTABILITY_CONDITION,
+}
 _UNSAFE = re.compile(r":(\d+):(\d+)(?:-[\d:]+)?: note: '(\S+)' is unsafe")
-_MOST_MEMBERS = 10_000
-_CHANGE = {"#fluent": "#fluent", "#action": "#action", "impossible": "impossible"}
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,14 @@ class Knowledge:
     signature: Signature
     axioms: tuple[Axiom, ...]
     file: str
+
+    @property
+    def without_change(self) -> Knowledge:
+        """What stays as it is in every state: the axioms about statics."""
+        changes = self.signature.changes
+        return replace(
+            self, axioms=tuple(own for own in self.axioms if not changes(own.head.predicate))
+        )
 
 
 def read_knowledge_file(path: Path | str) -> Knowledge:
@@ -81,23 +89,14 @@ def read_knowledge(source: str, *, file: str = "knowledge.al") -> Knowledge:
     >>> [str(axiom) for axiom in knowledge.axioms]
     ['stable(S) if num_blocks(S, N), N < 2.']
     """
-    sorts: dict[str, Sort] = {}
-    predicates: dict[str, Predicate] = {}
+    declared = Declarations()
     rules: list[Statement] = []
     for statement in statements(source, file=file):
-        if not statement.text.startswith("#"):
-            rules.append(statement)
-        elif statement.text.startswith("#sort"):
-            sort = _read_sort(statement)
-            _refuse_second(sort.name, sort.location, {**sorts, **predicates})
-            sorts[sort.name] = sort
-        elif statement.text.startswith("#static"):
-            predicate = _read_static(statement, sorts)
-            _refuse_second(predicate.name, predicate.location, {**sorts, **predicates})
-            predicates[predicate.name] = predicate
+        if statement.text.startswith("#"):
+            declared.add(statement)
         else:
-            _refuse_directive(statement)
-    signature = Signature(sorts=sorts, predicates=predicates)
+            rules.append(statement)
+    signature = Signature(sorts=declared.sorts, predicates=declared.predicates)
     axioms = _read_axioms(rules, signature, letter="a")
     return Knowledge(signature=signature, axioms=axioms, file=file)
 
@@ -124,8 +123,8 @@ def read_axioms(
     for statement in rules:
         if statement.text.startswith("#"):
             raise KnowledgeError(
-                f"{statement.location}: found '{statement.line}', expected an axiom; sorts and "
-                "statics are declared in knowledge.al"
+                f"{statement.location}: found '{statement.line}', expected an axiom; what there "
+                "is, is declared in knowledge.al"
             )
     return _read_axioms(rules, signature, letter=letter)
 
@@ -138,8 +137,22 @@ def _read_axioms(
         _read_axiom(statement, kind, rule, signature, f"{letter}{number}")
         for number, (statement, kind, rule) in enumerate(parsed, start=1)
     )
-    _check_safety([(statement, rule) for statement, _, rule in parsed])
+    _check_safety(
+        [
+            (
+                statement,
+                rule,
+                axiom.ranging_variables if signature.changes(axiom.head.predicate) else (),
+            )
+            for (statement, _, rule), axiom in zip(parsed, axioms, strict=True)
+        ]
+    )
     return axioms
+
+
+def _bound_variables(axiom: Axiom, signature: Signature) -> tuple[str, ...]:
+    """The variables that need no condition: those of fluents and actions range over a sort."""
+    return axiom.ranging_variables if signature.changes(axiom.head.predicate) else ()
 
 
 def read_literal(text: str) -> Literal:
@@ -170,114 +183,6 @@ def read_literal(text: str) -> Literal:
     return literal
 
 
-def _refuse_second(name: str, location: Location, known: Mapping[str, Sort | Predicate]) -> None:
-    if name in known:
-        raise KnowledgeError(
-            f"{location}: '{name}' is declared a second time (first at {known[name].location}); "
-            "remove one of the two or rename it"
-        )
-
-
-def _refuse_directive(statement: Statement) -> None:
-    word = statement.text.split()[0]
-    if word in _CHANGE:
-        raise KnowledgeError(_change_message(statement.location, word))
-    raise KnowledgeError(
-        f"{statement.location}: found '{word}', expected a declaration; "
-        f"{did_you_mean(word, ['#sort', '#static'])}"
-    )
-
-
-def _change_message(location: Location, word: str) -> str:
-    return (
-        f"{location}: '{word}' belongs to knowledge about actions and time, which the reader "
-        "does not take yet; say it with statics or remove it"
-    )
-
-
-def _read_sort(statement: Statement) -> Sort:
-    match = _SORT.match(statement.text)
-    if match is None:
-        raise KnowledgeError(
-            f"{statement.location}: a sort is declared as '#sort name.', "
-            f"'#sort name = 1..5.' or '#sort name = {{a, b}}.', got '{statement.line}'"
-        )
-    name, definition = match.group(1), (match.group(2) or "").strip()
-    members: tuple[str, ...] | None = None
-    if definition:
-        span = _RANGE.match(definition)
-        if span:
-            members = _read_range(span.group(1), span.group(2), name, statement)
-        elif definition.startswith("{") and definition.endswith("}"):
-            members = _read_members(definition[1:-1].strip(), statement)
-        else:
-            raise KnowledgeError(
-                f"{statement.location}: the members of sort '{name}' must be a range (1..5) or a "
-                f"set ({{wide, narrow}}), got '{one_line(definition)}'"
-            )
-        if not members:
-            raise KnowledgeError(
-                f"{statement.location}: sort '{name}' has no members; give at least one"
-            )
-        if len(set(members)) < len(members):
-            twice = next(m for m in members if members.count(m) > 1)
-            raise KnowledgeError(
-                f"{statement.location}: sort '{name}' lists '{twice}' twice; remove one of them"
-            )
-    return Sort(name=name, members=members, location=statement.location)
-
-
-def _read_range(first: str, last: str, name: str, statement: Statement) -> tuple[str, ...]:
-    # Nothing reads numbers of more than nine digits: clingo's have 32 bits.
-    if max(len(first), len(last)) > 10 or int(last) - int(first) >= _MOST_MEMBERS:
-        raise KnowledgeError(
-            f"{statement.location}: sort '{name}' would have more than {_MOST_MEMBERS} members "
-            f"({first}..{last}); axioms are tried with each of them, give a smaller range"
-        )
-    return tuple(str(number) for number in range(int(first), int(last) + 1))
-
-
-def _read_members(inside: str, statement: Statement) -> tuple[str, ...]:
-    if not inside:
-        return ()
-    members = _term(f"({inside},)")
-    if members is not None:
-        return tuple(map(str, members.arguments))
-    parts = [part.strip() for part in inside.split(",")]
-    wrong = next((part for part in parts if _term(part) is None), inside)
-    raise KnowledgeError(
-        f"{statement.location}: '{one_line(wrong)}' cannot be a member of a sort; write a name "
-        "that begins with a small letter, or a number"
-    )
-
-
-def _term(text: str) -> clingo.Symbol | None:
-    try:
-        return clingo.parse_term(text, logger=lambda *_: None)
-    except RuntimeError:
-        return None
-
-
-def _read_static(statement: Statement, sorts: Mapping[str, Sort]) -> Predicate:
-    match = _STATIC.match(statement.text)
-    if match is None:
-        raise KnowledgeError(
-            f"{statement.location}: a static is declared as '#static name(sort, sort).', "
-            f"got '{statement.line}'"
-        )
-    name, inside = match.group(1), match.group(2)
-    arguments = tuple(part.strip() for part in inside.split(",")) if inside else ()
-    for argument in arguments:
-        if argument not in sorts:
-            raise KnowledgeError(
-                f"{statement.location}: '{name}' uses the sort '{one_line(argument)}', which is "
-                f"not declared above; {did_you_mean(argument, sorts)}"
-            )
-    return Predicate(
-        name=name, sorts=arguments, kind=PredicateKind.STATIC, location=statement.location
-    )
-
-
 def _parse_rule(statement: Statement) -> tuple[AxiomKind, ast.AST]:
     """Turn a statement into clingo's syntax tree without moving any character."""
     text, location = statement.text, statement.location
@@ -285,12 +190,19 @@ def _parse_rule(statement: Statement) -> tuple[AxiomKind, ast.AST]:
     if ":-" in re.sub(r'"(?:[^"\\]|\\.)*"', "", text):
         raise KnowledgeError(f"{location}: found ':-'; write 'if' between head and body")
     words = [m for m in _WORD.finditer(text) if not m.group().startswith('"')]
-    if words and words[0].group() == "default":
-        kind = AxiomKind.DEFAULT
+    if words and words[0].group() in _FIRST_WORDS:
+        kind = _FIRST_WORDS[words[0].group()]
         text = " " * words[0].end() + text[words[0].end() :]
-    for word in words:
-        if word.group() in ("causes", "impossible"):
-            raise KnowledgeError(_change_message(location, word.group()))
+    causes = [word for word in words if word.group() == "causes"]
+    if len(causes) > 1 or (causes and kind is not AxiomKind.STATE_CONSTRAINT):
+        other = "causes" if len(causes) > 1 else words[0].group()
+        raise KnowledgeError(
+            f"{location}: found '{other}' and 'causes' in one statement; a causal law reads "
+            "'action causes fluent if condition, condition.'"
+        )
+    if causes:
+        kind = AxiomKind.CAUSAL_LAW
+        text = f"{text[: causes[0].start()]};     {text[causes[0].end() :]}"
     ifs = [word for word in words if word.group() == "if"]
     if len(ifs) > 1:
         raise KnowledgeError(
@@ -335,13 +247,7 @@ def _syntax_message(messages: list[str], statement: Statement) -> str:
 def _read_axiom(
     statement: Statement, kind: AxiomKind, rule: ast.AST, signature: Signature, identifier: str
 ) -> Axiom:
-    head = _head_of(rule)
-    if head is None:
-        got = "none" if str(rule.head) == "#false" else f"'{rule.head}'"
-        raise KnowledgeError(
-            f"{statement.location}: the head of an axiom must be one literal such as stable(S) "
-            f"or -stable(S), got {got}"
-        )
+    action, head = _action_and_head(statement, kind, rule)
     if head.predicate in signature.sorts:
         raise KnowledgeError(
             f"{statement.location}: '{head.predicate}' is a sort; its members are listed where "
@@ -358,8 +264,43 @@ def _read_axiom(
         body=body,
         text=statement.sentence,
         location=statement.location,
+        action=action,
     )
+    check_kinds(axiom, [_function_of(atom).name for atom in _body_atoms(rule)], signature)
     return axiom if axiom.text else Axiom(**{**axiom.__dict__, "text": str(axiom).rstrip(".")})
+
+
+def _action_and_head(
+    statement: Statement, kind: AxiomKind, rule: ast.AST
+) -> tuple[Literal | None, Literal]:
+    """The action that an axiom speaks of, if any, and the literal that it concludes."""
+    if kind is AxiomKind.CAUSAL_LAW:
+        parts = (
+            [own.literal for own in rule.head.elements if not own.condition]
+            if rule.head.ast_type is ast.ASTType.Disjunction
+            else []
+        )
+        action, effect = (_single(part) for part in parts) if len(parts) == 2 else (None, None)
+        if action is None or effect is None or not action.positive:
+            raise KnowledgeError(
+                f"{statement.location}: a causal law reads 'action causes fluent if condition, "
+                f"condition.', with one action and one literal, got '{statement.line}'"
+            )
+        return action, effect
+    head = _head_of(rule)
+    if head is None:
+        got = "none" if str(rule.head) == "#false" else f"'{rule.head}'"
+        raise KnowledgeError(
+            f"{statement.location}: the head of an axiom must be one literal such as stable(S) "
+            f"or -stable(S), got {got}"
+        )
+    if kind is not AxiomKind.EXECUTABILITY_CONDITION:
+        return None, head
+    if not head.positive:
+        raise KnowledgeError(
+            f"{statement.location}: what is impossible is an action without '-', got '{head}'"
+        )
+    return head, head.complement
 
 
 def _read_condition(element: ast.AST) -> Condition:
@@ -386,8 +327,12 @@ def _spaced(element: ast.AST) -> str:
 
 def _head_of(rule: ast.AST) -> Literal | None:
     """The head where it is one literal: neither ``not …`` nor the several of a range or pool."""
-    head = _literal_of(rule.head)
-    if head is None or rule.head.sign != ast.Sign.NoSign:
+    return _single(rule.head)
+
+
+def _single(node: ast.AST) -> Literal | None:
+    head = _literal_of(node)
+    if head is None or node.sign != ast.Sign.NoSign:
         return None
     several: list[ast.AST] = []
 
@@ -398,7 +343,7 @@ def _head_of(rule: ast.AST) -> Literal | None:
 
         visit_Pool = visit_Interval  # noqa: N815
 
-    Find().visit(rule.head)
+    Find().visit(node)
     return None if several else head
 
 
@@ -432,12 +377,23 @@ def _atoms(node: ast.AST) -> Iterator[ast.AST]:
     yield from found
 
 
+def _body_atoms(rule: ast.AST) -> Iterator[ast.AST]:
+    for element in rule.body:
+        yield from _atoms(element)
+
+
+def _function_of(atom: ast.AST) -> ast.AST:
+    """The predicate with its arguments, without classical negation."""
+    symbol: ast.AST = atom.symbol
+    while symbol.ast_type is ast.ASTType.UnaryOperation:
+        symbol = symbol.argument
+    return symbol
+
+
 def _check_atom(
     atom: ast.AST, signature: Signature, statement: Statement, variable_sorts: dict[str, Sort]
 ) -> None:
-    symbol = atom.symbol
-    while symbol.ast_type is ast.ASTType.UnaryOperation:
-        symbol = symbol.argument
+    symbol = _function_of(atom)
     begin = symbol.location.begin
     here = statement.place(begin.line, begin.column)
     if symbol.ast_type is not ast.ASTType.Function:
@@ -494,16 +450,19 @@ def _check_argument(
             )
 
 
-def _check_safety(rules: list[tuple[Statement, ast.AST]]) -> None:
-    """Ask clingo whether every variable is bound by a positive condition."""
+def _check_safety(rules: list[tuple[Statement, ast.AST, tuple[str, ...]]]) -> None:
+    """Ask clingo whether every variable is bound by a positive condition.
+
+    The variables that a rule comes with are bound: they range over their sort.
+    """
     messages: list[str] = []
     control = clingo.Control(logger=lambda _, m: messages.append(m))
     # No instance of a rule is ever built: the added condition holds nowhere.
-    never = _parse_never()
+    never = _parse_condition("never__")
     try:
         with ast.ProgramBuilder(control) as builder:
-            for _, rule in rules:
-                builder.add(rule.update(body=[*rule.body, never]))
+            for _, rule, bound in rules:
+                builder.add(rule.update(body=[*rule.body, never, _bound(bound)]))
         control.ground([("base", [])])
     except RuntimeError:
         found = [pattern.search(m) for pattern in (_UNSAFE, _CLINGO_ERROR) for m in messages]
@@ -512,7 +471,7 @@ def _check_safety(rules: list[tuple[Statement, ast.AST]]) -> None:
             raise
         line, column, what = int(match.group(1)), int(match.group(2)), match.group(3)
         begun = [
-            own for own, _ in rules if (own.location.line, own.location.column) <= (line, column)
+            own for own, *_ in rules if (own.location.line, own.location.column) <= (line, column)
         ]
         place = begun[-1].place(line, column)
         if match.re is _CLINGO_ERROR:
@@ -525,8 +484,12 @@ def _check_safety(rules: list[tuple[Statement, ast.AST]]) -> None:
         ) from None
 
 
-def _parse_never() -> ast.AST:
+def _bound(variables: Sequence[str]) -> ast.AST:
+    return _parse_condition(f"bound__({', '.join(variables)})" if variables else "never__")
+
+
+def _parse_condition(text: str) -> ast.AST:
     found: list[ast.AST] = []
-    ast.parse_string(":- never__.", found.append)
-    never: ast.AST = found[1].body[0]
-    return never
+    ast.parse_string(f":- {text}.", found.append)
+    condition: ast.AST = found[1].body[0]
+    return condition

@@ -32,6 +32,17 @@ class PredicateKind(StrEnum):
     FLUENT_BASIC = "fluent basic"
     FLUENT_DEFINED = "fluent defined"
     ACTION = "action"
+    EXOGENOUS_ACTION = "exogenous action"
+
+    @property
+    def is_fluent(self) -> bool:
+        """Whether it may hold at one step and not at another."""
+        return self in (PredicateKind.FLUENT_BASIC, PredicateKind.FLUENT_DEFINED)
+
+    @property
+    def is_action(self) -> bool:
+        """Whether it is something that is done or happens."""
+        return self in (PredicateKind.ACTION, PredicateKind.EXOGENOUS_ACTION)
 
 
 @dataclass(frozen=True)
@@ -70,6 +81,15 @@ class Signature:
 
     sorts: Mapping[str, Sort] = field(default_factory=dict)
     predicates: Mapping[str, Predicate] = field(default_factory=dict)
+
+    def kind(self, predicate: str) -> PredicateKind:
+        """Return what a predicate stands for; a sort used as a predicate is something fixed."""
+        declared = self.predicates.get(predicate)
+        return PredicateKind.STATIC if declared is None else declared.kind
+
+    def changes(self, predicate: str) -> bool:
+        """Whether a predicate has to do with change: whether it is a fluent or an action."""
+        return self.kind(predicate) is not PredicateKind.STATIC
 
     def members(self, sort: str) -> tuple[str, ...]:
         """Return the members of ``sort``; empty for the sort of the scene."""

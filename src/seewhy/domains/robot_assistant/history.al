@@ -1,0 +1,2 @@
+% Where the robot begins.
+observed loc(rob1, library) at 0.

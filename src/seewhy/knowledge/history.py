@@ -1,0 +1,141 @@
+"""A history: what was observed and what was done, step by step, as a file or in memory."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from seewhy.errors import KnowledgeError
+from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.ground import key_of
+from seewhy.knowledge.ground_literal import read_ground_literal
+from seewhy.knowledge.signature import Signature
+from seewhy.knowledge.statements import Statement, statements
+from seewhy.nearest import did_you_mean
+
+_STATEMENT = re.compile(r"([a-z]+)(\s+)(.+?)\s+at\s+(\d{1,6})\s*$", re.DOTALL)
+_WORDS = ("observed", "happened", "attempted")
+
+
+@dataclass(frozen=True)
+class Observation:
+    """A literal about a fluent that was seen to hold at a step."""
+
+    literal: Literal
+    step: int
+
+    def __str__(self) -> str:
+        return f"observed {self.literal} at {self.step}."
+
+
+@dataclass(frozen=True)
+class Occurrence:
+    """An action that happened between a step and the next.
+
+    ``attempted`` is True where it is known only that it was tried: it may have failed.
+    """
+
+    action: Literal
+    step: int
+    attempted: bool = False
+
+    def __str__(self) -> str:
+        return f"{'attempted' if self.attempted else 'happened'} {self.action} at {self.step}."
+
+
+@dataclass(frozen=True)
+class History:
+    """Observations and actions, in the order of the steps (statement (6) of the paper).
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge("#sort place = {library, kitchen}. #fluent basic robot_in(place).")
+    >>> history = read_history("observed robot_in(library) at 0.", known.signature)
+    >>> history.last_step, [str(own) for own in history.observations]
+    (0, ['observed robot_in(library) at 0.'])
+    """
+
+    observations: tuple[Observation, ...] = ()
+    occurrences: tuple[Occurrence, ...] = ()
+
+    @property
+    def last_step(self) -> int:
+        """The step that the history reaches: that after its last action."""
+        seen = [own.step for own in self.observations]
+        return max([0, *seen, *(own.step + 1 for own in self.occurrences)])
+
+    def with_observations(self, literals: Iterable[Literal], *, step: int) -> History:
+        """Return the history with what was seen at a step; what is there already is not doubled."""
+        new = dict.fromkeys([*self.observations, *(Observation(own, step) for own in literals)])
+        return History(tuple(new), self.occurrences)
+
+    def with_occurrence(self, action: Literal, *, step: int, attempted: bool = False) -> History:
+        """Return the history with an action that happened, or was tried, at a step."""
+        return History(self.observations, (*self.occurrences, Occurrence(action, step, attempted)))
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, (*self.observations, *self.occurrences)))
+
+
+def read_history_file(path: Path | str, signature: Signature) -> History:
+    """Read a history from a file; errors as :func:`read_history`."""
+    path = Path(path)
+    try:
+        source = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise KnowledgeError(f"{path}: there is no such file") from None
+    except (OSError, UnicodeDecodeError) as problem:
+        raise KnowledgeError(f"{path}: cannot be read as UTF-8 text ({problem})") from None
+    return read_history(source, signature, file=str(path))
+
+
+def read_history(source: str, signature: Signature, *, file: str = "history.al") -> History:
+    """Read ``observed literal at step.``, ``happened action at step.`` and ``attempted …``.
+
+    Raises
+    ------
+    KnowledgeError
+        Where a statement is none of these, speaks of something unknown, or contradicts another
+        of the same step; the text names file, line and column.
+    """
+    observations: dict[Observation, Statement] = {}
+    occurrences: dict[Occurrence, Statement] = {}
+    for statement in statements(source, file=file):
+        match = _STATEMENT.match(statement.text)
+        word = match.group(1) if match else statement.text.split()[0]
+        if match is None or word not in _WORDS:
+            remedy = "" if word in _WORDS else f"; {did_you_mean(word, _WORDS)}"
+            raise KnowledgeError(
+                f"{statement.location}: a history says 'observed literal at step.', 'happened "
+                f"action at step.' or 'attempted action at step.', got '{statement.line}'{remedy}"
+            )
+        step = int(match.group(4))
+        place = statement.place(statement.location.line, statement.location.column + match.start(3))
+        if word == "observed":
+            literal = read_ground_literal(match.group(3), signature, of="fluent", place=place)
+            _refuse_contradiction(statement, literal, step, observations)
+            observations.setdefault(Observation(literal, step), statement)
+        else:
+            action = read_ground_literal(match.group(3), signature, of="action", place=place)
+            occurrences.setdefault(
+                Occurrence(action, step, attempted=word == "attempted"), statement
+            )
+    return History(
+        tuple(sorted(observations, key=lambda own: own.step)),
+        tuple(sorted(occurrences, key=lambda own: own.step)),
+    )
+
+
+def _refuse_contradiction(
+    statement: Statement, literal: Literal, step: int, earlier: dict[Observation, Statement]
+) -> None:
+    denied = key_of(literal.complement)
+    for own, first in earlier.items():
+        if own.step == step and key_of(own.literal) == denied:
+            raise KnowledgeError(
+                f"{statement.location}: '{literal}' was observed at step {step}, and its opposite "
+                f"at {first.location}; remove one of the two"
+            )

@@ -1,0 +1,1 @@
+"""Plans, diagnoses and execution with a domain's knowledge about change."""

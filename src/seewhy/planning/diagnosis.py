@@ -1,0 +1,269 @@
+"""Diagnose a history: the fewest exceptions and unseen events under which it makes sense.
+
+The program of a history is that of the paper (section 3.2, statement (6)): inertia for basic
+fluents, closed world for defined fluents and actions, reality checks that compare observations
+with what is predicted, awareness (every basic fluent is true or false at first), and
+consistency-restoring rules for defaults, for exogenous actions and for attempts that fail.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from typing import Any
+
+import clingo
+
+from seewhy.errors import PlanningError
+from seewhy.knowledge.axiom import Axiom, AxiomKind
+from seewhy.knowledge.dynamics import (
+    body_at,
+    constraints,
+    fixed_rules,
+    instance,
+    is_defeasible,
+    of_kind,
+    rule,
+)
+from seewhy.knowledge.history import History
+from seewhy.knowledge.language import Knowledge
+from seewhy.planning.state import State
+
+_STEP = "Step__"  # no name that an author would give a variable
+_PROGRAM = """
+at(T, T) :- step(T).
+1 { holds(F, 0); holds(-F, 0) } 1 :- fluent(basic, F).
+holds(-F, T) :- fluent(defined, F), step(T), not holds(F, T).
+holds(F, T+1) :- fluent(basic, F), holds(F, T), not holds(-F, T+1), step(T+1).
+holds(-F, T+1) :- fluent(basic, F), holds(-F, T), not holds(F, T+1), step(T+1).
+:- holds(F, T), holds(-F, T).
+occurs(A, T) :- happened(A, T).
+1 { occurs(A, T); failed(A, T) } 1 :- attempted(A, T).
+{ occurs(A, T) } :- exogenous(A), step(T), step(T+1).
+event(A, T) :- occurs(A, T), exogenous(A), not happened(A, T).
+:- observed(L, T), not holds(L, T), not misread(L, T).
+#minimize { 1@2, exception(I, V) : exception(I, V); 1@2, event(A, T) : event(A, T);
+            1@2, failed(A, T) : failed(A, T); 1@2, misread(L, T) : misread(L, T) }.
+#minimize { 1@1, event(A, T) : event(A, T); 1@1, failed(A, T) : failed(A, T);
+            2@1, misread(L, T) : misread(L, T) }.
+#minimize { N-T@0, A, T : event(A, T), last(N) }.
+#show holds/2. #show exception/2. #show event/2. #show failed/2. #show misread/2.
+"""
+
+
+class SurpriseKind(StrEnum):
+    """What a diagnosis may assume."""
+
+    EXCEPTION = "exception"
+    EVENT = "event"
+    FAILURE = "failed"
+    MISREADING = "misread"
+
+
+@dataclass(frozen=True, order=True)
+class Surprise:
+    """One thing that a diagnosis assumes.
+
+    Attributes
+    ----------
+    step : int
+    kind : SurpriseKind
+    what : clingo.Symbol
+        The conclusion that a default would have had, the event, the action that failed, or the
+        observation that was wrong.
+    axiom : Axiom or None
+        The default that does not apply.
+    """
+
+    step: int
+    kind: SurpriseKind
+    what: clingo.Symbol
+    axiom: Axiom | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What a history means: the states that it went through, and what must be assumed for it.
+
+    Attributes
+    ----------
+    states : tuple of State
+        One a step, from 0 to the last; believed is what holds under every preferred explanation.
+    surprises : tuple of Surprise
+        Of one preferred explanation, in the order of the steps; empty where all went as believed.
+    """
+
+    states: tuple[State, ...]
+    surprises: tuple[Surprise, ...]
+
+    @property
+    def now(self) -> State:
+        """The state that the history ends in."""
+        return self.states[-1]
+
+
+def diagnose(
+    knowledge: Knowledge, history: History, *, last: int | None = None, sensors_err: bool = False
+) -> Diagnosis:
+    """Return what is believed after a history, and the surprises that explain it.
+
+    The fewest surprises are preferred; of as few, exceptions to what is usual at first, then
+    unseen events and failures (the latest that explain what was seen), then wrong observations.
+
+    Parameters
+    ----------
+    knowledge : Knowledge
+    history : History
+    last : int, optional
+        The step to look at; default the last one of the history.
+    sensors_err : bool
+        Whether an observation may be assumed wrong.
+
+    Raises
+    ------
+    PlanningError
+        If nothing that may be assumed explains the history; the text names the observations or
+        actions that do not go together.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.history import read_history
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge('''
+    ... #sort place = {library, office}. #fluent basic sally_in(place).
+    ... -sally_in(L2) if sally_in(L1), L1 != L2.
+    ... default sally_in(office).
+    ... ''')
+    >>> usual = diagnose(known, read_history("", known.signature))
+    >>> [str(own) for own in usual.now.positive()]
+    ['sally_in(office)']
+    >>> seen = read_history("observed sally_in(library) at 0.", known.signature)
+    >>> [(own.kind.value, str(own.what)) for own in diagnose(known, seen).surprises]
+    [('exception', 'sally_in(office)')]
+    """
+    last = history.last_step if last is None else max(last, history.last_step)
+    text = diagnosis_program(knowledge, last=last, sensors_err=sensors_err) + "\n".join(
+        history_facts(history)
+    )
+    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+    control.add("base", [], text)
+    control.ground([("base", [])])
+    solve: Any = control.configuration.solve
+    best = _last_model(control)
+    if best is None:
+        raise PlanningError(_unexplained(knowledge, history))
+    solve.opt_mode, solve.enum_mode, solve.models = "optN", "cautious", 0
+    sure = _last_model(control) or []
+    fluents = [own.symbol.arguments[1] for own in control.symbolic_atoms.by_signature("fluent", 2)]
+    return Diagnosis(
+        states=tuple(_states(sure, fluents, last)),
+        surprises=tuple(sorted(_surprises(knowledge, best))),
+    )
+
+
+def diagnosis_program(knowledge: Knowledge, *, last: int, sensors_err: bool = False) -> str:
+    """Return the program whose preferred answer sets explain a history of steps 0 to ``last``."""
+    signature = knowledge.signature
+    lines = [*fixed_rules(knowledge), f"step(0..{last}). last({last})."]
+    for axiom in constraints(knowledge):
+        body = [*body_at(axiom, signature, _STEP), f"step({_STEP})"]
+        lines.append(rule(f"holds({axiom.head}, {_STEP})", body))
+        if is_defeasible(axiom):
+            # At first a constraint that gives way is a default like any other.
+            usual = [own for own in axiom.body if own.literal != axiom.head.complement]
+            lines.append(
+                rule(
+                    f"exception({instance(axiom)})",
+                    [
+                        *body_at(replace(axiom, body=tuple(usual)), signature, "0"),
+                        f"holds({axiom.head.complement}, 0)",
+                    ],
+                )
+            )
+    for axiom in of_kind(knowledge, AxiomKind.DEFAULT):
+        body = body_at(axiom, signature, "0")
+        lines.append(rule(f"{{ exception({instance(axiom)}) }}", body))
+        lines.append(rule(f"holds({axiom.head.complement}, 0)", [f"exception({instance(axiom)})"]))
+        lines.append(rule(f"holds({axiom.head}, 0)", [*body, f"not exception({instance(axiom)})"]))
+    for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
+        body = [
+            f"occurs({axiom.action}, {_STEP})",
+            *body_at(axiom, signature, _STEP),
+            f"step({_STEP}+1)",
+        ]
+        lines.append(rule(f"holds({axiom.head}, {_STEP}+1)", body))
+    for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION):
+        lines.append(
+            rule("", [f"occurs({axiom.action}, {_STEP})", *body_at(axiom, signature, _STEP)])
+        )
+    if sensors_err:
+        lines.append("{ misread(L, T) } :- observed(L, T).")
+    return "\n".join(lines) + _PROGRAM
+
+
+def history_facts(history: History) -> Iterator[str]:
+    """Yield a history as facts."""
+    for seen in history.observations:
+        yield f"observed({seen.literal}, {seen.step})."
+    for done in history.occurrences:
+        yield f"{'attempted' if done.attempted else 'happened'}({done.action}, {done.step})."
+
+
+def _last_model(control: clingo.Control) -> list[clingo.Symbol] | None:
+    found: list[clingo.Symbol] | None = None
+
+    def keep(model: clingo.Model) -> None:
+        nonlocal found
+        found = list(model.symbols(shown=True))
+
+    control.solve(on_model=keep)
+    return found
+
+
+def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) -> Iterator[State]:
+    holds: list[set[clingo.Symbol]] = [set() for _ in range(last + 1)]
+    for atom in sure:
+        if atom.name == "holds" and len(atom.arguments) == 2:
+            holds[atom.arguments[1].number].add(atom.arguments[0])
+    for believed in holds:
+        known = {clingo.Function(own.name, own.arguments) for own in believed}
+        yield State(frozenset(believed), frozenset(set(fluents) - known))
+
+
+def _surprises(knowledge: Knowledge, model: list[clingo.Symbol]) -> Iterator[Surprise]:
+    axioms = {own.identifier: own for own in knowledge.axioms}
+    for atom in model:
+        if atom.name == SurpriseKind.EXCEPTION:
+            axiom = axioms[str(atom.arguments[0])]
+            binding = dict(zip(axiom.variables, map(str, atom.arguments[1].arguments), strict=True))
+            usual = clingo.parse_term(str(axiom.head.substitute(binding)))
+            yield Surprise(0, SurpriseKind.EXCEPTION, usual, axiom)
+        elif atom.name in (SurpriseKind.EVENT, SurpriseKind.FAILURE, SurpriseKind.MISREADING):
+            yield Surprise(atom.arguments[1].number, SurpriseKind(atom.name), atom.arguments[0])
+
+
+def _unexplained(knowledge: Knowledge, history: History) -> str:
+    """Say which entries of the history would have to be otherwise, as few as possible."""
+    entries = (*history.observations, *history.occurrences)
+    lines = [
+        diagnosis_program(knowledge, last=history.last_step),
+        "#minimize { 1@3, E : wrong(E) }.",
+    ]
+    for number, fact in enumerate(history_facts(history)):
+        lines.append(f"{{ wrong({number}) }}. {fact.rstrip('.')} :- not wrong({number}).")
+    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+    control.add("base", [], "\n".join([*lines, "#show wrong/1."]))
+    control.ground([("base", [])])
+    best = _last_model(control)
+    if best is None:
+        return (
+            f"{knowledge.file}: no state satisfies the axioms, whatever is observed; look for "
+            "defaults or constraints that contradict each other"
+        )
+    wrong = sorted(own.arguments[0].number for own in best if own.name == "wrong")
+    said = " and ".join(f"'{str(entries[number]).rstrip('.')}'" for number in wrong)
+    return (
+        f"nothing that may be assumed explains this history as long as it says {said}; correct "
+        f"{'it' if len(wrong) == 1 else 'them'}, or add to the knowledge what could have happened"
+    )

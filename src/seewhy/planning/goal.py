@@ -1,0 +1,83 @@
+"""A goal: a condition on fluents, as a person writes it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+
+from seewhy.errors import KnowledgeError, PlanningError
+from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.language import Knowledge, read_axioms
+from seewhy.knowledge.signature import Location, Predicate, PredicateKind
+
+REACHED = "goal__"
+"""The defined fluent that holds where the goal does."""
+_PLACE = re.compile(r"goal:\d+:\d+: ")
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What shall hold: conditions as in an axiom's body, all of them.
+
+    Variables stand for some one thing each: ``loc(P, kitchen), person(P)`` is reached when
+    somebody is in the kitchen. ``axiom`` concludes :data:`REACHED` from the conditions.
+    """
+
+    text: str
+    axiom: Axiom
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def read_goal(text: str, knowledge: Knowledge) -> Goal:
+    """Read a goal such as ``message_status(m1, sarah, delivered), not closed(kitchen)``.
+
+    Raises
+    ------
+    PlanningError
+        If it is no condition, speaks of actions, or names something that there is not; the
+        nearest name is offered.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge("#sort place = {library, kitchen}. #fluent basic robot_in(place).")
+    >>> str(read_goal("robot_in(kitchen)", known))
+    'robot_in(kitchen)'
+    """
+    conditions = " ".join(text.split()).rstrip(".").strip()
+    if not conditions:
+        raise PlanningError(
+            f'the goal is empty; say what shall hold, such as "{_example(knowledge)}"'
+        )
+    try:
+        (axiom,) = read_axioms(
+            f"{REACHED} if {conditions}.", with_goal(knowledge).signature, file="goal", letter="g"
+        )
+    except (KnowledgeError, ValueError) as problem:
+        said = _PLACE.sub("", str(problem)).replace(f"{REACHED} if ", "")
+        raise PlanningError(f"the goal '{conditions}' cannot be used: {said}") from None
+    return Goal(text=conditions, axiom=axiom)
+
+
+def with_goal(knowledge: Knowledge, goal: Goal | None = None) -> Knowledge:
+    """Return the knowledge with the fluent that says that the goal is reached."""
+    signature = knowledge.signature
+    reached = Predicate(
+        REACHED, (), PredicateKind.FLUENT_DEFINED, Location(file="goal", line=1, column=1)
+    )
+    return replace(
+        knowledge,
+        signature=replace(signature, predicates={**signature.predicates, REACHED: reached}),
+        axioms=(*knowledge.axioms, *([goal.axiom] if goal else [])),
+    )
+
+
+def _example(knowledge: Knowledge) -> str:
+    signature = knowledge.signature
+    for own in signature.predicates.values():
+        if own.kind.is_fluent:
+            arguments = [next(iter(signature.members(sort)), sort) for sort in own.sorts]
+            return f"{own.name}({', '.join(arguments)})" if arguments else own.name
+    return "fluent(argument)"

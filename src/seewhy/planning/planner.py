@@ -1,0 +1,266 @@
+"""Shortest plans by incremental multi-shot solving: one step more until the goal is reached."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import clingo
+
+from seewhy.knowledge.axiom import AxiomKind
+from seewhy.knowledge.dynamics import (
+    body_at,
+    constraints,
+    fixed_rules,
+    of_kind,
+    rule,
+    untimed_predicates,
+)
+from seewhy.knowledge.language import Knowledge
+from seewhy.planning.goal import REACHED, Goal, with_goal
+from seewhy.planning.mutex import mutexes
+from seewhy.planning.reachability import Reachability, reachable, simplified
+from seewhy.planning.state import State, facts
+
+HORIZON = 50
+_STEP_RULES = """
+#program state(t).
+at(t, t). at(t, always).
+holds(-F, t) :- fluent(defined, F), changes(F), not holds(F, t).
+:- holds(F, t), holds(-F, t), changes(F).
+above(F, t) :- next(E, F), holds(E, t).
+above(F, t) :- next(E, F), above(E, t).
+below(E, t) :- next(E, F), holds(F, t).
+below(E, t) :- next(E, F), below(F, t).
+holds(-F, t) :- above(F, t).
+holds(-F, t) :- below(F, t).
+#program step(t).
+1 { occurs(A, t-1) : can(A) } 1.
+holds(F, t) :- holds(F, t-1), inert(F), not holds(-F, t).
+holds(-F, t) :- holds(-F, t-1), inert(F), not holds(F, t).
+:- occurs(A, t-1), restricted(A, G), not holds(F, t-1) : allowed(A, G, F).
+:- occurs(A, t-1), needs(A, L), not holds(L, t-1).
+#program check(t).
+#external query(t).
+"""
+
+
+class PlanStatus(StrEnum):
+    """How a search for a plan ended."""
+
+    FOUND = "found"
+    ALREADY_TRUE = "already true"
+    UNREACHABLE = "unreachable"
+    NOT_WITHIN_HORIZON = "not within the horizon"
+    OUT_OF_TIME = "out of time"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The result of planning.
+
+    Attributes
+    ----------
+    status : PlanStatus
+    actions : tuple of clingo.Symbol
+        As few as there can be.
+    states : tuple of State
+        The states before, between and after the actions. What was unknown at first is taken to
+        be as the plan needs it.
+    seconds : float
+        Wall-clock time, grounding included.
+    horizon : int
+        The number of actions up to which plans were looked for.
+    """
+
+    status: PlanStatus
+    actions: tuple[clingo.Symbol, ...] = ()
+    states: tuple[State, ...] = ()
+    seconds: float = 0.0
+    horizon: int = 0
+
+    @property
+    def found(self) -> bool:
+        """Whether the goal can be reached by these actions (none where it holds already)."""
+        return self.status in (PlanStatus.FOUND, PlanStatus.ALREADY_TRUE)
+
+
+def plan(
+    knowledge: Knowledge,
+    goal: Goal,
+    *,
+    start: State,
+    horizon: int = HORIZON,
+    seconds: float | None = None,
+) -> Plan:
+    """Return a shortest plan from a state to a goal.
+
+    Fluents that are unknown at the start are taken to be as the plan needs them: execution
+    looks, and plans anew where they are not.
+
+    Parameters
+    ----------
+    knowledge : Knowledge
+    goal : Goal
+    start : State
+        As :func:`seewhy.planning.diagnosis.diagnose` returns it.
+    horizon : int
+        The greatest number of actions to try.
+    seconds : float, optional
+        Give up after this time.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.history import read_history
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> from seewhy.planning.diagnosis import diagnose
+    >>> from seewhy.planning.goal import read_goal
+    >>> known = read_knowledge('''
+    ... #sort place = {library, kitchen, office}. #static next_to(place, place).
+    ... #fluent basic robot_in(place). #action move(place).
+    ... next_to(library, kitchen). next_to(kitchen, office).
+    ... move(L) causes robot_in(L).
+    ... -robot_in(L2) if robot_in(L1), L1 != L2.
+    ... impossible move(L) if robot_in(L1), not next_to(L1, L).
+    ... ''')
+    >>> start = diagnose(known, read_history("observed robot_in(library) at 0.", known.signature))
+    >>> found = plan(known, read_goal("robot_in(office)", known), start=start.now)
+    >>> [str(action) for action in found.actions]
+    ['move(kitchen)', 'move(office)']
+    """
+    begun = time.perf_counter()
+    aimed = with_goal(knowledge, goal)
+    possible = reachable(aimed, start)
+    search = _Search(aimed, start, possible)
+    if clingo.Function(REACHED, []) not in possible.may:
+        return Plan(PlanStatus.UNREACHABLE, seconds=time.perf_counter() - begun, horizon=horizon)
+    for steps in range(horizon + 1):
+        left = None if seconds is None else seconds - (time.perf_counter() - begun)
+        found = search.solve(steps, seconds=left)
+        spent = time.perf_counter() - begun
+        if found is not None:
+            status = PlanStatus.FOUND if steps else PlanStatus.ALREADY_TRUE
+            return Plan(status, *found, seconds=spent, horizon=horizon)
+        if seconds is not None and spent >= seconds:
+            return Plan(PlanStatus.OUT_OF_TIME, seconds=spent, horizon=steps)
+        if not possible.can:
+            break
+    return Plan(
+        PlanStatus.NOT_WITHIN_HORIZON if possible.can else PlanStatus.UNREACHABLE,
+        seconds=time.perf_counter() - begun,
+        horizon=horizon,
+    )
+
+
+class _Search:
+    """The planning program, grounded one step further with every call."""
+
+    def __init__(self, knowledge: Knowledge, start: State, possible: Reachability) -> None:
+        self.rigid = possible.rigid
+        self.fluents = {_fluent(own) for own in (*start.holds, *start.unknown)}
+        self.control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+        text = "\n".join(_program(knowledge, start, possible))
+        self.control.add(text)
+        self.control.ground([("base", []), ("state", [clingo.Number(0)])])
+
+    def solve(
+        self, steps: int, *, seconds: float | None
+    ) -> tuple[tuple[clingo.Symbol, ...], tuple[State, ...]] | None:
+        """Return the actions and states of a plan with so many steps, if there is one."""
+        number = [clingo.Number(steps)]
+        if steps:
+            self.control.ground([("state", number), ("step", number)])
+        self.control.ground([("check", number)])
+        query = clingo.Function("query", number)
+        self.control.assign_external(query, True)
+        found: list[list[clingo.Symbol]] = []
+        solving: Any
+        with self.control.solve(
+            on_model=lambda model: found.append(list(model.symbols(atoms=True))), async_=True
+        ) as solving:
+            if not solving.wait(seconds):
+                solving.cancel()
+        self.control.release_external(query)
+        return self._read(found[-1], steps) if found else None
+
+    def _read(
+        self, model: list[clingo.Symbol], steps: int
+    ) -> tuple[tuple[clingo.Symbol, ...], tuple[State, ...]]:
+        actions: dict[int, clingo.Symbol] = {}
+        holds: list[set[clingo.Symbol]] = [set(self.rigid) for _ in range(steps + 1)]
+        for atom in model:
+            if len(atom.arguments) == 2 and atom.arguments[1].type is clingo.SymbolType.Number:
+                step = atom.arguments[1].number
+                if atom.name == "occurs":
+                    actions[step] = atom.arguments[0]
+                elif atom.name == "holds" and atom.arguments[0].name != REACHED:
+                    holds[step].add(atom.arguments[0])
+        states = [
+            State(frozenset(own), frozenset(self.fluents - {_fluent(other) for other in own}))
+            for own in holds
+        ]
+        return tuple(actions[step] for step in range(steps)), tuple(states)
+
+
+def _fluent(literal: clingo.Symbol) -> clingo.Symbol:
+    return clingo.Function(literal.name, literal.arguments)
+
+
+def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iterator[str]:
+    signature = knowledge.signature
+    untimed = untimed_predicates(knowledge)
+    changing = {_fluent(own) for own in possible.may - possible.rigid}
+    basic = {own for own in changing if signature.kind(own.name).value.endswith("basic")}
+    always = [own for own in possible.rigid if own.name in untimed]
+    copied = [own for own in possible.rigid if own.name not in untimed]
+    yield from fixed_rules(knowledge)
+    yield facts("changes", changing)
+    yield facts("inert", basic)
+    yield facts("can", possible.can)
+    yield " ".join(f"holds({own}, always)." for own in sorted(always))
+    yield " ".join(f"holds({own}, 0)." for own in sorted(start.holds - possible.rigid))
+    yield " ".join(
+        f"1 {{ holds({own}, 0); holds(-{own}, 0) }} 1."
+        for own in sorted(start.unknown)
+        if signature.kind(own.name).value.endswith("basic")
+    )
+    yield possible.rules
+    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    for group in possible.groups:
+        yield " ".join(f"next({a}, {b})." for a, b in itertools.pairwise(group))
+    yield "#defined next/2. #defined restricted/2. #defined allowed/3. #defined needs/2."
+    yield "#defined can/1. #defined changes/1. #defined inert/1. #defined holds/1."
+    yield _STEP_RULES
+    yield f":- query(t), not holds({REACHED}, t), not holds({REACHED}, always)."
+    yield "#program state(t)."
+    yield " ".join(f"holds({own}, t)." for own in sorted(copied))
+    for axiom in constraints(knowledge):
+        if axiom.identifier not in excluded:
+            head = axiom.head
+            changes = f"changes({head if head.positive else head.complement})"
+            yield rule(f"holds({head}, t)", [*body_at(axiom, signature, "t"), changes])
+    yield "#program step(t)."
+    for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
+        yield rule(
+            f"holds({axiom.head}, t)",
+            [
+                f"occurs({axiom.action}, t-1)",
+                *body_at(axiom, signature, "t-1"),
+            ],
+        )
+    for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION):
+        happens = [f"occurs({axiom.action}, t-1)"]
+        if not simplified(axiom, signature):
+            yield rule("", [*happens, *body_at(axiom, signature, "t-1")])
+        else:
+            fluents = [
+                own
+                for own in axiom.body
+                if own.literal and signature.kind(own.literal.predicate).is_fluent
+            ]
+            if len(fluents) == 2:
+                yield rule("", [*happens, *body_at(axiom, signature, "t-1", always=False)])

@@ -1,0 +1,47 @@
+"""What is believed about the fluents at one step: true, false, or unknown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import clingo
+
+from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.ground import key_of
+
+
+@dataclass(frozen=True)
+class State:
+    """Beliefs about every fluent at one step.
+
+    Attributes
+    ----------
+    holds : frozenset of clingo.Symbol
+        The literals believed; a negative symbol is believed false.
+    unknown : frozenset of clingo.Symbol
+        The fluents of which neither is believed.
+
+    Examples
+    --------
+    >>> import clingo
+    >>> state = State(frozenset({clingo.Function("dark", [])}), frozenset())
+    >>> state.believes(Literal("dark", ())), state.believes(Literal("dark", (), positive=False))
+    (True, False)
+    """
+
+    holds: frozenset[clingo.Symbol]
+    unknown: frozenset[clingo.Symbol] = frozenset()
+
+    def believes(self, literal: Literal) -> bool:
+        """Whether the literal is believed."""
+        return clingo.parse_term(key_of(literal)) in self.holds
+
+    def positive(self, predicate: str | None = None) -> list[clingo.Symbol]:
+        """The literals believed that are not denials, of one predicate or all, sorted."""
+        return sorted(own for own in self.holds if own.positive and predicate in (None, own.name))
+
+
+def facts(predicate: str, symbols: Iterable[clingo.Symbol]) -> str:
+    """Return facts of a predicate, one for each symbol, sorted."""
+    return " ".join(f"{predicate}({own})." for own in sorted(symbols))

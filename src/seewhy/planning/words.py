@@ -1,0 +1,81 @@
+"""Say fluents, actions and things in the words of a planning domain."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import clingo
+
+from seewhy.planning_tables import ActionTable, FluentTable
+
+_SLOT = re.compile(r"\{(\d+)\}")
+
+
+@dataclass(frozen=True)
+class PlanningWords:
+    """The words of planning.toml; what it leaves out is said by its name.
+
+    Examples
+    --------
+    >>> words = PlanningWords({"sally": "Sally"}, {"loc": FluentTable(say="{0} is in {1}")}, {})
+    >>> words.say(clingo.parse_term("loc(sally,kitchen)"))
+    'Sally is in kitchen'
+    >>> words.say(clingo.parse_term("-loc(sally,kitchen)"))
+    'it is not so that Sally is in kitchen'
+    """
+
+    things: Mapping[str, str]
+    fluents: Mapping[str, FluentTable]
+    actions: Mapping[str, ActionTable]
+    robot: str | None = None
+
+    def name(self, term: clingo.Symbol | str) -> str:
+        """How a thing is called."""
+        key = str(term)
+        return self.things.get(key, key.strip('"').replace("_", " "))
+
+    def say(self, literal: clingo.Symbol) -> str:
+        """A literal about a fluent as a clause."""
+        table = self.fluents.get(literal.name)
+        if table is None:
+            return _plain(literal, self)
+        if literal.positive:
+            return self._filled(table.say, literal.arguments)
+        if table.deny is not None:
+            return self._filled(table.deny, literal.arguments)
+        return f"it is not so that {self._filled(table.say, literal.arguments)}"
+
+    def do(self, action: clingo.Symbol) -> str:
+        """An action as what is to be done: "move to the kitchen"."""
+        table = self.actions.get(action.name)
+        if table is None:
+            return _plain(action, self)
+        return self._filled(table.do or table.did, action.arguments)
+
+    def did(self, action: clingo.Symbol) -> str:
+        """An action as what was done, "moved to the kitchen", or what happened as a clause."""
+        table = self.actions.get(action.name)
+        return _plain(action, self) if table is None else self._filled(table.did, action.arguments)
+
+    def _filled(self, text: str, arguments: Sequence[clingo.Symbol]) -> str:
+        return _SLOT.sub(lambda slot: self.name(arguments[int(slot.group(1))]), text)
+
+
+def _plain(literal: clingo.Symbol, words: PlanningWords) -> str:
+    about = ", ".join(map(words.name, literal.arguments))
+    said = literal.name.replace("_", " ") + (f" ({about})" if about else "")
+    return said if literal.positive else f"not: {said}"
+
+
+def in_sequence(parts: Iterable[str]) -> str:
+    """Join clauses: "a, b and c".
+
+    Examples
+    --------
+    >>> in_sequence(["move to the kitchen", "stop"])
+    'move to the kitchen and stop'
+    """
+    every = list(parts)
+    return " and ".join(filter(None, [", ".join(every[:-1]), *every[-1:]]))

@@ -1,0 +1,172 @@
+"""PlanningDomain: a folder with knowledge about change, read and checked as a whole."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from seewhy.domain import domain_folder
+from seewhy.errors import DomainError
+from seewhy.knowledge.history import History, read_history_file
+from seewhy.knowledge.language import Knowledge, read_knowledge_file
+from seewhy.knowledge.signature import PredicateKind
+from seewhy.nearest import did_you_mean
+from seewhy.planning.words import PlanningWords
+from seewhy.planning_tables import PlanningFile, SensingTable, SimulationTable
+from seewhy.toml_file import line_of, read_toml
+
+FILE = "planning.toml"
+_SLOT = re.compile(r"\{(\d+)\}")
+
+
+@dataclass(frozen=True)
+class PlanningDomain:
+    """Everything that a folder says about planning.
+
+    Attributes
+    ----------
+    name, title : str
+    knowledge : Knowledge
+    history : History
+        What is known at first (``history.al`` of the folder; empty where there is none).
+    words : PlanningWords
+        How fluents, actions and things are said.
+    robot : str or None
+        The term that stands for whoever acts.
+    horizon : int
+        The greatest number of actions that planning tries.
+    sensing, simulation
+        What the robot sees, and what may happen, in simulation.
+    folder : Path
+
+    Examples
+    --------
+    >>> domain = load_planning_domain("robot_assistant")
+    >>> domain.title
+    'A robot that delivers messages in an office building'
+    """
+
+    name: str
+    title: str
+    knowledge: Knowledge
+    history: History
+    words: PlanningWords
+    robot: str | None
+    horizon: int
+    sensing: tuple[SensingTable, ...]
+    simulation: SimulationTable
+    folder: Path
+
+
+def bundled_planning_domains() -> tuple[str, ...]:
+    """Return the names of the planning domains that come with SeeWhy.
+
+    Examples
+    --------
+    >>> "robot_assistant" in bundled_planning_domains()
+    True
+    """
+    home = Path(__file__).parent / "domains"
+    return tuple(sorted(own.parent.name for own in home.glob(f"*/{FILE}")))
+
+
+def load_planning_domain(name: str | Path) -> PlanningDomain:
+    """Load a bundled planning domain by name, or a user's by its folder.
+
+    Raises
+    ------
+    DomainError, KnowledgeError
+        If a file of the folder is missing or wrong; the text names file and line.
+    """
+    folder = _folder(name)
+    path = folder / FILE
+    if not path.is_file():
+        raise DomainError(
+            f"{folder}: the domain has no {FILE}, so nothing can be planned in it; the domains "
+            f"that plan are {', '.join(bundled_planning_domains())}"
+        )
+    table = read_toml(path, PlanningFile)
+    knowledge = read_knowledge_file(folder / "knowledge.al")
+    source = path.read_text(encoding="utf-8-sig")
+    for keys, problem in _problems(table, knowledge):
+        raise DomainError(f"{path}:{line_of(source, keys)}: {problem}")
+    past = folder / "history.al"
+    return PlanningDomain(
+        name=table.planning.name,
+        title=table.planning.title,
+        knowledge=knowledge,
+        history=read_history_file(past, knowledge.signature) if past.is_file() else History(),
+        words=PlanningWords(table.things, table.fluents, table.actions, table.planning.robot),
+        robot=table.planning.robot,
+        horizon=table.planning.horizon,
+        sensing=table.sensing,
+        simulation=table.simulation,
+        folder=folder,
+    )
+
+
+def _folder(name: str | Path) -> Path:
+    if not Path(name).is_dir() and str(name) in bundled_planning_domains():
+        return Path(__file__).parent / "domains" / str(name)
+    try:
+        return domain_folder(name)
+    except DomainError:
+        raise DomainError(
+            f"'{name}' is neither a folder nor a bundled domain that plans; "
+            f"{did_you_mean(str(name), bundled_planning_domains())}"
+        ) from None
+
+
+def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple[str, ...], str]]:
+    """What planning.toml says of things that the knowledge does not have."""
+    signature = knowledge.signature
+    fluents = {n: len(p.sorts) for n, p in signature.predicates.items() if p.kind.is_fluent}
+    actions = {n: len(p.sorts) for n, p in signature.predicates.items() if p.kind.is_action}
+    members = {own for sort in signature.sorts.values() for own in sort.members or ()}
+    for sort in signature.sorts.values():
+        if sort.members is None:
+            yield ("planning",), f"the sort '{sort.name}' has no members ({sort.location})"
+    if not any(p.kind is PredicateKind.ACTION for p in signature.predicates.values()):
+        yield ("planning",), f"{knowledge.file} declares no action, so nothing can be planned"
+    robot = table.planning.robot
+    if robot is not None and robot not in members:
+        yield ("planning", "robot"), f"'{robot}' is of no sort; {did_you_mean(robot, members)}"
+    for thing in table.things:
+        if thing not in members:
+            yield ("things", thing), f"'{thing}' is of no sort; {did_you_mean(thing, members)}"
+    for kind, named, known in (
+        ("fluents", _said(table.fluents), fluents),
+        ("actions", _said(table.actions), actions),
+    ):
+        for name, texts in named.items():
+            if name not in known:
+                yield (kind, name), f"'{name}' is none of the {kind}; {did_you_mean(name, known)}"
+                continue
+            for text in texts:
+                for slot in _SLOT.findall(text):
+                    if int(slot) >= known[name]:
+                        yield (
+                            (kind, name),
+                            f"'{name}' has {known[name]} arguments, counted from 0, but '{text}' "
+                            f"asks for {{{slot}}}",
+                        )
+    for key, chances, wanted in (
+        ("events", table.simulation.events, PredicateKind.EXOGENOUS_ACTION),
+        ("failures", table.simulation.failures, PredicateKind.ACTION),
+    ):
+        names = [n for n, p in signature.predicates.items() if p.kind is wanted]
+        for name in chances:
+            if name not in names:
+                yield (
+                    ("simulation", key, name),
+                    f"'{name}' is no {wanted.value}; {did_you_mean(name, names)}",
+                )
+
+
+def _said(tables: Mapping[str, object]) -> dict[str, list[str]]:
+    return {
+        name: [text for text in vars(own).values() if text is not None]
+        for name, own in tables.items()
+    }

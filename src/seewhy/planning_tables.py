@@ -1,0 +1,80 @@
+"""The tables of planning.toml: words for what changes, what the robot senses, what may happen."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Probability = Annotated[float, Field(ge=0.0, le=1.0)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+
+
+class PlanningTable(_Table):
+    """``[planning]``: what the domain is called, and who acts.
+
+    ``robot`` is the term that stands for whoever acts, if the knowledge has one.
+    """
+
+    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    title: str
+    robot: str | None = None
+    horizon: int = Field(default=50, ge=1, le=10_000)
+
+
+class FluentTable(_Table):
+    """``[fluents.NAME]``: how it is said that the fluent holds, and that it does not.
+
+    ``{0}``, ``{1}``, … are its arguments in words.
+    """
+
+    say: str
+    deny: str | None = None
+
+
+class ActionTable(_Table):
+    """``[actions.NAME]``: "move to {1}" (``do``), "moved to {1}" (``did``).
+
+    What happens unasked is said as a whole in ``did``: "{0} walked to {1}".
+    """
+
+    do: str | None = None
+    did: str
+
+
+class SensingTable(_Table):
+    """``[[sensing]]``: a fluent whose truth the robot sees, where a condition holds.
+
+    ``error`` is the probability that the sensor says the opposite (in simulation).
+    """
+
+    literal: str
+    where: str
+    error: Probability = 0.0
+
+
+class SimulationTable(_Table):
+    """``[simulation]``: how often what happens, for the simulated world.
+
+    ``events`` gives, for exogenous actions, the probability that one of this kind happens at a
+    step; ``failures``, for actions, that it has no effect. ``before`` steps of events pass before
+    the robot begins.
+    """
+
+    events: dict[str, Probability] = {}
+    failures: dict[str, Probability] = {}
+    before: int = Field(default=0, ge=0, le=10_000)
+
+
+class PlanningFile(_Table):
+    """The whole of planning.toml."""
+
+    planning: PlanningTable
+    things: dict[str, str] = {}
+    fluents: dict[str, FluentTable] = {}
+    actions: dict[str, ActionTable] = {}
+    sensing: tuple[SensingTable, ...] = ()
+    simulation: SimulationTable = SimulationTable()
