@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from seewhy.domain import domain_folder
-from seewhy.errors import DomainError
+from seewhy.errors import DomainError, KnowledgeError
 from seewhy.knowledge.history import History, read_history_file
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.nearest import did_you_mean
+from seewhy.planning.sensing import Sensing, read_sensing
 from seewhy.planning.words import PlanningWords
-from seewhy.planning_tables import PlanningFile, SensingTable, SimulationTable
+from seewhy.planning_tables import PlanningFile, SimulationTable
 from seewhy.toml_file import line_of, read_toml
 
 FILE = "planning.toml"
@@ -55,7 +56,7 @@ class PlanningDomain:
     words: PlanningWords
     robot: str | None
     horizon: int
-    sensing: tuple[SensingTable, ...]
+    sensing: tuple[Sensing, ...]
     simulation: SimulationTable
     folder: Path
 
@@ -92,6 +93,13 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
     source = path.read_text(encoding="utf-8-sig")
     for keys, problem in _problems(table, knowledge):
         raise DomainError(f"{path}:{line_of(source, keys)}: {problem}")
+    sensing = []
+    for number, own in enumerate(table.sensing):
+        try:
+            sensing.append(read_sensing(own.literal, own.where, knowledge, error=own.error))
+        except KnowledgeError as problem:
+            line = line_of(source, ("sensing", str(number)))
+            raise DomainError(f"{path}:{line}: {problem}") from None
     past = folder / "history.al"
     return PlanningDomain(
         name=table.planning.name,
@@ -101,7 +109,7 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         words=PlanningWords(table.things, table.fluents, table.actions, table.planning.robot),
         robot=table.planning.robot,
         horizon=table.planning.horizon,
-        sensing=table.sensing,
+        sensing=tuple(sensing),
         simulation=table.simulation,
         folder=folder,
     )

@@ -61,12 +61,14 @@ class SimulationTable(_Table):
 
     ``events`` gives, for exogenous actions, the probability that one of this kind happens at a
     step; ``failures``, for actions, that it has no effect. ``before`` steps of events pass before
-    the robot begins.
+    the robot begins. ``unknown`` is the probability that a fluent of which nothing is known at
+    first holds.
     """
 
     events: dict[str, Probability] = {}
     failures: dict[str, Probability] = {}
     before: int = Field(default=0, ge=0, le=10_000)
+    unknown: Probability = 0.0
 
 
 class PlanningFile(_Table):

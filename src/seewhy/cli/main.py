@@ -9,7 +9,7 @@ from typing import Any
 
 import typer
 
-from seewhy.cli import ask, axioms, chat, check, data, demo, evaluate, learn, new, train
+from seewhy.cli import ask, axioms, chat, check, data, demo, evaluate, learn, new, plan, train
 from seewhy.cli.screen import complain
 
 _INTERRUPTED = 130
@@ -33,6 +33,7 @@ app.command("ask")(ask.ask)
 app.command("chat")(chat.chat)
 app.command("new")(new.new)
 app.command("check")(check.check)
+app.command("plan")(plan.plan)
 app.command("demo")(demo.demo)
 
 

@@ -100,6 +100,37 @@ def untimed_predicates(knowledge: Knowledge) -> frozenset[str]:
     )
 
 
+STEP = "Step__"
+"""The variable for a step; no author would give a variable this name."""
+_INERTIA = """at(T, T) :- step(T).
+holds(-F, T) :- fluent(defined, F), step(T), not holds(F, T).
+holds(F, T+1) :- fluent(basic, F), holds(F, T), not holds(-F, T+1), step(T+1).
+holds(-F, T+1) :- fluent(basic, F), holds(-F, T), not holds(F, T+1), step(T+1).
+:- holds(F, T), holds(-F, T).
+#defined step/1. #defined occurs/2. #defined holds/1. #defined exogenous/1. #defined action/1."""
+
+
+def transition_rules(knowledge: Knowledge, *, last: int) -> Iterator[str]:
+    """Yield what holds within steps 0 to ``last`` and from each to the next.
+
+    Constraints, causal laws, executability conditions, inertia for basic fluents and the closed
+    world for defined ones; ``occurs(A, T)`` and what holds at 0 come from elsewhere.
+    """
+    signature = knowledge.signature
+    yield from fixed_rules(knowledge)
+    yield f"step(0..{last}). last({last})."
+    for axiom in constraints(knowledge):
+        step = "0" if gives_way(axiom, signature) else STEP
+        body = [*body_at(axiom, signature, step), f"step({step})"]
+        yield rule(f"holds({axiom.head}, {step})", body)
+    for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
+        body = [f"occurs({axiom.action}, {STEP})", *body_at(axiom, signature, STEP)]
+        yield rule(f"holds({axiom.head}, {STEP}+1)", [*body, f"step({STEP}+1)"])
+    for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION):
+        yield rule("", [f"occurs({axiom.action}, {STEP})", *body_at(axiom, signature, STEP)])
+    yield _INERTIA
+
+
 def constraints(knowledge: Knowledge) -> Iterator[Axiom]:
     """The axioms about fluents that hold within every state."""
     for axiom in knowledge.axioms:
@@ -116,9 +147,15 @@ def of_kind(knowledge: Knowledge, kind: AxiomKind) -> Iterator[Axiom]:
             yield axiom
 
 
-def is_defeasible(axiom: Axiom) -> bool:
-    """Whether a constraint gives way where its opposite holds: ``l if …, not -l``."""
-    return any(own.absent and own.literal == axiom.head.complement for own in axiom.body)
+def gives_way(axiom: Axiom, signature: Signature) -> bool:
+    """Whether a constraint about a basic fluent gives way to its opposite: ``l if …, not -l``.
+
+    It then says what is usual at first. In later states inertia decides: were the constraint to
+    hold there too, whoever left a place could be back there for no reason.
+    """
+    return signature.kind(axiom.head.predicate) is PredicateKind.FLUENT_BASIC and any(
+        own.absent and own.literal == axiom.head.complement for own in axiom.body
+    )
 
 
 def instance(axiom: Axiom) -> str:

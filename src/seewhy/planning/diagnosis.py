@@ -20,24 +20,21 @@ from seewhy.knowledge.axiom import Axiom, AxiomKind
 from seewhy.knowledge.dynamics import (
     body_at,
     constraints,
-    fixed_rules,
+    gives_way,
     instance,
-    is_defeasible,
     of_kind,
     rule,
+    transition_rules,
 )
+from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.language import Knowledge
 from seewhy.planning.state import State
 
-_STEP = "Step__"  # no name that an author would give a variable
+# Few surprises explain most histories: raising the bound from below proves that soonest.
+_OPTIONS = ["--warn=none", "--opt-strategy=usc", "--restart-on-model"]
 _PROGRAM = """
-at(T, T) :- step(T).
 1 { holds(F, 0); holds(-F, 0) } 1 :- fluent(basic, F).
-holds(-F, T) :- fluent(defined, F), step(T), not holds(F, T).
-holds(F, T+1) :- fluent(basic, F), holds(F, T), not holds(-F, T+1), step(T+1).
-holds(-F, T+1) :- fluent(basic, F), holds(-F, T), not holds(F, T+1), step(T+1).
-:- holds(F, T), holds(-F, T).
 occurs(A, T) :- happened(A, T).
 1 { occurs(A, T); failed(A, T) } 1 :- attempted(A, T).
 { occurs(A, T) } :- exogenous(A), step(T), step(T+1).
@@ -74,12 +71,15 @@ class Surprise:
         observation that was wrong.
     axiom : Axiom or None
         The default that does not apply.
+    certain : bool
+        Whether every preferred explanation assumes it; others may differ in where somebody went.
     """
 
     step: int
     kind: SurpriseKind
     what: clingo.Symbol
     axiom: Axiom | None = field(default=None, compare=False)
+    certain: bool = field(default=True, compare=False)
 
 
 @dataclass(frozen=True)
@@ -138,7 +138,7 @@ def diagnose(
     >>> usual = diagnose(known, read_history("", known.signature))
     >>> [str(own) for own in usual.now.positive()]
     ['sally_in(office)']
-    >>> seen = read_history("observed sally_in(library) at 0.", known.signature)
+    >>> seen = read_history("observed sally_in(library) at 1.", known.signature)
     >>> [(own.kind.value, str(own.what)) for own in diagnose(known, seen).surprises]
     [('exception', 'sally_in(office)')]
     """
@@ -146,7 +146,7 @@ def diagnose(
     text = diagnosis_program(knowledge, last=last, sensors_err=sensors_err) + "\n".join(
         history_facts(history)
     )
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+    control = clingo.Control(_OPTIONS, logger=lambda *_: None)
     control.add("base", [], text)
     control.ground([("base", [])])
     solve: Any = control.configuration.solve
@@ -158,45 +158,29 @@ def diagnose(
     fluents = [own.symbol.arguments[1] for own in control.symbolic_atoms.by_signature("fluent", 2)]
     return Diagnosis(
         states=tuple(_states(sure, fluents, last)),
-        surprises=tuple(sorted(_surprises(knowledge, best))),
+        surprises=tuple(sorted(_surprises(knowledge, history, best, frozenset(sure)))),
     )
 
 
 def diagnosis_program(knowledge: Knowledge, *, last: int, sensors_err: bool = False) -> str:
     """Return the program whose preferred answer sets explain a history of steps 0 to ``last``."""
     signature = knowledge.signature
-    lines = [*fixed_rules(knowledge), f"step(0..{last}). last({last})."]
+    signature = knowledge.signature
+    lines = list(transition_rules(knowledge, last=last))
     for axiom in constraints(knowledge):
-        body = [*body_at(axiom, signature, _STEP), f"step({_STEP})"]
-        lines.append(rule(f"holds({axiom.head}, {_STEP})", body))
-        if is_defeasible(axiom):
-            # At first a constraint that gives way is a default like any other.
-            usual = [own for own in axiom.body if own.literal != axiom.head.complement]
-            lines.append(
-                rule(
-                    f"exception({instance(axiom)})",
-                    [
-                        *body_at(replace(axiom, body=tuple(usual)), signature, "0"),
-                        f"holds({axiom.head.complement}, 0)",
-                    ],
-                )
-            )
+        if not gives_way(axiom, signature):
+            continue
+        # At first a constraint that gives way is a default like any other.
+        usual = [own for own in axiom.body if own.literal != axiom.head.complement]
+        body = body_at(replace(axiom, body=tuple(usual)), signature, "0")
+        lines.append(
+            rule(f"exception({instance(axiom)})", [*body, f"holds({axiom.head.complement}, 0)"])
+        )
     for axiom in of_kind(knowledge, AxiomKind.DEFAULT):
         body = body_at(axiom, signature, "0")
         lines.append(rule(f"{{ exception({instance(axiom)}) }}", body))
         lines.append(rule(f"holds({axiom.head.complement}, 0)", [f"exception({instance(axiom)})"]))
         lines.append(rule(f"holds({axiom.head}, 0)", [*body, f"not exception({instance(axiom)})"]))
-    for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
-        body = [
-            f"occurs({axiom.action}, {_STEP})",
-            *body_at(axiom, signature, _STEP),
-            f"step({_STEP}+1)",
-        ]
-        lines.append(rule(f"holds({axiom.head}, {_STEP}+1)", body))
-    for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION):
-        lines.append(
-            rule("", [f"occurs({axiom.action}, {_STEP})", *body_at(axiom, signature, _STEP)])
-        )
     if sensors_err:
         lines.append("{ misread(L, T) } :- observed(L, T).")
     return "\n".join(lines) + _PROGRAM
@@ -211,14 +195,12 @@ def history_facts(history: History) -> Iterator[str]:
 
 
 def _last_model(control: clingo.Control) -> list[clingo.Symbol] | None:
-    found: list[clingo.Symbol] | None = None
-
-    def keep(model: clingo.Model) -> None:
-        nonlocal found
-        found = list(model.symbols(shown=True))
-
-    control.solve(on_model=keep)
-    return found
+    with control.solve(yield_=True) as solving:
+        # Models on the way to the best, or to what all have in common, are not read.
+        for _ in solving:
+            pass
+        last = solving.last()
+        return None if last is None else list(last.symbols(shown=True))
 
 
 def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) -> Iterator[State]:
@@ -231,16 +213,30 @@ def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) 
         yield State(frozenset(believed), frozenset(set(fluents) - known))
 
 
-def _surprises(knowledge: Knowledge, model: list[clingo.Symbol]) -> Iterator[Surprise]:
+def _surprises(
+    knowledge: Knowledge,
+    history: History,
+    model: list[clingo.Symbol],
+    sure: frozenset[clingo.Symbol],
+) -> Iterator[Surprise]:
+    seen_at_first = {key_of(own.literal) for own in history.observations if own.step == 0}
     axioms = {own.identifier: own for own in knowledge.axioms}
     for atom in model:
         if atom.name == SurpriseKind.EXCEPTION:
             axiom = axioms[str(atom.arguments[0])]
             binding = dict(zip(axiom.variables, map(str, atom.arguments[1].arguments), strict=True))
-            usual = clingo.parse_term(str(axiom.head.substitute(binding)))
-            yield Surprise(0, SurpriseKind.EXCEPTION, usual, axiom)
+            head = axiom.head.substitute(binding)
+            if key_of(head.complement) in seen_at_first:
+                continue  # seen, not assumed
+            usual = clingo.parse_term(str(head))
+            yield Surprise(0, SurpriseKind.EXCEPTION, usual, axiom, atom in sure)
         elif atom.name in (SurpriseKind.EVENT, SurpriseKind.FAILURE, SurpriseKind.MISREADING):
-            yield Surprise(atom.arguments[1].number, SurpriseKind(atom.name), atom.arguments[0])
+            yield Surprise(
+                step=atom.arguments[1].number,
+                kind=SurpriseKind(atom.name),
+                what=atom.arguments[0],
+                certain=atom in sure,
+            )
 
 
 def _unexplained(knowledge: Knowledge, history: History) -> str:
@@ -252,7 +248,7 @@ def _unexplained(knowledge: Knowledge, history: History) -> str:
     ]
     for number, fact in enumerate(history_facts(history)):
         lines.append(f"{{ wrong({number}) }}. {fact.rstrip('.')} :- not wrong({number}).")
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+    control = clingo.Control(_OPTIONS, logger=lambda *_: None)
     control.add("base", [], "\n".join([*lines, "#show wrong/1."]))
     control.ground([("base", [])])
     best = _last_model(control)

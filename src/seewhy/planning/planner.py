@@ -16,6 +16,7 @@ from seewhy.knowledge.dynamics import (
     body_at,
     constraints,
     fixed_rules,
+    gives_way,
     of_kind,
     rule,
     untimed_predicates,
@@ -232,6 +233,10 @@ def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iter
     excluded = {own.axiom.identifier for own in mutexes(knowledge)}
     for group in possible.groups:
         yield " ".join(f"next({a}, {b})." for a, b in itertools.pairwise(group))
+    for axiom in constraints(knowledge):
+        if gives_way(axiom, signature):
+            body = [*body_at(axiom, signature, "0"), f"changes({axiom.head})"]
+            yield rule(f"holds({axiom.head}, 0)", body)
     yield "#defined next/2. #defined restricted/2. #defined allowed/3. #defined needs/2."
     yield "#defined can/1. #defined changes/1. #defined inert/1. #defined holds/1."
     yield _STEP_RULES
@@ -239,7 +244,7 @@ def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iter
     yield "#program state(t)."
     yield " ".join(f"holds({own}, t)." for own in sorted(copied))
     for axiom in constraints(knowledge):
-        if axiom.identifier not in excluded:
+        if axiom.identifier not in excluded and not gives_way(axiom, signature):
             head = axiom.head
             changes = f"changes({head if head.positive else head.complement})"
             yield rule(f"holds({head}, t)", [*body_at(axiom, signature, "t"), changes])

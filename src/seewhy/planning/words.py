@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import clingo
 
+from seewhy.planning.diagnosis import Surprise, SurpriseKind
 from seewhy.planning_tables import ActionTable, FluentTable
 
 _SLOT = re.compile(r"\{(\d+)\}")
@@ -58,6 +59,19 @@ class PlanningWords:
         """An action as what was done, "moved to the kitchen", or what happened as a clause."""
         table = self.actions.get(action.name)
         return _plain(action, self) if table is None else self._filled(table.did, action.arguments)
+
+    def surprise(self, surprise: Surprise) -> str:
+        """What a diagnosis assumes, as a clause: "Sally was not in the kitchen at first"."""
+        what, step = surprise.what, surprise.step
+        perhaps = "" if surprise.certain else "perhaps "
+        if surprise.kind is SurpriseKind.EXCEPTION:
+            opposite = clingo.Function(what.name, what.arguments, not what.positive)
+            return f"{perhaps}{self.say(opposite)}, other than usual"
+        if surprise.kind is SurpriseKind.EVENT:
+            return f"{perhaps}{self.did(what)} after step {step}"
+        if surprise.kind is SurpriseKind.FAILURE:
+            return f"{perhaps}the attempt to {self.do(what)} at step {step} failed"
+        return f"{perhaps}it was seen wrongly at step {step} that {self.say(what)}"
 
     def _filled(self, text: str, arguments: Sequence[clingo.Symbol]) -> str:
         return _SLOT.sub(lambda slot: self.name(arguments[int(slot.group(1))]), text)

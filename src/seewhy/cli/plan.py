@@ -1,0 +1,101 @@
+"""`seewhy plan`: a shortest plan to a goal, from what is known."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from seewhy.cli.options import DomainName, Json
+from seewhy.cli.screen import print_json, say
+
+if TYPE_CHECKING:
+    from clingo import Symbol
+
+    from seewhy.planning.planner import Plan
+    from seewhy.planning.words import PlanningWords
+
+GoalText = Annotated[
+    str,
+    typer.Option(
+        "--goal", help='What shall hold, such as "loc(rob1, kitchen), not closed(library)".'
+    ),
+]
+Observed = Annotated[
+    list[str] | None,
+    typer.Option("--observed", help="What is seen at first, besides; may be given several times."),
+]
+
+
+def plan(
+    domain: DomainName,
+    goal: GoalText,
+    observed: Observed = None,
+    history: Annotated[
+        Path | None,
+        typer.Option("--history", help="What was seen and done so far, instead of history.al."),
+    ] = None,
+    horizon: Annotated[
+        int | None, typer.Option("--horizon", min=0, help="The most actions to try.")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Find a shortest plan to a goal."""
+    from seewhy.knowledge.ground_literal import read_ground_literal
+    from seewhy.knowledge.history import read_history_file
+    from seewhy.planning.diagnosis import diagnose
+    from seewhy.planning.following import suppositions
+    from seewhy.planning.goal import read_goal
+    from seewhy.planning.planner import plan as find_plan
+    from seewhy.planning_domain import load_planning_domain
+
+    own = load_planning_domain(domain)
+    knowledge = own.knowledge
+    aim = read_goal(goal, knowledge)
+    past = read_history_file(history, knowledge.signature) if history else own.history
+    seen = [read_ground_literal(text, knowledge.signature, of="fluent") for text in observed or ()]
+    past = past.with_observations(seen, step=past.last_step)
+    known = diagnose(knowledge, past)
+    found = find_plan(knowledge, aim, start=known.now, horizon=horizon or own.horizon)
+    supposed = suppositions(knowledge, aim, found.actions, start=known.now)
+    if json:
+        print_json(_to_dict(found, goal, supposed))
+    else:
+        for surprise in known.surprises:
+            say(f"It must be that {own.words.surprise(surprise)}.")
+        _show(found, own.words, supposed)
+    if not found.found:
+        raise typer.Exit(1)
+
+
+def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...]) -> None:
+    from seewhy.planning.planner import PlanStatus
+
+    if found.status is PlanStatus.ALREADY_TRUE:
+        say("The goal holds already; nothing is to be done.")
+    elif found.status is PlanStatus.FOUND:
+        for number, action in enumerate(found.actions, start=1):
+            say(f"{number:3}. {words.do(action)}")
+        count = f"{len(found.actions)} action{'s' * (len(found.actions) != 1)}"
+        say(f"{count}, found in {1000 * found.seconds:.0f} ms; no plan is shorter.")
+    elif found.status is PlanStatus.UNREACHABLE:
+        say("The goal cannot be reached: no sequence of actions leads to it.")
+    elif found.status is PlanStatus.NOT_WITHIN_HORIZON:
+        say(
+            f"No plan of at most {found.horizon} actions reaches the goal; try a greater --horizon."
+        )
+    for own in supposed if found.found else ():
+        say(f"This supposes that {words.say(own)}, which is not known.")
+
+
+def _to_dict(found: Plan, goal: str, supposed: tuple[Symbol, ...]) -> dict[str, Any]:
+    return {
+        "goal": goal,
+        "status": found.status.value,
+        "actions": [str(action) for action in found.actions],
+        "supposed": [str(own) for own in supposed],
+        "states": [[str(own) for own in state.positive()] for state in found.states],
+        "horizon": found.horizon,
+        "seconds": round(found.seconds, 4),
+    }

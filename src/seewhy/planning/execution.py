@@ -1,0 +1,260 @@
+"""Execute: sense, diagnose, plan, act and monitor, with an intention that is kept or given up."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from typing import Any
+
+import clingo
+
+from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.ground import literal_of
+from seewhy.knowledge.history import History
+from seewhy.planning.diagnosis import Surprise, diagnose
+from seewhy.planning.doubt import Doubt
+from seewhy.planning.following import follow
+from seewhy.planning.goal import Goal
+from seewhy.planning.planner import Plan, plan
+from seewhy.planning.reached import holds_in
+from seewhy.planning.state import State
+from seewhy.planning_domain import PlanningDomain
+
+Act = Callable[[clingo.Symbol], list[Literal]]
+"""Does an action in the world and returns what is sensed after it."""
+
+
+class Decision(StrEnum):
+    """What the robot does about its intention at a step."""
+
+    PLAN = "plan"
+    PERSIST = "persist"
+    SKIP = "skip"
+    REPLAN = "replan"
+    STOP = "stop"
+    GIVE_UP = "give up"
+
+
+class Outcome(StrEnum):
+    """How a run ended."""
+
+    ACHIEVED = "achieved"
+    IMPOSSIBLE = "impossible"
+    OUT_OF_STEPS = "out of steps"
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of a run: what was sensed, believed, decided and done.
+
+    Attributes
+    ----------
+    number : int
+    sensed : tuple of Literal
+    believed : State
+    surprises : tuple of Surprise
+        Those that came up at this step: what was sensed did not fit what was believed.
+    decision : Decision
+    plan : tuple of clingo.Symbol
+        What is intended from here on.
+    skipped : tuple of clingo.Symbol
+        The actions that became needless.
+    doubted : bool
+        Whether the plan supposes that things changed since they were seen.
+    action : clingo.Symbol or None
+        What was done; None at the end.
+    because : tuple of clingo.Symbol
+        Where the robot gave up: what it sees that stands in the way, each alone.
+    planning_seconds : float
+    """
+
+    number: int
+    sensed: tuple[Literal, ...]
+    believed: State
+    surprises: tuple[Surprise, ...]
+    decision: Decision
+    plan: tuple[clingo.Symbol, ...]
+    skipped: tuple[clingo.Symbol, ...] = ()
+    doubted: bool = False
+    action: clingo.Symbol | None = None
+    because: tuple[clingo.Symbol, ...] = ()
+    planning_seconds: float = 0.0
+
+
+@dataclass
+class Run:
+    """A run of the robot: its goal, its history and its steps, as far as they have come.
+
+    ``outcome`` is None while it goes on (and where it was interrupted).
+    """
+
+    goal: Goal
+    history: History
+    steps: list[Step] = field(default_factory=list)
+    outcome: Outcome | None = None
+
+    @property
+    def actions(self) -> list[clingo.Symbol]:
+        """What was done, in order."""
+        return [own.action for own in self.steps if own.action is not None]
+
+    @property
+    def plans(self) -> list[Step]:
+        """The steps at which a plan was made."""
+        return [own for own in self.steps if own.decision in (Decision.PLAN, Decision.REPLAN)]
+
+
+def execute(
+    domain: PlanningDomain,
+    goal: Goal,
+    *,
+    sensed: list[Literal],
+    act: Act,
+    most_steps: int = 100,
+) -> Iterator[Run]:
+    """Pursue a goal; yields the run after every step, the same object each time.
+
+    The robot has an intention (the theory of intentions that the paper's architecture builds
+    on): it stops when it believes the goal, skips actions that became needless, persists where
+    nothing contradicts its plan, plans anew where something does, and gives up where no plan is
+    left, even if what it saw before may have changed since.
+
+    Parameters
+    ----------
+    domain : PlanningDomain
+    goal : Goal
+    sensed : list of Literal
+        What is seen at first.
+    act : callable
+        Does an action and returns what is seen after it.
+    most_steps : int
+        The most actions to do.
+    """
+    errors = any(own.error for own in domain.sensing)
+    history = domain.history.with_observations(sensed, step=domain.history.last_step)
+    run = Run(goal, history)
+    robot = _Robot(domain, goal)
+    known: tuple[Surprise, ...] = ()
+    while run.outcome is None:
+        diagnosis = diagnose(domain.knowledge, run.history, sensors_err=errors)
+        new = tuple(own for own in diagnosis.surprises if own not in known)
+        known = diagnosis.surprises
+        step = robot.decide(run.history, diagnosis.now, sensed, new)
+        if step.action is not None and len(run.actions) == most_steps:
+            step = replace(step, action=None)
+            run.outcome = Outcome.OUT_OF_STEPS
+        elif step.action is None:
+            achieved = step.decision is Decision.STOP
+            run.outcome = Outcome.ACHIEVED if achieved else Outcome.IMPOSSIBLE
+        run.steps.append(step)
+        if step.action is not None:
+            sensed = act(step.action)
+            run.history = run.history.with_occurrence(
+                literal_of(str(step.action)), step=step.number, attempted=True
+            ).with_observations(sensed, step=step.number + 1)
+        yield run
+
+
+class _Robot:
+    """The intention of a robot: a goal, and the actions that it means to do."""
+
+    def __init__(self, domain: PlanningDomain, goal: Goal) -> None:
+        self.domain = domain
+        self.goal = goal
+        self.intended: tuple[clingo.Symbol, ...] = ()
+        self.began = False
+        self.doubted_before: int | None = None
+        self.doubt = Doubt(domain.knowledge)
+
+    def decide(
+        self,
+        history: History,
+        now: State,
+        sensed: list[Literal],
+        new: tuple[Surprise, ...],
+    ) -> Step:
+        """Return what to do in this state; the intention is what remains after it."""
+        step = Step(history.last_step, tuple(sensed), now, new, **self._choice(history, now))
+        self.intended, self.began = step.plan[1:], True
+        return step
+
+    def _choice(self, history: History, now: State) -> dict[str, Any]:
+        knowledge, goal = self.domain.knowledge, self.goal
+        if holds_in(knowledge, goal, now.holds):
+            return {"decision": Decision.STOP, "plan": (), "skipped": self.intended}
+        last_seen = _last_seen(history)
+        start = now
+        if self.doubted_before is not None:
+            start = self.doubt.applied(now, last_seen, before=self.doubted_before)
+        # The shortest rest that will do: what stands before it became needless.
+        for skipped in reversed(range(len(self.intended))):
+            rest = self.intended[skipped:]
+            if follow(knowledge, goal, rest, start=start):
+                return {
+                    "decision": Decision.SKIP if skipped else Decision.PERSIST,
+                    "plan": rest,
+                    "skipped": self.intended[:skipped],
+                    "action": rest[0],
+                }
+        begun = time.perf_counter()
+        self.doubted_before = None
+        found = self._plan(now)
+        for before in self._ages(last_seen):
+            if found.found:
+                break
+            # What was seen longest ago is doubted first.
+            self.doubted_before = before
+            found = self._plan(self.doubt.applied(now, last_seen, before=before))
+        seconds = time.perf_counter() - begun
+        if not found.actions:
+            return {
+                "decision": Decision.GIVE_UP,
+                "plan": (),
+                "because": self._in_the_way(now, last_seen),
+                "planning_seconds": seconds,
+            }
+        return {
+            "decision": Decision.REPLAN if self.began else Decision.PLAN,
+            "plan": found.actions,
+            "action": found.actions[0],
+            "doubted": self.doubted_before is not None,
+            "planning_seconds": seconds,
+        }
+
+    def _ages(self, last_seen: Mapping[clingo.Symbol, int]) -> list[int]:
+        steps = {own for fluent, own in last_seen.items() if fluent in self.doubt.fluents}
+        return sorted({0, *steps})
+
+    def _in_the_way(
+        self, now: State, last_seen: Mapping[clingo.Symbol, int]
+    ) -> tuple[clingo.Symbol, ...]:
+        """What is seen now that, were it otherwise, would leave a plan; the unusual first."""
+        latest = max(last_seen.values(), default=0)
+        found = []
+        for fluent in sorted(own for own, step in last_seen.items() if step == latest):
+            less = {own: step for own, step in last_seen.items() if own != fluent}
+            start = self.doubt.applied(now, less, before=latest)
+            if fluent in start.unknown and self._plan(start).found:
+                found.append(fluent if fluent in now.holds else _opposite(fluent))
+        usual = diagnose(self.domain.knowledge, self.domain.history).states[0].holds
+        unusual = [own for own in found if _opposite(own) in usual]
+        return tuple(unusual or found)
+
+    def _plan(self, start: State) -> Plan:
+        horizon = self.domain.horizon
+        return plan(self.domain.knowledge, self.goal, start=start, horizon=horizon)
+
+
+def _opposite(literal: clingo.Symbol) -> clingo.Symbol:
+    return clingo.Function(literal.name, literal.arguments, not literal.positive)
+
+
+def _last_seen(history: History) -> dict[clingo.Symbol, int]:
+    """For every fluent that was observed, the last step at which it was."""
+    return {
+        clingo.Function(symbol.name, symbol.arguments): own.step
+        for own in sorted(history.observations, key=lambda own: own.step)
+        for symbol in (clingo.parse_term(str(own.literal)),)
+    }

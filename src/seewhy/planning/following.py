@@ -1,0 +1,92 @@
+"""Follow given actions from a state: do they reach the goal, and what must be so for that?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import clingo
+
+from seewhy.knowledge.dynamics import transition_rules
+from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.signature import PredicateKind
+from seewhy.planning.goal import REACHED, Goal, with_goal
+from seewhy.planning.state import State
+
+
+def follow(
+    knowledge: Knowledge, goal: Goal, actions: Sequence[clingo.Symbol], *, start: State
+) -> bool:
+    """Whether the actions can be done one after the other from ``start``, and end in the goal.
+
+    What is unknown at the start may be as it has to be.
+    """
+    aimed = with_goal(knowledge, goal)
+    wanted = f":- not holds({REACHED}, {len(actions)})."
+    return _solved(aimed, actions, start, wanted, cautious=False) is not None
+
+
+def suppositions(
+    knowledge: Knowledge, goal: Goal, actions: Sequence[clingo.Symbol], *, start: State
+) -> tuple[clingo.Symbol, ...]:
+    """Return what is unknown at the start and must be so for the actions to reach the goal.
+
+    Where a fluent must hold of something, that it must not hold of other things is left out.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> from seewhy.planning.goal import read_goal
+    >>> known = read_knowledge('''
+    ... #fluent basic has_key. #fluent basic open. #action push.
+    ... push causes open. impossible push if not has_key.
+    ... ''')
+    >>> closed, has_key = clingo.parse_term("-open"), clingo.Function("has_key")
+    >>> start = State(frozenset({closed}), frozenset({has_key}))
+    >>> push = [clingo.Function("push")]
+    >>> [str(own) for own in suppositions(known, read_goal("open", known), push, start=start)]
+    ['has_key']
+    """
+    aimed = with_goal(knowledge, goal)
+    wanted = f":- not holds({REACHED}, {len(actions)})."
+    model = _solved(aimed, actions, start, wanted, cautious=True) or []
+    at_first = (own.arguments[0] for own in model if own.arguments[1].number == 0)
+    unknown = start.unknown
+    needed = [own for own in at_first if clingo.Function(own.name, own.arguments) in unknown]
+    affirmed = {own.name for own in needed if own.positive}
+    return tuple(sorted(own for own in needed if own.positive or own.name not in affirmed))
+
+
+def _solved(
+    knowledge: Knowledge,
+    actions: Sequence[clingo.Symbol],
+    start: State,
+    wanted: str,
+    *,
+    cautious: bool,
+) -> list[clingo.Symbol] | None:
+    basic = [
+        own
+        for own in sorted(start.unknown)
+        if knowledge.signature.kind(own.name) is PredicateKind.FLUENT_BASIC
+    ]
+    lines = [
+        *transition_rules(knowledge, last=len(actions)),
+        " ".join(f"holds({own}, 0)." for own in sorted(start.holds)),
+        " ".join(f"1 {{ holds({own}, 0); holds(-{own}, 0) }} 1." for own in basic),
+        " ".join(f"occurs({own}, {step})." for step, own in enumerate(actions)),
+        wanted,
+        "#show holds/2.",
+    ]
+    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+    control.add("base", [], "\n".join(lines))
+    control.ground([("base", [])])
+    solve: Any = control.configuration.solve
+    if cautious:
+        solve.enum_mode, solve.models = "cautious", 0
+    with control.solve(yield_=True) as solving:
+        # Models on the way to the best, or to what all have in common, are not read.
+        for _ in solving:
+            pass
+        last = solving.last()
+        return None if last is None else list(last.symbols(shown=True))

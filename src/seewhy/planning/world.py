@@ -1,0 +1,113 @@
+"""The simulated world's own course: states that are complete, and the next one of each.
+
+The same axioms that the robot reasons with say what happens; the world knows everything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+
+import clingo
+
+from seewhy.knowledge.dynamics import transition_rules
+from seewhy.knowledge.language import Knowledge
+
+World = frozenset[clingo.Symbol]
+"""A complete state: of every fluent the literal that is true."""
+
+_FREE = """
+1 { holds(F, 0); holds(-F, 0) } 1 :- fluent(basic, F).
+{ occurs(A, 0) } :- action(A).
+{ occurs(A, 0) } :- exogenous(A).
+"""
+
+
+class Transitions:
+    """The transition function of a domain's knowledge, grounded once.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge('''
+    ... #fluent basic lit. #action press. press causes lit. impossible press if lit.
+    ... ''')
+    >>> transitions = Transitions(known)
+    >>> dark = transitions.complete([])
+    >>> press = clingo.Function("press")
+    >>> [str(own) for own in transitions.after(dark, [press])]
+    ['lit']
+    >>> transitions.after(transitions.after(dark, [press]), [press]) is None
+    True
+    """
+
+    def __init__(self, knowledge: Knowledge) -> None:
+        self.control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+        self.control.add("base", [], "\n".join([*transition_rules(knowledge, last=1), _FREE]))
+        self.control.ground([("base", [])])
+        atoms = self.control.symbolic_atoms
+        self._holds: tuple[dict[clingo.Symbol, int], ...] = ({}, {})
+        for atom in atoms.by_signature("holds", 2):
+            if atom.literal and atom.symbol.arguments[1].type is clingo.SymbolType.Number:
+                step = atom.symbol.arguments[1].number
+                self._holds[step][atom.symbol.arguments[0]] = atom.literal
+        self._occurs = {
+            atom.symbol.arguments[0]: atom.literal for atom in atoms.by_signature("occurs", 2)
+        }
+        self._basic = sorted(
+            own.symbol.arguments[1]
+            for own in atoms.by_signature("fluent", 2)
+            if own.symbol.arguments[0].name == "basic"
+        )
+        self.fluents = sorted(own.symbol.arguments[1] for own in atoms.by_signature("fluent", 2))
+        self.events = sorted(a.symbol.arguments[0] for a in atoms.by_signature("exogenous", 1))
+        self.actions = sorted(a.symbol.arguments[0] for a in atoms.by_signature("action", 1))
+
+    def complete(self, wanted: Iterable[clingo.Symbol]) -> World:
+        """Return a complete state in which the literals hold, as few others as possible.
+
+        A literal that contradicts the ones before it is left out.
+        """
+        assumed: list[int] = []
+        for literal in (*wanted, *(_denied(own) for own in self._basic)):
+            number = self._holds[0].get(literal)
+            if number is not None and self._satisfiable([*assumed, number]):
+                assumed.append(number)
+        state = self._solve(assumed, step=0, happening=())
+        assert state is not None
+        return state
+
+    def after(self, state: World, happening: Collection[clingo.Symbol]) -> World | None:
+        """Return the state after what happens at once; None where that is impossible."""
+        assumed = [self._holds[0][literal] for literal in self._literals(state)]
+        return self._solve(assumed, step=1, happening=happening)
+
+    def _literals(self, state: World) -> Iterable[clingo.Symbol]:
+        for fluent in self._basic:
+            literal = fluent if fluent in state else _denied(fluent)
+            if literal in self._holds[0]:
+                yield literal
+
+    def _satisfiable(self, assumed: list[int]) -> bool:
+        idle = [-own for own in self._occurs.values()]
+        return bool(self.control.solve([*assumed, *idle]).satisfiable)
+
+    def _solve(
+        self, assumed: list[int], *, step: int, happening: Collection[clingo.Symbol]
+    ) -> World | None:
+        if any(own not in self._occurs for own in happening):
+            return None
+        occurs = [number if own in happening else -number for own, number in self._occurs.items()]
+        found: list[World] = []
+
+        def keep(model: clingo.Model) -> None:
+            is_true = model.is_true
+            found.append(
+                frozenset(own for own, number in self._holds[step].items() if is_true(number))
+            )
+
+        self.control.solve([*assumed, *occurs], on_model=keep)
+        return found[-1] if found else None
+
+
+def _denied(fluent: clingo.Symbol) -> clingo.Symbol:
+    return clingo.Function(fluent.name, fluent.arguments, False)

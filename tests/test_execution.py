@@ -1,0 +1,172 @@
+"""The simulated world, and the robot that pursues a goal in it."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+
+import clingo
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+from seewhy.knowledge.axiom import Literal
+from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.environment import PlanningEnvironment
+from seewhy.planning.execution import Decision, Outcome, Run, execute
+from seewhy.planning.goal import read_goal
+from seewhy.planning.world import World
+from seewhy.planning_domain import load_planning_domain
+
+OFFICE = load_planning_domain("robot_assistant")
+TO_SALLY = read_goal("message_status(m1, sally, delivered)", OFFICE.knowledge)
+
+
+@pytest.fixture(scope="module")
+def environment() -> PlanningEnvironment:
+    return PlanningEnvironment(OFFICE, goal=TO_SALLY)
+
+
+def term(text: str) -> clingo.Symbol:
+    return clingo.parse_term(text)
+
+
+def world(environment: PlanningEnvironment, *literals: str) -> World:
+    """A world in which these hold, and else what is usual."""
+    usual = sorted(diagnose(OFFICE.knowledge, OFFICE.history).states[0].holds)
+    return environment.transitions.complete([*map(term, literals), *usual])
+
+
+def run(
+    environment: PlanningEnvironment,
+    start: World,
+    script: Callable[[int, World], World] = lambda _, state: state,
+    **options: int,
+) -> Run:
+    """Pursue the goal in a world without chance, which ``script`` changes after each step."""
+    environment.reset(seed=0, options={"state": start})
+    state = start
+    steps = itertools.count(1)
+
+    def seen() -> list[Literal]:
+        shown = np.zeros(len(environment.fluents), dtype=np.int8)
+        for fluent, _ in environment.sensors.sensed(state):
+            shown[environment.fluents.index(fluent)] = 2 if fluent in state else 1
+        return environment.read(shown)
+
+    def act(action: clingo.Symbol) -> list[Literal]:
+        nonlocal state
+        state = script(next(steps), environment.transitions.after(state, [action]) or state)
+        return seen()
+
+    *_, last = execute(OFFICE, TO_SALLY, sensed=seen(), act=act, **options)
+    return last
+
+
+def decisions(found: Run) -> list[str]:
+    return [own.decision.value for own in found.steps]
+
+
+def test_a_plan_that_works_is_persisted_in(environment: PlanningEnvironment) -> None:
+    found = run(environment, world(environment))
+    assert decisions(found) == ["plan", "persist", "persist", "stop"]
+    assert list(map(str, found.actions)) == [
+        "move(rob1,kitchen)",
+        "move(rob1,sallys_office)",
+        "deliver(rob1,m1,sally)",
+    ]
+    assert found.outcome is Outcome.ACHIEVED
+    assert not any(own.surprises for own in found.steps)
+
+
+def test_somebody_met_on_the_way_makes_the_rest_needless(environment: PlanningEnvironment) -> None:
+    found = run(environment, world(environment, "loc(sally,kitchen)"))
+    assert decisions(found) == ["plan", "skip", "stop"]
+    assert list(map(str, found.steps[1].skipped)) == ["move(rob1,sallys_office)"]
+    assert [str(own.what) for own in found.steps[1].surprises] == ["loc(sally,sallys_office)"]
+
+
+def test_a_goal_reached_by_luck_stops_the_robot() -> None:
+    seen = Literal("message_status", ("m1", "sally", "delivered"))
+    (found,) = execute(OFFICE, TO_SALLY, sensed=[seen], act=lambda _: [])
+    assert decisions(found) == ["stop"]
+
+
+def test_somebody_who_is_away_is_looked_for_where_she_was_not_seen(
+    environment: PlanningEnvironment,
+) -> None:
+    found = run(environment, world(environment, "loc(sally,johns_office)"))
+    assert found.outcome is Outcome.ACHIEVED
+    visited = [str(own.arguments[1]) for own in found.actions if own.name == "move"]
+    assert visited[-1] == "johns_office"
+    searched = [own for own in visited if own not in ("kitchen", "library")]
+    assert len(searched) == len(set(searched))  # nowhere twice
+
+
+def test_a_door_that_closes_is_a_reason_to_give_up(environment: PlanningEnvironment) -> None:
+    closed = world(environment, "closed(kitchen)", "closed(bobs_office)", "closed(johns_office)")
+    found = run(environment, closed)
+    assert decisions(found) == ["give up"]
+    assert found.outcome is Outcome.IMPOSSIBLE
+    assert list(map(str, found.steps[0].because)) == [
+        "closed(bobs_office)",
+        "closed(johns_office)",
+        "closed(kitchen)",
+    ]
+
+
+def test_a_lost_message_is_printed_again(environment: PlanningEnvironment) -> None:
+    def lose(step: int, state: World) -> World:
+        if step != 1:
+            return state
+        return environment.transitions.after(state, [term("lose(m1)")]) or state
+
+    found = run(environment, world(environment), lose)
+    assert found.outcome is Outcome.ACHIEVED
+    assert "print(rob1,m1)" in map(str, found.actions)
+    assert [(str(own.what), own.step) for own in found.steps[1].surprises] == [("lose(m1)", 0)]
+
+
+def test_the_most_steps_bound_a_run(environment: PlanningEnvironment) -> None:
+    found = run(environment, world(environment), most_steps=1)
+    assert found.outcome is Outcome.OUT_OF_STEPS
+    assert len(found.actions) == 1
+
+
+def test_the_environment_is_one_of_gymnasium(environment: PlanningEnvironment) -> None:
+    check_env(environment, skip_render_check=True)
+
+
+def test_a_seed_settles_everything(environment: PlanningEnvironment) -> None:
+    def episode(seed: int) -> list[bytes]:
+        observation, _ = environment.reset(seed=seed)
+        seen = [observation.tobytes()]
+        for action in range(12):
+            observation, *_ = environment.step(action)
+            seen.append(observation.tobytes())
+        return seen
+
+    assert episode(3) == episode(3)
+    assert episode(3) != episode(4)
+
+
+def test_what_is_impossible_has_no_effect(environment: PlanningEnvironment) -> None:
+    start = world(environment)
+    environment.reset(seed=0, options={"state": start})
+    *_, info = environment.step(environment.number(term("deliver(rob1,m1,bob)")))
+    assert info["happening"].failed
+    assert term("message_status(m1,bob,undelivered)") in environment.state
+
+
+def test_the_goal_truly_reached_ends_an_episode(environment: PlanningEnvironment) -> None:
+    start = world(environment, "loc(sally,library)")
+    for seed in range(5):  # one of them without a failed delivery
+        environment.reset(seed=seed, options={"state": start})
+        _, reward, ended, _, info = environment.step(
+            environment.number(term("deliver(rob1,m1,sally)"))
+        )
+        assert (reward == 1.0) == ended == (not info["happening"].failed)
+
+
+def test_decisions_have_words_of_their_own() -> None:
+    assert len({own.value for own in Decision}) == len(Decision)
