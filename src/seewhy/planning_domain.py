@@ -7,15 +7,18 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import clingo
+
 from seewhy.domain import domain_folder
 from seewhy.errors import DomainError, KnowledgeError
+from seewhy.knowledge.dynamics import fixed_rules
 from seewhy.knowledge.history import History, read_history_file
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.nearest import did_you_mean
 from seewhy.planning.sensing import Sensing, read_sensing
 from seewhy.planning.words import PlanningWords
-from seewhy.planning_tables import PlanningFile, SimulationTable
+from seewhy.planning_tables import MapTable, PlanningFile, SimulationTable
 from seewhy.toml_file import line_of, read_toml
 
 FILE = "planning.toml"
@@ -40,6 +43,8 @@ class PlanningDomain:
         The greatest number of actions that planning tries.
     sensing, simulation
         What the robot sees, and what may happen, in simulation.
+    map : MapTable or None
+        How to draw where things are.
     folder : Path
 
     Examples
@@ -58,7 +63,18 @@ class PlanningDomain:
     horizon: int
     sensing: tuple[Sensing, ...]
     simulation: SimulationTable
+    map: MapTable | None
     folder: Path
+
+    def statics(self, predicate: str) -> list[clingo.Symbol]:
+        """The literals about a static that follow from the knowledge, sorted."""
+        control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+        control.add("base", [], "\n".join(fixed_rules(self.knowledge)))
+        control.ground([("base", [])])
+        literals = (
+            own.symbol.arguments[0] for own in control.symbolic_atoms.by_signature("holds", 1)
+        )
+        return sorted(own for own in literals if own.name == predicate)
 
 
 def bundled_planning_domains() -> tuple[str, ...]:
@@ -111,6 +127,7 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         horizon=table.planning.horizon,
         sensing=tuple(sensing),
         simulation=table.simulation,
+        map=table.map,
         folder=folder,
     )
 
@@ -160,6 +177,8 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
                             f"'{name}' has {known[name]} arguments, counted from 0, but '{text}' "
                             f"asks for {{{slot}}}",
                         )
+    if table.map is not None:
+        yield from _map_problems(table.map, knowledge)
     for key, chances, wanted in (
         ("events", table.simulation.events, PredicateKind.EXOGENOUS_ACTION),
         ("failures", table.simulation.failures, PredicateKind.ACTION),
@@ -171,6 +190,35 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
                     ("simulation", key, name),
                     f"'{name}' is no {wanted.value}; {did_you_mean(name, names)}",
                 )
+
+
+def _map_problems(table: MapTable, knowledge: Knowledge) -> Iterator[tuple[tuple[str, ...], str]]:
+    signature = knowledge.signature
+    if table.places not in signature.sorts:
+        remedy = did_you_mean(table.places, signature.sorts)
+        yield ("map", "places"), f"'{table.places}' is no sort; {remedy}"
+        return
+    wanted: dict[str, tuple[str | None, str, list[str | None]]] = {
+        "links": (table.links, "static", [table.places, table.places]),
+        "where": (table.where, "fluent", [None, table.places]),
+        "closed": (table.closed, "fluent", [table.places]),
+    }
+    for key, (name, kind, sorts) in wanted.items():
+        if name is None:
+            continue
+        known = [n for n, p in signature.predicates.items() if kind in p.kind.value]
+        if name not in known:
+            yield ("map", key), f"'{name}' is no {kind}; {did_you_mean(name, known)}"
+            continue
+        own = signature.predicates[name].sorts
+        if len(own) != len(sorts) or any(
+            b not in (None, a) for a, b in zip(own, sorts, strict=True)
+        ):
+            shown = ", ".join(sort or "thing" for sort in sorts)
+            yield (
+                ("map", key),
+                f"'{signature.predicates[name]}' must be of the form {name}({shown})",
+            )
 
 
 def _said(tables: Mapping[str, object]) -> dict[str, list[str]]:

@@ -71,6 +71,19 @@ class SimulationTable(_Table):
     unknown: Probability = 0.0
 
 
+class MapTable(_Table):
+    """``[map]``: how to draw where things are.
+
+    ``places`` is a sort, ``links`` a static that joins two places, ``where`` the fluent that says
+    which place a thing is in, ``closed`` one of places that cannot be entered.
+    """
+
+    places: str
+    links: str
+    where: str
+    closed: str | None = None
+
+
 class PlanningFile(_Table):
     """The whole of planning.toml."""
 
@@ -80,3 +93,4 @@ class PlanningFile(_Table):
     actions: dict[str, ActionTable] = {}
     sensing: tuple[SensingTable, ...] = ()
     simulation: SimulationTable = SimulationTable()
+    map: MapTable | None = None

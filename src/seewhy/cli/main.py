@@ -9,7 +9,20 @@ from typing import Any
 
 import typer
 
-from seewhy.cli import ask, axioms, chat, check, data, demo, evaluate, learn, new, plan, train
+from seewhy.cli import (
+    ask,
+    axioms,
+    chat,
+    check,
+    data,
+    demo,
+    evaluate,
+    learn,
+    new,
+    plan,
+    simulate,
+    train,
+)
 from seewhy.cli.screen import complain
 
 _INTERRUPTED = 130
@@ -34,6 +47,7 @@ app.command("chat")(chat.chat)
 app.command("new")(new.new)
 app.command("check")(check.check)
 app.command("plan")(plan.plan)
+app.command("simulate")(simulate.simulate)
 app.command("demo")(demo.demo)
 
 

@@ -15,7 +15,7 @@ from seewhy.knowledge.ground import literal_of
 from seewhy.knowledge.history import History
 from seewhy.planning.diagnosis import Surprise, diagnose
 from seewhy.planning.doubt import Doubt
-from seewhy.planning.following import follow
+from seewhy.planning.following import follow, suppositions
 from seewhy.planning.goal import Goal
 from seewhy.planning.planner import Plan, plan
 from seewhy.planning.reached import holds_in
@@ -61,8 +61,8 @@ class Step:
         What is intended from here on.
     skipped : tuple of clingo.Symbol
         The actions that became needless.
-    doubted : bool
-        Whether the plan supposes that things changed since they were seen.
+    supposed : tuple of clingo.Symbol
+        What a new plan supposes: what is not known, or may have changed since it was seen.
     action : clingo.Symbol or None
         What was done; None at the end.
     because : tuple of clingo.Symbol
@@ -77,7 +77,7 @@ class Step:
     decision: Decision
     plan: tuple[clingo.Symbol, ...]
     skipped: tuple[clingo.Symbol, ...] = ()
-    doubted: bool = False
+    supposed: tuple[clingo.Symbol, ...] = ()
     action: clingo.Symbol | None = None
     because: tuple[clingo.Symbol, ...] = ()
     planning_seconds: float = 0.0
@@ -199,14 +199,15 @@ class _Robot:
                     "action": rest[0],
                 }
         begun = time.perf_counter()
-        self.doubted_before = None
-        found = self._plan(now)
+        self.doubted_before, start = None, now
+        found = self._plan(start)
         for before in self._ages(last_seen):
             if found.found:
                 break
             # What was seen longest ago is doubted first.
             self.doubted_before = before
-            found = self._plan(self.doubt.applied(now, last_seen, before=before))
+            start = self.doubt.applied(now, last_seen, before=before)
+            found = self._plan(start)
         seconds = time.perf_counter() - begun
         if not found.actions:
             return {
@@ -219,7 +220,7 @@ class _Robot:
             "decision": Decision.REPLAN if self.began else Decision.PLAN,
             "plan": found.actions,
             "action": found.actions[0],
-            "doubted": self.doubted_before is not None,
+            "supposed": suppositions(knowledge, goal, found.actions, start=start),
             "planning_seconds": seconds,
         }
 

@@ -52,7 +52,12 @@ def suppositions(
     model = _solved(aimed, actions, start, wanted, cautious=True) or []
     at_first = (own.arguments[0] for own in model if own.arguments[1].number == 0)
     unknown = start.unknown
-    needed = [own for own in at_first if clingo.Function(own.name, own.arguments) in unknown]
+    needed = [
+        own
+        for own in at_first
+        if clingo.Function(own.name, own.arguments) in unknown
+        and knowledge.signature.kind(own.name) is PredicateKind.FLUENT_BASIC
+    ]
     affirmed = {own.name for own in needed if own.positive}
     return tuple(sorted(own for own in needed if own.positive or own.name not in affirmed))
 

@@ -1,0 +1,89 @@
+"""`seewhy simulate`: a robot pursues a goal in a simulated world, as it happens."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from seewhy.cli.options import DomainName, Json, Seed
+from seewhy.cli.plan import GoalText
+from seewhy.cli.screen import print_json, remark, say
+
+if TYPE_CHECKING:
+    from seewhy.planning.simulation import Simulation
+
+
+def simulate(
+    domain: DomainName,
+    goal: GoalText,
+    seed: Seed = 0,
+    steps: Annotated[int, typer.Option("--steps", min=1, help="The most actions to do.")] = 60,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Also write the run to this .html file.")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Simulate a robot that plans, acts, is surprised, and plans anew."""
+    from seewhy.errors import PlanningError
+    from seewhy.files import write_whole
+    from seewhy.planning.goal import read_goal
+    from seewhy.planning.narration import narrate_end, narrate_step
+    from seewhy.planning.simulation import simulate as run_simulation
+    from seewhy.planning_domain import load_planning_domain
+    from seewhy.report.run_page import run_page
+
+    if out is not None and out.suffix.lower() != ".html":
+        raise PlanningError(f"{out}: the run is written as .html; choose a name that ends so")
+    own = load_planning_domain(domain)
+    aim = read_goal(goal, own.knowledge)
+    last: Simulation | None = None
+    try:
+        for last in run_simulation(own, aim, seed=seed, most_steps=steps):
+            step = last.run.steps[-1]
+            if not json:
+                for number, sentence in enumerate(narrate_step(own.words, step)):
+                    say(f"{step.number:3}  {sentence}" if number == 0 else f"     {sentence}")
+    except KeyboardInterrupt:
+        remark("interrupted; what was done so far follows")
+    if last is None:
+        raise typer.Exit(1)
+    if json:
+        print_json(_to_dict(last, goal, seed))
+    else:
+        say(narrate_end(last.run))
+        say(f"In truth it {'is' if last.achieved else 'is not'} reached.")
+    if out is not None:
+        command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
+        write_whole(out, run_page(own, last, command=command))
+        remark(f"the run with its map is in {out}")
+    if not last.achieved:
+        raise typer.Exit(1)
+
+
+def _to_dict(simulation: Simulation, goal: str, seed: int) -> dict[str, Any]:
+    run = simulation.run
+    return {
+        "goal": goal,
+        "seed": seed,
+        "outcome": run.outcome.value if run.outcome else "interrupted",
+        "achieved": simulation.achieved,
+        "steps": [
+            {
+                "step": step.number,
+                "decision": step.decision.value,
+                "plan": list(map(str, step.plan)),
+                "action": None if step.action is None else str(step.action),
+                "surprises": [
+                    {"kind": own.kind.value, "what": str(own.what), "step": own.step}
+                    for own in step.surprises
+                ],
+                "because": list(map(str, step.because)),
+                "believed": list(map(str, step.believed.positive())),
+                "true": sorted(str(own) for own in world if own.positive),
+                "planning_seconds": round(step.planning_seconds, 4),
+            }
+            for step, world in zip(run.steps, simulation.worlds, strict=True)
+        ],
+    }

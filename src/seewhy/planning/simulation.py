@@ -1,0 +1,70 @@
+"""A robot in the simulated world: the run, and beside each step what was true."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import clingo
+import numpy as np
+
+from seewhy.knowledge.axiom import Literal
+from seewhy.planning.environment import Happening, PlanningEnvironment
+from seewhy.planning.execution import Run, execute
+from seewhy.planning.goal import Goal
+from seewhy.planning.reached import holds_in
+from seewhy.planning.world import World
+from seewhy.planning_domain import PlanningDomain
+
+
+@dataclass
+class Simulation:
+    """A run with the truth of every step.
+
+    Attributes
+    ----------
+    run : Run
+    worlds : list of World
+        The true state at each step of the run.
+    happenings : list of Happening
+        What really happened after each step that did something.
+    achieved : bool
+        Whether the goal truly holds at the end.
+    """
+
+    run: Run
+    worlds: list[World] = field(default_factory=list)
+    happenings: list[Happening] = field(default_factory=list)
+    achieved: bool = False
+
+
+def simulate(
+    domain: PlanningDomain, goal: Goal, *, seed: int = 0, most_steps: int = 60
+) -> Iterator[Simulation]:
+    """Let the robot pursue a goal in a random world; yields the simulation after each step.
+
+    Examples
+    --------
+    >>> from seewhy.planning.goal import read_goal
+    >>> from seewhy.planning_domain import load_planning_domain
+    >>> office = load_planning_domain("robot_assistant")
+    >>> goal = read_goal("loc(rob1, kitchen)", office.knowledge)
+    >>> *_, last = simulate(office, goal, seed=1)
+    >>> last.run.outcome.value, [str(action) for action in last.run.actions]
+    ('achieved', ['move(rob1,kitchen)'])
+    """
+    environment = PlanningEnvironment(domain, goal=goal, steps=most_steps + 1)
+    observation, _ = environment.reset(seed=seed)
+    worlds, happenings = [environment.state], list[Happening]()
+
+    def act(action: clingo.Symbol) -> list[Literal]:
+        seen, _, _, _, info = environment.step(environment.number(action))
+        worlds.append(environment.state)
+        happenings.append(info["happening"])
+        return environment.read(np.asarray(seen))
+
+    sensed = environment.read(observation)
+    for run in execute(domain, goal, sensed=sensed, act=act, most_steps=most_steps):
+        steps = len(run.steps)
+        achieved = holds_in(domain.knowledge, goal, worlds[steps - 1])
+        yield Simulation(run, worlds[:steps], happenings[:steps], achieved)

@@ -1,0 +1,122 @@
+"""The page of a simulated run: map, path, beliefs against the truth, and explanations."""
+
+from __future__ import annotations
+
+from importlib import resources
+from importlib.metadata import version
+from typing import Any
+
+import clingo
+from jinja2 import Environment
+
+from seewhy.planning.narration import narrate_end, narrate_step
+from seewhy.planning.simulation import Simulation
+from seewhy.planning.state import State
+from seewhy.planning.world import World
+from seewhy.planning_domain import PlanningDomain
+from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
+
+
+def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) -> str:
+    """Return a run as the text of an HTML file that opens with no network.
+
+    Where planning.toml has a ``[map]``, every step shows who is believed to be where, and who is.
+    """
+    words, run = domain.words, simulation.run
+    drawn = _Map(domain, simulation) if domain.map is not None else None
+    steps: list[dict[str, Any]] = []
+    for number, (step, world) in enumerate(zip(run.steps, simulation.worlds, strict=True)):
+        happened = simulation.happenings[number - 1] if number else None
+        unseen = [] if happened is None else list(map(words.did, happened.events))
+        if happened is not None and happened.failed and happened.action is not None:
+            unseen.insert(0, f"the attempt to {words.do(happened.action)} failed")
+        steps.append(
+            {
+                "number": step.number,
+                "decision": step.decision.value,
+                "said": narrate_step(words, step),
+                "plan": list(map(words.do, step.plan)),
+                "unseen": unseen,
+                "wrong": [words.say(own) for own in _wrong(step.believed, world)],
+                "map": drawn.svg(number) if drawn else "",
+            }
+        )
+    template = resources.files("seewhy.report").joinpath("run.html").read_text(encoding="utf-8")
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    return environment.from_string(template).render(
+        title=domain.title,
+        goal=run.goal.text,
+        steps=steps,
+        ended=narrate_end(run),
+        achieved=simulation.achieved,
+        has_map=drawn is not None,
+        version=version("seewhy"),
+        command=command,
+    )
+
+
+def _wrong(believed: State, world: World) -> list[clingo.Symbol]:
+    """What is believed and not so; of what is denied, only where nothing affirms the opposite."""
+    return sorted(
+        own for own in believed.holds if own not in world and (own.positive or _rest(own, believed))
+    )
+
+
+def _rest(denied: clingo.Symbol, believed: State) -> bool:
+    same = denied.arguments[:-1]
+    return not any(
+        own.positive and own.name == denied.name and own.arguments[:-1] == same
+        for own in believed.holds
+    )
+
+
+class _Map:
+    """The places of a domain, laid out once, with who is where at each step."""
+
+    def __init__(self, domain: PlanningDomain, simulation: Simulation) -> None:
+        table = domain.map
+        assert table is not None
+        self.domain, self.simulation, self.table = domain, simulation, table
+        self.places = list(domain.knowledge.signature.members(table.places))
+        statics = domain.statics(table.links)
+        self.links = sorted(
+            {tuple(sorted(map(str, own.arguments))) for own in statics if own.positive}
+        )
+        self.at = layout(self.places, self.links)  # type: ignore[arg-type]
+
+    def svg(self, number: int) -> str:
+        """The map at a step, with the robot's way up to there."""
+        step, world = self.simulation.run.steps[number], self.simulation.worlds[number]
+        robot, where = self.domain.robot, self.table.where
+        occupants: dict[str, list[Occupant]] = {}
+        for own in sorted({*step.believed.positive(where), *_of(where, world)}):
+            thing, place = map(str, own.arguments)
+            occupants.setdefault(place, []).append(
+                Occupant(
+                    name=self.domain.words.name(thing).removeprefix("the "),
+                    believed=own in step.believed.holds,
+                    true=own in world,
+                    is_robot=thing == robot,
+                )
+            )
+        path = [
+            str(own.arguments[1])
+            for past in self.simulation.worlds[: number + 1]
+            for own in _of(where, past)
+            if str(own.arguments[0]) == robot
+        ]
+        closed = self.table.closed
+        shaded = [str(own.arguments[0]) for own in _of(closed, world)] if closed else []
+        names = {place: self.domain.words.name(place) for place in self.places}
+        return draw_floor_plan(
+            self.at,
+            self.links,  # type: ignore[arg-type]
+            names,
+            occupants,
+            path=path,
+            shaded=shaded,
+        ).svg
+
+
+def _of(predicate: str, world: World) -> list[clingo.Symbol]:
+    return sorted(own for own in world if own.positive and own.name == predicate)

@@ -1,0 +1,142 @@
+"""`seewhy plan` and `seewhy simulate`, from the outside."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from conftest import Run
+from seewhy.planning_domain import load_planning_domain
+from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
+
+PAPER = "message_status(m1, sarah, delivered), loc(rob1, L), loc(sally, L)"
+
+
+def timeless(text: str) -> str:
+    return re.sub(r"found in \d+ ms", "found in 0 ms", text)
+
+
+def test_a_plan_reads_as_a_list(run: Run) -> None:
+    done = run("plan", "robot_assistant", "--goal", PAPER)
+    assert timeless(done.out) == (
+        "  1. move to the kitchen\n"
+        "  2. move to Sarah's office\n"
+        "  3. deliver the first message to Sarah\n"
+        "  4. move to the kitchen\n"
+        "  5. move to Sally's office\n"
+        "5 actions, found in 0 ms; no plan is shorter.\n"
+    )
+    assert done.code == 0
+
+
+def test_a_plan_says_what_it_supposes(run: Run) -> None:
+    empty = ("sallys_office", "library", "bobs_office", "johns_office")
+    gone = [part for own in empty for part in ("--observed", f"-loc(sally, {own})")]
+    done = run("plan", "robot_assistant", "--goal", "message_status(m1, sally, delivered)", *gone)
+    assert timeless(done.out) == (
+        "  1. move to the kitchen\n"
+        "  2. deliver the first message to Sally\n"
+        "2 actions, found in 0 ms; no plan is shorter.\n"
+        "This supposes that Sally is in the kitchen, which is not known.\n"
+    )
+
+
+def test_what_is_true_or_out_of_reach_is_said(run: Run) -> None:
+    assert run("plan", "robot_assistant", "--goal", "loc(rob1, library)").out == (
+        "The goal holds already; nothing is to be done.\n"
+    )
+    done = run("plan", "robot_assistant", "--goal", "loc(sally, library)")
+    assert done.out == "The goal cannot be reached: no sequence of actions leads to it.\n"
+    assert done.code == 1
+    done = run("plan", "robot_assistant", "--goal", PAPER, "--horizon", "3")
+    assert done.out == ("No plan of at most 3 actions reaches the goal; try a greater --horizon.\n")
+
+
+def test_a_plan_as_json(run: Run) -> None:
+    done = run("plan", "robot_assistant", "--goal", "loc(rob1, kitchen)", "--json")
+    found = json.loads(done.out)
+    assert (found["status"], found["actions"]) == ("found", ["move(rob1,kitchen)"])
+    assert len(found["states"]) == 2
+
+
+@pytest.mark.parametrize("command", ["plan", "simulate"])
+def test_a_wrong_goal_is_one_sentence(run: Run, command: str) -> None:
+    done = run(command, "robot_assistant", "--goal", "loc(saly, kitchen)")
+    assert done.code == 2
+    assert done.err == (
+        "seewhy: the goal 'loc(saly, kitchen)' cannot be used: 'saly' is not of sort 'agent', "
+        "which 'loc' takes here; did you mean 'sally'?\n"
+    )
+
+
+def test_a_domain_of_pictures_plans_nothing(run: Run) -> None:
+    done = run("plan", "structure_stability", "--goal", "stable(s)")
+    assert done.code == 2
+    assert "the domain has no planning.toml, so nothing can be planned in it" in done.err
+
+
+def test_a_run_is_told_and_drawn(run: Run, tmp_path: Path) -> None:
+    page = tmp_path / "run.html"
+    goal = "message_status(m1, sally, delivered)"
+    done = run("simulate", "robot_assistant", "--goal", goal, "--seed", "1", "--out", str(page))
+    assert done.out == (
+        "  0  I plan to move to the kitchen, move to Sally's office and deliver the first message "
+        "to Sally.\n"
+        "     I move to the kitchen.\n"
+        "  1  I move to Sally's office.\n"
+        "  2  I deliver the first message to Sally.\n"
+        "  3  The goal is reached.\n"
+        "The robot believes that the goal is reached, after 3 actions and 1 plan.\n"
+        "In truth it is reached.\n"
+    )
+    text = page.read_text(encoding="utf-8")
+    assert text.count("<svg") == 4
+    assert not re.search(r"""(src|href)=["']https?:""", text)
+    for drawn in re.findall(r"<svg.*?</svg>", text, re.DOTALL):
+        ElementTree.fromstring(drawn)
+
+
+def test_the_same_seed_gives_the_same_run(run: Run) -> None:
+    arguments = ("simulate", "robot_assistant", "--goal", "loc(rob1, L), loc(bob, L)", "--json")
+
+    def steps(seed: str) -> object:
+        found = json.loads(run(*arguments, "--seed", seed).out)
+        return [{**own, "planning_seconds": 0} for own in found["steps"]]
+
+    assert steps("3") == steps("3")
+
+
+def test_a_page_needs_its_ending(run: Run, tmp_path: Path) -> None:
+    done = run(
+        "simulate", "robot_assistant", "--goal", "loc(rob1, kitchen)", "--out", str(tmp_path / "a")
+    )
+    assert done.code == 2
+    assert "the run is written as .html; choose a name that ends so" in done.err
+
+
+def test_a_folder_of_ones_own_plans_as_well(run: Run, tmp_path: Path) -> None:
+    folder = tmp_path / "own"
+    shutil.copytree(load_planning_domain("robot_assistant").folder, folder)
+    done = run("plan", str(folder), "--goal", "loc(rob1, kitchen)")
+    assert done.out.startswith("  1. move to the kitchen\n")
+
+
+def test_places_far_apart_are_drawn_far_apart() -> None:
+    at = layout(["a", "b", "c", "d"], [("a", "b"), ("b", "c"), ("c", "d")])
+    assert abs(at["a"][0] - at["d"][0]) > abs(at["a"][0] - at["b"][0])
+
+
+def test_beliefs_and_truth_look_different() -> None:
+    def drawn(*, believed: bool, true: bool) -> str:
+        occupants = {"a": [Occupant("Sally", believed=believed, true=true)]}
+        return draw_floor_plan({"a": (0.5, 0.5)}, [], {"a": "A"}, occupants).svg
+
+    assert (
+        len({drawn(believed=b, true=t) for b, t in ((True, True), (True, False), (False, True))})
+        == 3
+    )
