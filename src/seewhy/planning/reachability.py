@@ -8,8 +8,8 @@ of the values that it allows has been reached. What it cannot reach, no plan can
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import clingo
 
@@ -39,7 +39,8 @@ may(-F) :- in_group(_, F), touched(F).
 reached(A, G) :- allowed(A, G, F), may(F).
 can(A) :- action(A), not never(A), reached(A, G) : restricted(A, G); may(C) : needs(A, C).
 #show rigid/1. #show may/1. #show can/1. #show allowed/3. #show restricted/2. #show needs/2.
-#show in_group/2.
+#show in_group/2. #show law/3. #show conclusion/3. #show forbidden/2.
+#show exact/1.
 """
 
 
@@ -54,6 +55,7 @@ class Reachability:
     can : actions that may be possible in some state
     rules : facts for the planner: ``restricted(A, G)``, ``allowed(A, G, F)``, ``needs(A, L)``
     groups : for each group of fluents that exclude one another, those that may change
+    atoms : what :func:`reachable` was asked to show besides, by predicate
     """
 
     rigid: frozenset[clingo.Symbol]
@@ -61,12 +63,19 @@ class Reachability:
     can: frozenset[clingo.Symbol]
     rules: str
     groups: tuple[tuple[clingo.Symbol, ...], ...]
+    atoms: Mapping[str, Sequence[clingo.Symbol]] = field(default_factory=dict)
 
 
-def reachable(knowledge: Knowledge, state: State) -> Reachability:
-    """Return what may hold and be done from a state on."""
+def reachable(knowledge: Knowledge, state: State, *, instances: bool = False) -> Reachability:
+    """Return what may hold and be done from a state on.
+
+    With ``instances``, ``atoms`` has the laws that may apply, without variables: ``law(action,
+    effect, conditions)``, ``conclusion(axiom, head, conditions)``, and ``forbidden(action,
+    conditions)`` where more than one condition may change.
+    """
     control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-    text = "\n".join([*_rules(knowledge), facts("initial", state.holds)])
+    rules = [*_rules(knowledge), *(_instances(knowledge) if instances else ())]
+    text = "\n".join([*rules, facts("initial", state.holds)])
     control.add("base", [], f"{text}\n{facts('unknown', state.unknown)}\n{_PROGRAM}")
     control.ground([("base", [])])
     found: list[list[clingo.Symbol]] = []
@@ -94,13 +103,13 @@ def reachable(knowledge: Knowledge, state: State) -> Reachability:
         can=can,
         rules=" ".join(f"{atom}." for atom in sorted(kept)),
         groups=tuple(tuple(sorted(own)) for _, own in sorted(groups.items())),
+        atoms=sets,
     )
 
 
 def simplified(axiom: Axiom, signature: Signature) -> bool:
     """Whether the planner needs an executability condition only where two fluents may change."""
-    conditions = _fluents(axiom, signature)
-    return len(conditions) <= 2 and not _asks_more(axiom, signature)
+    return len(_fluents(axiom, signature)) <= 2 and not asks_more(axiom, signature)
 
 
 def _rules(knowledge: Knowledge) -> Iterator[str]:
@@ -118,7 +127,7 @@ def _rules(knowledge: Knowledge) -> Iterator[str]:
         if axiom.identifier in excluded:
             continue
         static = _static_body(axiom, signature)
-        if _asks_more(axiom, signature):
+        if asks_more(axiom, signature):
             yield rule(f"touched({_atom(axiom.head)})", static)
         for condition in _fluents(axiom, signature):
             assert condition.literal is not None
@@ -127,12 +136,40 @@ def _rules(knowledge: Knowledge) -> Iterator[str]:
             )
         yield rule(f"may({axiom.head})", [*static, *_possible_body(axiom, signature)])
     for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION):
-        if not _asks_more(axiom, signature):
+        if not asks_more(axiom, signature):
             yield from _executability(axiom, knowledge)
     # Nothing may be said of some of these in a domain; then they have no rule.
+    yield "#defined law/3. #defined conclusion/3. #defined forbidden/2."
     yield "#defined touched/1. #defined in_group/2. #defined stays_exact/1. #defined forbids/2."
     yield "#defined needs/2. #defined never/1. #defined unknown/1. #defined initial/1."
     yield "#defined action/1. #defined fluent/2."
+
+
+def _instances(knowledge: Knowledge) -> Iterator[str]:
+    signature = knowledge.signature
+    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    for axiom in knowledge.axioms:
+        if not signature.changes(axiom.head.predicate) or asks_more(axiom, signature):
+            continue
+        static = _static_body(axiom, signature)
+        possible = _possible_body(axiom, signature)
+        terms = [
+            own.literal.complement if own.absent else own.literal
+            for own in _fluents(axiom, signature)
+            if own.literal
+        ]
+        conditions = f"({', '.join(map(str, terms))}{',' * (len(terms) == 1)})"
+        if axiom.kind is AxiomKind.CAUSAL_LAW:
+            body = [f"can({axiom.action})", *static, *possible]
+            yield rule(f"law({axiom.action}, {axiom.head}, {conditions})", body)
+        elif axiom.kind is AxiomKind.STATE_CONSTRAINT and axiom.identifier not in excluded:
+            head = f"conclusion({axiom.identifier}, {axiom.head}, {conditions})"
+            yield rule(head, [*static, *possible])
+        elif axiom.kind is AxiomKind.EXECUTABILITY_CONDITION and len(terms) > 1:
+            # One condition that changes, beside others that do not, is in `needs` and `allowed`.
+            changing = [f"touched({_atom(own)})" for own in terms] if len(terms) == 2 else []
+            body = [f"can({axiom.action})", *static, *possible, *changing]
+            yield rule(f"forbidden({axiom.action}, {conditions})", body)
 
 
 def _group(group: Mutex, signature: Signature) -> Iterator[str]:
@@ -219,7 +256,7 @@ def _fluents(axiom: Axiom, signature: Signature) -> list[Condition]:
     ]
 
 
-def _asks_more(axiom: Axiom, signature: Signature) -> bool:
+def asks_more(axiom: Axiom, signature: Signature) -> bool:
     """Whether a condition asks about several fluents at once: in an aggregate, or with ``_``."""
     return any(
         _mentions_fluent(own, signature)
