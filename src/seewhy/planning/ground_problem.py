@@ -18,7 +18,7 @@ from seewhy.knowledge.dynamics import constraints
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.goal import REACHED
-from seewhy.planning.reachability import Reachability, asks_more, reachable
+from seewhy.planning.reachability import asks_more, instances
 from seewhy.planning.state import State
 
 Literals = frozenset[int]
@@ -67,6 +67,8 @@ class GroundProblem:
 def ground_problem(knowledge: Knowledge, start: State) -> GroundProblem:
     """Return what can be done from a state towards the goal that the knowledge has.
 
+    Give it the relevant part of the knowledge (:func:`seewhy.planning.relevance.relevant`).
+
     Raises
     ------
     PlanningError
@@ -82,28 +84,22 @@ class _Compilation:
         for axiom in knowledge.axioms:
             if axiom.kind is not AxiomKind.DEFAULT and asks_more(axiom, knowledge.signature):
                 raise _refusal(axiom, "asks about several fluents at once, in a count or with '_'")
-        self.possible: Reachability = reachable(knowledge, start, instances=True)
-        rigid = self.possible.rigid
-        changing = {_fluent(own) for own in self.possible.may - rigid}
-        self.fluents = sorted(changing)
+        self.atoms = instances(knowledge, start)
+        self.fluents = sorted(self._first("changing"))
         self.number = {own: place for place, own in enumerate(self.fluents, start=1)}
         self.start = frozenset(self.number[own] for own in start.holds if own in self.number)
-        known = {_fluent(own) for own in start.holds}
-        basic = knowledge.signature.kind
         self.unknown = frozenset(
             self.number[own]
-            for own in self.fluents
-            if own not in known and basic(own.name) is PredicateKind.FLUENT_BASIC
+            for own in start.unknown
+            if own in self.number
+            and knowledge.signature.kind(own.name) is PredicateKind.FLUENT_BASIC
         )
         self.group: dict[int, frozenset[int]] = {}
-        for symbols in self.possible.groups:
-            group = frozenset(self.number[own] for own in symbols if own in self.number)
+        for members in self._by_first("member").values():
+            group = frozenset(self.number[own.arguments[1]] for own in members)
             self.group |= dict.fromkeys(group, group)
-        exact = {own.arguments[0] for own in self.possible.atoms.get("exact", ())}
         self.exact = {
-            self.group[self.number[own.arguments[1]]]
-            for own in self.possible.atoms.get("in_group", ())
-            if own.arguments[0] in exact and own.arguments[1] in self.number
+            self.group[self.number[own.arguments[1]]] for own in self.atoms.get("exact_member", ())
         }
         self.axioms = {own.identifier: own for own in knowledge.axioms}
         self.constraints: list[tuple[Axiom, int, Literals]] = []
@@ -111,73 +107,80 @@ class _Compilation:
         self.goals: list[Literals] = []
 
     def problem(self) -> GroundProblem:
-        atoms = self.possible.atoms
-        self._read_conclusions(atoms.get("conclusion", ()))
-        choices: dict[clingo.Symbol, dict[clingo.Symbol, list[int]]] = {}
-        for atom in atoms.get("restricted", ()):
-            choices.setdefault(atom.arguments[0], {})[atom.arguments[1]] = []
-        for atom in atoms.get("allowed", ()):
-            action, group, value = atom.arguments
-            if action in choices and value in self.possible.may:
-                choices[action][group].append(self.number[value])
-        needs: dict[clingo.Symbol, list[Literals | None]] = {}
-        for atom in atoms.get("needs", ()):
-            needs.setdefault(atom.arguments[0], []).append(self._literals(atom.arguments[1:]))
-        forbidden: dict[clingo.Symbol, list[Literals | None]] = {}
-        for atom in atoms.get("forbidden", ()):
-            body = self._literals(atom.arguments[1].arguments)
-            forbidden.setdefault(atom.arguments[0], []).append(body)
-        laws: dict[clingo.Symbol, list[tuple[Literals, int]]] = {}
-        for atom in atoms.get("law", ()):
-            action, head, conditions = atom.arguments
-            body = self._literals(conditions.arguments)
-            if body is not None and _fluent(head) in self.number:
-                laws.setdefault(action, []).append((body, self._literal(head)))
-        operators = [
-            own
-            for action in sorted(laws)
-            if action in self.possible.can
-            for own in self._operators(
-                action,
-                [sorted(own) for _, own in sorted(choices.get(action, {}).items())],
-                needs.get(action, []),
-                forbidden.get(action, []),
-                laws[action],
-            )
-        ]
-        return self._pruned(operators)
+        self._read_conclusions()
+        needs, forbidden = self._by_first("need"), self._by_first("forbidden")
+        laws, choices = self._by_first("law"), self._by_first("choice")
+        can = self._first("can")
+        return self._pruned(
+            [
+                own
+                for action in sorted(laws)
+                if action in can
+                for own in self._operators(
+                    action,
+                    choices=self._choices(choices.get(action, ())),
+                    required=self._literals(own.arguments[1] for own in needs.get(action, ())),
+                    forbidden=[
+                        self._literals(own.arguments[1].arguments)
+                        for own in forbidden.get(action, ())
+                    ],
+                    laws=[
+                        (
+                            self._literals(own.arguments[2].arguments),
+                            self._literal(own.arguments[1]),
+                        )
+                        for own in laws[action]
+                        if _fluent(own.arguments[1]) in self.number
+                    ],
+                )
+            ]
+        )
+
+    def _first(self, predicate: str) -> set[clingo.Symbol]:
+        return {own.arguments[0] for own in self.atoms.get(predicate, ())}
+
+    def _by_first(self, predicate: str) -> dict[clingo.Symbol, list[clingo.Symbol]]:
+        """The atoms of a predicate by their first argument."""
+        found: dict[clingo.Symbol, list[clingo.Symbol]] = {}
+        for atom in self.atoms.get(predicate, ()):
+            found.setdefault(atom.arguments[0], []).append(atom)
+        return found
+
+    def _choices(self, atoms: Iterable[clingo.Symbol]) -> list[list[int]]:
+        """For each group of which an action allows some values, these; constant ones allow all."""
+        found: dict[clingo.Symbol, list[int]] = {}
+        for atom in atoms:
+            _, group, value = atom.arguments
+            if value in self.number:
+                found.setdefault(group, []).append(self.number[value])
+        return [sorted(own) for _, own in sorted(found.items())]
 
     def _literal(self, symbol: clingo.Symbol) -> int:
         number = self.number[_fluent(symbol)]
         return number if symbol.positive else -number
 
-    def _literals(self, symbols: Iterable[clingo.Symbol]) -> Literals | None:
-        """The conditions that may change; None where one of the others does not hold."""
-        found = set()
-        for symbol in symbols:
-            if _fluent(symbol) in self.number:
-                found.add(self._literal(symbol))
-            elif symbol not in self.possible.rigid:
-                return None
-        return frozenset(found) if _consistent(found) else None
+    def _literals(self, symbols: Iterable[clingo.Symbol]) -> Literals:
+        """The conditions that may change; the others hold, or there would be no instance."""
+        return frozenset(self._literal(own) for own in symbols if _fluent(own) in self.number)
 
-    def _read_conclusions(self, atoms: Iterable[clingo.Symbol]) -> None:
+    def _read_conclusions(self) -> None:
         signature = self.knowledge.signature
-        for atom in atoms:
+        for atom in self.atoms.get("conclusion", ()):
             identifier, head, conditions = atom.arguments
             body = self._literals(conditions.arguments)
-            if body is None or _fluent(head) not in self.number:
+            if not _consistent(body):
                 continue
             if head.name == REACHED:
                 self.goals.append(body)
+            elif _fluent(head) not in self.number:
+                continue
             elif signature.kind(head.name) is PredicateKind.FLUENT_DEFINED:
                 self.derived.append((self._literal(head), body))
-            elif self._literal(head) not in body:
+            else:
                 axiom = self.axioms[identifier.name]
                 self._check_determined(axiom, body)
-                self.constraints.append((axiom, self._literal(head), body))
-            else:
-                self._check_determined(self.axioms[identifier.name], body)
+                if self._literal(head) not in body:
+                    self.constraints.append((axiom, self._literal(head), body))
 
     def _check_determined(self, axiom: Axiom, body: Literals) -> None:
         """Refuse a constraint by which a basic fluent may change without an action."""
@@ -194,17 +197,14 @@ class _Compilation:
     def _operators(
         self,
         action: clingo.Symbol,
+        *,
         choices: Sequence[Sequence[int]],
-        needs: Sequence[Literals | None],
-        forbidden: Sequence[Literals | None],
+        required: Literals,
+        forbidden: Sequence[Literals],
         laws: Sequence[tuple[Literals, int]],
     ) -> Iterator[Operator]:
-        if any(own is None for own in needs):
-            return
-        required = frozenset[int]().union(*filter(None, needs))
-        clauses = [own for own in forbidden if own is not None]
         for values in itertools.product(*choices):
-            waiting = list(self._split(required | frozenset(values), clauses))
+            waiting = list(self._split(required | frozenset(values), forbidden))
             while waiting:
                 condition = waiting.pop()
                 effects = self._effects(condition, laws)
@@ -291,7 +291,7 @@ class _Compilation:
         for head in [own for own in effects if own > 0 and own in self.group]:
             others = self.group[head] - {head}
             for other in others:
-                if -other not in known:
+                if -other not in known or other in effects:
                     for body in effects[head]:
                         _add(effects, -other, body)
 
@@ -338,8 +338,11 @@ class _Compilation:
             for head, body in self.derived:
                 if head in asked:
                     asked |= {abs(own) for own in body}
-            useful = [own for own in left if any(abs(e) in asked for _, e in own.effects)]
-            left = [own for own in left if own not in useful] if useful else left
+            useful: list[Operator] = []
+            rest: list[Operator] = []
+            for own in left:
+                (useful if any(abs(e) in asked for _, e in own.effects) else rest).append(own)
+            left = rest
             kept += useful
             for own in useful:
                 asked |= {abs(literal) for literal in own.condition}
