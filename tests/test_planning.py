@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from seewhy.errors import KnowledgeError, PlanningError
 from seewhy.knowledge.history import History, read_history
 from seewhy.knowledge.language import Knowledge, read_knowledge
-from seewhy.planning.diagnosis import Diagnosis, diagnose
-from seewhy.planning.goal import read_goal
+from seewhy.planning.diagnosis import Diagnosis, diagnose, diagnosis_program
+from seewhy.planning.goal import REACHED, read_goal, with_goal
 from seewhy.planning.planner import Plan, PlanStatus, plan
+from seewhy.planning.state import State
 from seewhy.planning_domain import load_planning_domain
 
 OFFICE = load_planning_domain("robot_assistant").knowledge
@@ -302,3 +303,125 @@ def test_plans_are_as_short_as_can_be(
     found = plan(known, read_goal(f"at({goal})", known), start=start, horizon=9)
     best = shortest(edges, locked, goal)
     assert (len(found.actions) if found.found else None) == best
+
+
+# Shortest, against breadth-first search over answer sets, in random worlds
+
+WORLD = """
+#sort place = {a, b, c}.
+#fluent basic at(place). #fluent basic p. #fluent basic q. #fluent basic r.
+#fluent defined d. #fluent defined e.
+#action go(place). #action x. #action y. #action z.
+go(L) causes at(L).
+-at(L2) if at(L1), L1 != L2.
+impossible go(L) if at(L).
+"""
+ATOMS = ("at(a)", "at(b)", "at(c)", "p", "q", "r")
+BASIC = st.builds(
+    lambda sign, atom: sign + atom, st.sampled_from(("", "-")), st.sampled_from(ATOMS)
+)
+ANY = st.builds(
+    lambda sign, atom: sign + atom,
+    st.sampled_from(("", "-", "not ", "not -")),
+    st.sampled_from((*ATOMS, "d")),
+)
+ACTIONS = st.sampled_from(("go(a)", "go(b)", "go(c)", "x", "y", "z"))
+
+
+def bodies(conditions: st.SearchStrategy[str], least: int = 0) -> st.SearchStrategy[str]:
+    return st.lists(conditions, min_size=least, max_size=2, unique=True).map(", ".join)
+
+
+def statement(head: str, body: str) -> str:
+    return f"{head} if {body}." if body else f"{head}."
+
+
+LAWS = st.builds(
+    lambda action, head, body: statement(f"{action} causes {head}", body),
+    ACTIONS,
+    BASIC,
+    bodies(ANY),
+)
+BANS = st.builds(
+    lambda action, body: statement(f"impossible {action}", body), ACTIONS, bodies(ANY, 1)
+)
+# With 'not', a constraint could change what no action does.
+CONSTRAINTS = st.builds(statement, BASIC, bodies(BASIC, 1))
+DEFINITIONS = st.one_of(
+    st.builds(lambda body: statement("d", body), bodies(BASIC, 1)),
+    st.builds(lambda body: statement("e", body), bodies(ANY, 1)),
+)
+WORLDS = st.tuples(
+    st.lists(LAWS, min_size=2, max_size=6),
+    st.lists(BANS, max_size=4),
+    st.lists(CONSTRAINTS, max_size=2),
+    st.lists(DEFINITIONS, max_size=3),
+).map(lambda parts: read_knowledge(WORLD + "\n".join(itertools.chain(*parts))))
+
+Beliefs = frozenset[clingo.Symbol]
+
+
+def following(knowledge: Knowledge, before: Beliefs, action: clingo.Symbol) -> set[Beliefs]:
+    """The states that may follow when an action is done, as diagnosis sees it."""
+    return answer_states(
+        knowledge,
+        " ".join([*(f":- not holds({own}, 0)." for own in before), f"happened({action}, 0)."]),
+        last=1,
+    )
+
+
+def answer_states(knowledge: Knowledge, text: str, *, last: int) -> set[Beliefs]:
+    control = clingo.Control(["--warn=none", "0", "--opt-mode=ignore"], logger=lambda *_: None)
+    control.add(diagnosis_program(knowledge, last=last) + text)
+    control.ground()
+    found: set[Beliefs] = set()
+    with control.solve(yield_=True) as models:
+        for model in models:
+            shown = [own for own in model.symbols(shown=True) if own.name == "holds"]
+            found.add(
+                frozenset(own.arguments[0] for own in shown if own.arguments[1].number == last)
+            )
+    return found
+
+
+def least_actions(knowledge: Knowledge, goal: str, start: State, horizon: int) -> int | None:
+    aimed = with_goal(knowledge, read_goal(goal, knowledge))
+    facts = " ".join(f":- not holds({own}, 0)." for own in start.holds)
+    states = answer_states(aimed, facts, last=0)
+    actions = [clingo.parse_term(own) for own in ("go(a)", "go(b)", "go(c)", "x", "y", "z")]
+    seen = set(states)
+    for steps in range(horizon + 1):
+        if any(clingo.Function(REACHED, []) in own for own in states):
+            return steps
+        states = {
+            after
+            for own, action in itertools.product(states, actions)
+            for after in following(aimed, own, action)
+        } - seen
+        seen |= states
+    return None
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    known=WORLDS,
+    goal=bodies(ANY, 1),
+    seen=st.lists(st.sampled_from(("p", "q", "r")), unique=True),
+    signs=st.tuples(*[st.sampled_from(("", "-"))] * 3),
+)
+def test_plans_are_as_short_as_can_be_in_random_worlds(
+    known: Knowledge, goal: str, seen: list[str], signs: tuple[str, str, str]
+) -> None:
+    past = "observed at(a) at 0. " + " ".join(
+        f"observed {sign}{own} at 0." for own, sign in zip(seen, signs, strict=False)
+    )
+    try:
+        start = diagnose(known, history(past, known)).now
+    except PlanningError:
+        return
+    found = plan(known, read_goal(goal, known), start=start, horizon=4)
+    assert (len(found.actions) if found.found else None) == least_actions(known, goal, start, 4)
+    assert len(found.states) == (len(found.actions) + 1 if found.found else 0)
+    for before, action, after in zip(found.states, found.actions, found.states[1:], strict=False):
+        # What stays unknown may be either way.
+        assert any(after.holds <= own for own in following(known, before.holds, action))

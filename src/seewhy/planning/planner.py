@@ -1,16 +1,23 @@
-"""Shortest plans by incremental multi-shot solving: one step more until the goal is reached."""
+"""Shortest plans.
+
+Where everything that matters is known and follows from the actions, the states of the problem
+without variables are searched forwards (:mod:`seewhy.planning.search`). The rest is left to answer
+sets, by incremental multi-shot solving: one step more until the goal is reached, from the least
+number of actions that the search leaves possible. Either way no plan is shorter.
+"""
 
 from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
 import clingo
 
+from seewhy.errors import PlanningError
 from seewhy.knowledge.axiom import AxiomKind
 from seewhy.knowledge.dynamics import (
     body_at,
@@ -23,11 +30,16 @@ from seewhy.knowledge.dynamics import (
 )
 from seewhy.knowledge.language import Knowledge
 from seewhy.planning.goal import REACHED, Goal, with_goal
+from seewhy.planning.ground_problem import GroundProblem, ground_problem
 from seewhy.planning.mutex import mutexes
 from seewhy.planning.reachability import Reachability, reachable, simplified
+from seewhy.planning.relevance import relevant
+from seewhy.planning.search import search
 from seewhy.planning.state import State, facts
 
 HORIZON = 50
+_EXPANSIONS = 20_000
+"""The states that are looked at before answer sets take over: a second or two."""
 _STEP_RULES = """
 #program state(t).
 at(t, t). at(t, always).
@@ -134,26 +146,69 @@ def plan(
     ['move(kitchen)', 'move(office)']
     """
     begun = time.perf_counter()
+    until = None if seconds is None else begun + seconds
     aimed = with_goal(knowledge, goal)
-    possible = reachable(aimed, start)
-    search = _Search(aimed, start, possible)
+    try:
+        problem = ground_problem(relevant(aimed), start)
+    except PlanningError:
+        found = _by_answer_sets(aimed, start, horizon=horizon, until=until)
+    else:
+        found = _forwards(aimed, start, problem, horizon=horizon, until=until)
+    return replace(found, seconds=time.perf_counter() - begun)
+
+
+def _forwards(
+    knowledge: Knowledge, start: State, problem: GroundProblem, *, horizon: int, until: float | None
+) -> Plan:
+    """Search the states of a ground problem; what it does not settle soon, answer sets do."""
+    found = search(problem, horizon=horizon, expansions=_EXPANSIONS, until=until)
+    if found.operators is None:
+        if found.exhausted:
+            return Plan(PlanStatus.UNREACHABLE, horizon=horizon)
+        if found.bound > horizon:
+            return Plan(PlanStatus.NOT_WITHIN_HORIZON, horizon=horizon)
+        return _by_answer_sets(knowledge, start, horizon=horizon, until=until, least=found.bound)
+    status = PlanStatus.FOUND if found.operators else PlanStatus.ALREADY_TRUE
+    actions = tuple(own.action for own in found.operators)
+    if len(relevant(knowledge, consequences=True).axioms) > len(relevant(knowledge).axioms):
+        # What else follows in the states on the way, the problem does not say.
+        followed = _Search(knowledge, start, reachable(knowledge, start)).follow(actions)
+        return Plan(status, *followed, horizon=horizon)
+    numbered = list(enumerate(problem.fluents, start=1))
+    told = {own: _denied(own) for own in problem.fluents}
+    constant = start.holds.difference(told, told.values())
+    states = tuple(
+        State(
+            constant.union(own if number in true else told[own] for number, own in numbered),
+            start.unknown,
+        )
+        for true in found.states
+    )
+    return Plan(status, actions, states, horizon=horizon)
+
+
+def _by_answer_sets(
+    knowledge: Knowledge, start: State, *, horizon: int, until: float | None, least: int = 0
+) -> Plan:
+    """Ground one step more until there is an answer set; no plan is shorter than ``least``."""
+    possible = reachable(knowledge, start)
     if clingo.Function(REACHED, []) not in possible.may:
-        return Plan(PlanStatus.UNREACHABLE, seconds=time.perf_counter() - begun, horizon=horizon)
+        return Plan(PlanStatus.UNREACHABLE, horizon=horizon)
+    search = _Search(knowledge, start, possible)
     for steps in range(horizon + 1):
-        left = None if seconds is None else seconds - (time.perf_counter() - begun)
-        found = search.solve(steps, seconds=left)
-        spent = time.perf_counter() - begun
+        search.extend(steps)
+        if steps < least:
+            continue
+        found = search.solve(steps, until=until)
         if found is not None:
             status = PlanStatus.FOUND if steps else PlanStatus.ALREADY_TRUE
-            return Plan(status, *found, seconds=spent, horizon=horizon)
-        if seconds is not None and spent >= seconds:
-            return Plan(PlanStatus.OUT_OF_TIME, seconds=spent, horizon=steps)
+            return Plan(status, *found, horizon=horizon)
+        if until is not None and time.perf_counter() >= until:
+            return Plan(PlanStatus.OUT_OF_TIME, horizon=steps)
         if not possible.can:
             break
     return Plan(
-        PlanStatus.NOT_WITHIN_HORIZON if possible.can else PlanStatus.UNREACHABLE,
-        seconds=time.perf_counter() - begun,
-        horizon=horizon,
+        PlanStatus.NOT_WITHIN_HORIZON if possible.can else PlanStatus.UNREACHABLE, horizon=horizon
     )
 
 
@@ -168,25 +223,50 @@ class _Search:
         self.control.add(text)
         self.control.ground([("base", []), ("state", [clingo.Number(0)])])
 
-    def solve(
-        self, steps: int, *, seconds: float | None
-    ) -> tuple[tuple[clingo.Symbol, ...], tuple[State, ...]] | None:
-        """Return the actions and states of a plan with so many steps, if there is one."""
+    def extend(self, steps: int) -> None:
+        """Ground the next step; to be called with every number of steps, in order."""
         number = [clingo.Number(steps)]
         if steps:
             self.control.ground([("state", number), ("step", number)])
+
+    def solve(
+        self,
+        steps: int,
+        *,
+        until: float | None,
+        actions: Sequence[clingo.Symbol] = (),
+    ) -> tuple[tuple[clingo.Symbol, ...], tuple[State, ...]] | None:
+        """Return the actions and states of a plan with so many steps, if there is one.
+
+        ``actions`` are what it begins with.
+        """
+        number = [clingo.Number(steps)]
         self.control.ground([("check", number)])
         query = clingo.Function("query", number)
         self.control.assign_external(query, True)
+        done = [
+            (clingo.Function("occurs", [action, clingo.Number(step)]), True)
+            for step, action in enumerate(actions)
+        ]
         found: list[list[clingo.Symbol]] = []
         solving: Any
         with self.control.solve(
-            on_model=lambda model: found.append(list(model.symbols(atoms=True))), async_=True
+            done, on_model=lambda model: found.append(list(model.symbols(atoms=True))), async_=True
         ) as solving:
-            if not solving.wait(seconds):
+            if not solving.wait(None if until is None else max(0.0, until - time.perf_counter())):
                 solving.cancel()
         self.control.release_external(query)
         return self._read(found[-1], steps) if found else None
+
+    def follow(
+        self, actions: Sequence[clingo.Symbol]
+    ) -> tuple[tuple[clingo.Symbol, ...], tuple[State, ...]]:
+        """Return a plan's actions with the states before, between and after them."""
+        for steps in range(len(actions) + 1):
+            self.extend(steps)
+        found = self.solve(len(actions), until=None, actions=actions)
+        assert found is not None, "the ground problem allows what the knowledge does not"
+        return found
 
     def _read(
         self, model: list[clingo.Symbol], steps: int
@@ -208,7 +288,11 @@ class _Search:
 
 
 def _fluent(literal: clingo.Symbol) -> clingo.Symbol:
-    return clingo.Function(literal.name, literal.arguments)
+    return literal if literal.positive else clingo.Function(literal.name, literal.arguments)
+
+
+def _denied(fluent: clingo.Symbol) -> clingo.Symbol:
+    return clingo.Function(fluent.name, fluent.arguments, positive=False)
 
 
 def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iterator[str]:

@@ -8,7 +8,7 @@ of the values that it allows has been reached. What it cannot reach, no plan can
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import clingo
@@ -18,6 +18,7 @@ from seewhy.knowledge.dynamics import constraints, fixed_rules, of_kind, predica
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import held
 from seewhy.knowledge.signature import Signature
+from seewhy.planning.goal import REACHED
 from seewhy.planning.mutex import Mutex, mutexes
 from seewhy.planning.state import State, facts
 
@@ -37,9 +38,27 @@ may(-F) :- unknown(F).
 may(-F) :- fluent(defined, F), not rigid(F).
 may(-F) :- in_group(_, F), touched(F).
 reached(A, G) :- allowed(A, G, F), may(F).
-can(A) :- action(A), not never(A), reached(A, G) : restricted(A, G); may(C) : needs(A, C).
+can(A) :- useful(A), not never(A), reached(A, G) : restricted(A, G); may(C) : needs(A, C).
+"""
+_RELAXATION = """
+initial(L) :- believed(L).
+useful(A) :- action(A).
 #show rigid/1. #show may/1. #show can/1. #show allowed/3. #show restricted/2. #show needs/2.
 #show in_group/2.
+"""
+_INSTANCES = """
+initial(F) :- believed(F).
+initial(-F) :- fluent(_, F), not believed(F), not unknown(F).
+wanted(F) :- in_group(G, F), wanted_group(G).
+wanted_group(G) :- in_group(G, F), wanted(F).
+changing(F) :- may(F), may(-F), not rigid(F), not rigid(-F).
+member(G, F) :- in_group(G, F), changing(F).
+exact_member(G, F) :- member(G, F), exact(G).
+choice(A, G, F) :- allowed(A, G, F), can(A), may(F).
+need(A, L) :- needs(A, L), can(A).
+#show changing/1. #show can/1. #show choice/3. #show need/2. #show member/2.
+#show exact_member/2. #show law/3. #show conclusion/3. #show forbidden/2.
+#defined wanted/1.
 """
 
 
@@ -65,17 +84,8 @@ class Reachability:
 
 def reachable(knowledge: Knowledge, state: State) -> Reachability:
     """Return what may hold and be done from a state on."""
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-    text = "\n".join([*_rules(knowledge), facts("initial", state.holds)])
-    control.add("base", [], f"{text}\n{facts('unknown', state.unknown)}\n{_PROGRAM}")
-    control.ground([("base", [])])
-    found: list[list[clingo.Symbol]] = []
-    control.solve(on_model=lambda model: found.append(list(model.symbols(shown=True))))
-    if not found:
-        return Reachability(frozenset(), frozenset(), frozenset(), "", ())
-    sets: dict[str, list[clingo.Symbol]] = {}
-    for atom in found[0]:
-        sets.setdefault(atom.name, []).append(atom)
+    believed = facts("believed", state.holds)
+    sets = _atoms([*_rules(knowledge), believed, facts("unknown", state.unknown), _RELAXATION])
     can = frozenset(atom.arguments[0] for atom in sets.get("can", ()))
     rigid = frozenset(atom.arguments[0] for atom in sets.get("rigid", ()))
     kept = [
@@ -97,10 +107,37 @@ def reachable(knowledge: Knowledge, state: State) -> Reachability:
     )
 
 
+def instances(knowledge: Knowledge, state: State) -> Mapping[str, Sequence[clingo.Symbol]]:
+    """Return the laws without variables, where they may apply and may help.
+
+    By predicate: ``changing(fluent)``, ``can(action)``, ``law(action, effect, conditions)``,
+    ``conclusion(axiom, head, conditions)``, ``need(action, literal)``, ``choice(action, group,
+    fluent)`` (an action needs one of these), ``forbidden(action, conditions)`` (not all of
+    these), ``member(group, fluent)`` and ``exact_member`` where one of the group always holds.
+    Conditions on what does not change are left out.
+    """
+    # What is not believed true, and not unknown, is believed false: that need not be told.
+    positive = (own for own in state.holds if own.positive)
+    given = [facts("believed", positive), facts("unknown", state.unknown)]
+    return _atoms([*_rules(knowledge), *_instance_rules(knowledge), *given, _INSTANCES])
+
+
+def _atoms(program: list[str]) -> dict[str, list[clingo.Symbol]]:
+    """The atoms shown of the one answer set, by predicate; none where there is no answer set."""
+    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+    control.add("base", [], "\n".join([*program, _PROGRAM]))
+    control.ground([("base", [])])
+    found: list[list[clingo.Symbol]] = []
+    control.solve(on_model=lambda model: found.append(list(model.symbols(shown=True))))
+    sets: dict[str, list[clingo.Symbol]] = {}
+    for atom in found[0] if found else ():
+        sets.setdefault(atom.name, []).append(atom)
+    return sets
+
+
 def simplified(axiom: Axiom, signature: Signature) -> bool:
     """Whether the planner needs an executability condition only where two fluents may change."""
-    conditions = _fluents(axiom, signature)
-    return len(conditions) <= 2 and not _asks_more(axiom, signature)
+    return len(_fluents(axiom, signature)) <= 2 and not asks_more(axiom, signature)
 
 
 def _rules(knowledge: Knowledge) -> Iterator[str]:
@@ -111,14 +148,14 @@ def _rules(knowledge: Knowledge) -> Iterator[str]:
     excluded = {own.axiom.identifier for own in mutexes(knowledge)}
     for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
         static = _static_body(axiom, signature)
-        yield rule(f"touched({_atom(axiom.head)})", [f"action({axiom.action})", *static])
+        yield rule(f"touched({_atom(axiom.head)})", [f"useful({axiom.action})", *static])
         possible = _possible_body(axiom, signature)
         yield rule(f"may({axiom.head})", [f"can({axiom.action})", *static, *possible])
     for axiom in constraints(knowledge):
         if axiom.identifier in excluded:
             continue
         static = _static_body(axiom, signature)
-        if _asks_more(axiom, signature):
+        if asks_more(axiom, signature):
             yield rule(f"touched({_atom(axiom.head)})", static)
         for condition in _fluents(axiom, signature):
             assert condition.literal is not None
@@ -127,12 +164,67 @@ def _rules(knowledge: Knowledge) -> Iterator[str]:
             )
         yield rule(f"may({axiom.head})", [*static, *_possible_body(axiom, signature)])
     for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION):
-        if not _asks_more(axiom, signature):
+        if not asks_more(axiom, signature):
             yield from _executability(axiom, knowledge)
     # Nothing may be said of some of these in a domain; then they have no rule.
+    yield "#defined useful/1. #defined law/3. #defined conclusion/3. #defined forbidden/2."
     yield "#defined touched/1. #defined in_group/2. #defined stays_exact/1. #defined forbids/2."
-    yield "#defined needs/2. #defined never/1. #defined unknown/1. #defined initial/1."
+    yield "#defined needs/2. #defined never/1. #defined unknown/1. #defined believed/1."
     yield "#defined action/1. #defined fluent/2."
+
+
+def _wanted(knowledge: Knowledge) -> Iterator[str]:
+    """What the goal asks about, instance by instance, and what an axiom does, whichever it is."""
+    signature = knowledge.signature
+    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    asked: set[str] = set()
+    for axiom in knowledge.axioms:
+        if axiom.kind is AxiomKind.DEFAULT or axiom.identifier in excluded:
+            continue
+        literals = [own.literal for own in _fluents(axiom, signature) if own.literal]
+        static = _static_body(axiom, signature) if signature.changes(axiom.head.predicate) else []
+        if axiom.head.predicate == REACHED:
+            for literal in literals:
+                yield rule(f"wanted({_atom(literal)})", static)
+            continue
+        asked |= {own.predicate for own in literals}
+        if axiom.kind is AxiomKind.CAUSAL_LAW:
+            body = [f"action({axiom.action})", f"wanted({_atom(axiom.head)})", *static]
+            yield rule(f"useful({axiom.action})", body)
+        elif axiom.kind is AxiomKind.STATE_CONSTRAINT:
+            asked.add(axiom.head.predicate)
+    for name in sorted(asked):
+        if signature.kind(name).is_fluent:
+            terms = tuple(f"X{place}" for place in range(len(signature.predicates[name].sorts)))
+            yield f"wanted({Literal(name, terms)}) :- fluent(_, {Literal(name, terms)})."
+
+
+def _instance_rules(knowledge: Knowledge) -> Iterator[str]:
+    signature = knowledge.signature
+    yield from _wanted(knowledge)
+    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    for axiom in knowledge.axioms:
+        if not signature.changes(axiom.head.predicate) or asks_more(axiom, signature):
+            continue
+        static = _static_body(axiom, signature)
+        possible = _possible_body(axiom, signature)
+        terms = [
+            own.literal.complement if own.absent else own.literal
+            for own in _fluents(axiom, signature)
+            if own.literal
+        ]
+        conditions = f"({', '.join(map(str, terms))}{',' * (len(terms) == 1)})"
+        if axiom.kind is AxiomKind.CAUSAL_LAW:
+            body = [f"can({axiom.action})", *static, *possible]
+            yield rule(f"law({axiom.action}, {axiom.head}, {conditions})", body)
+        elif axiom.kind is AxiomKind.STATE_CONSTRAINT and axiom.identifier not in excluded:
+            head = f"conclusion({axiom.identifier}, {axiom.head}, {conditions})"
+            yield rule(head, [*static, *possible])
+        elif axiom.kind is AxiomKind.EXECUTABILITY_CONDITION and len(terms) > 1:
+            # One condition that changes, beside others that do not, is in `needs` and `allowed`.
+            changing = [f"touched({_atom(own)})" for own in terms] if len(terms) == 2 else []
+            body = [f"can({axiom.action})", *static, *possible, *changing]
+            yield rule(f"forbidden({axiom.action}, {conditions})", body)
 
 
 def _group(group: Mutex, signature: Signature) -> Iterator[str]:
@@ -152,7 +244,7 @@ def _group(group: Mutex, signature: Signature) -> Iterator[str]:
 def _executability(axiom: Axiom, knowledge: Knowledge) -> Iterator[str]:
     """What an action needs, forbids, or that it never is: one fluent that may change at a time."""
     signature = knowledge.signature
-    static = [f"action({axiom.action})", *_static_body(axiom, signature)]
+    static = [f"useful({axiom.action})", *_static_body(axiom, signature)]
     conditions = _fluents(axiom, signature)
     certain = [_certain(own) for own in conditions]
     yield rule(f"never({axiom.action})", [*static, *certain])
@@ -219,7 +311,7 @@ def _fluents(axiom: Axiom, signature: Signature) -> list[Condition]:
     ]
 
 
-def _asks_more(axiom: Axiom, signature: Signature) -> bool:
+def asks_more(axiom: Axiom, signature: Signature) -> bool:
     """Whether a condition asks about several fluents at once: in an aggregate, or with ``_``."""
     return any(
         _mentions_fluent(own, signature)

@@ -44,4 +44,4 @@ class State:
 
 def facts(predicate: str, symbols: Iterable[clingo.Symbol]) -> str:
     """Return facts of a predicate, one for each symbol, sorted."""
-    return " ".join(f"{predicate}({own})." for own in sorted(symbols))
+    return " ".join(f"{predicate}({own})." for own in sorted(map(str, symbols)))

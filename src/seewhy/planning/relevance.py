@@ -1,0 +1,91 @@
+"""Leave out of the knowledge what cannot matter to a goal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from seewhy.knowledge.axiom import Axiom, AxiomKind
+from seewhy.knowledge.dynamics import predicates_in
+from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.signature import PredicateKind
+from seewhy.planning.goal import REACHED
+
+
+def relevant(knowledge: Knowledge, *, consequences: bool = False) -> Knowledge:
+    """Return the part of the knowledge that decides which plans reach its goal.
+
+    Actions stay that may help, with all that they change, and every constraint that what they
+    change could violate. With ``consequences``, defined fluents stay too that no condition asks
+    about but that those actions may change.
+
+    Parameters
+    ----------
+    knowledge : Knowledge
+        With a goal, as :func:`seewhy.planning.goal.with_goal` returns it.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> from seewhy.planning.goal import read_goal, with_goal
+    >>> known = read_knowledge('''
+    ... #fluent basic lit. #fluent basic loud. #fluent defined calm. #action press. #action shout.
+    ... press causes lit. shout causes loud. calm if -loud.
+    ... ''')
+    >>> part = relevant(with_goal(known, read_goal("lit", known)))
+    >>> [name for name in part.signature.predicates if part.signature.changes(name)]
+    ['lit', 'press', 'goal__']
+    """
+    signature = knowledge.signature
+    change = [own for own in knowledge.axioms if signature.changes(own.head.predicate)]
+    asked, touched, done = {REACHED}, set[str](), set[str]()
+    size = -1
+    while size != len(asked) + len(touched) + len(done):
+        size = len(asked) + len(touched) + len(done)
+        for axiom in change:
+            body = set(_fluents(axiom, knowledge))
+            head = axiom.head.predicate
+            action = axiom.action.predicate if axiom.action else ""
+            if axiom.kind is AxiomKind.STATE_CONSTRAINT:
+                if body & touched:
+                    touched.add(head)
+                basic = signature.kind(head) is PredicateKind.FLUENT_BASIC
+                if head in asked or (head in touched and (basic or consequences)):
+                    asked |= {head, *body}
+            elif axiom.kind is AxiomKind.CAUSAL_LAW:
+                if head in asked and signature.kind(action) is PredicateKind.ACTION:
+                    done.add(action)
+                if action in done:
+                    touched.add(head)
+                    asked |= {head, *body}
+            elif axiom.kind is AxiomKind.EXECUTABILITY_CONDITION and action in done:
+                asked |= body
+    names = asked | done
+    return replace(
+        knowledge,
+        signature=replace(
+            signature,
+            predicates={
+                name: own
+                for name, own in signature.predicates.items()
+                if name in names or not signature.changes(name)
+            },
+        ),
+        axioms=tuple(
+            own
+            for own in knowledge.axioms
+            if not signature.changes(own.head.predicate)
+            or (
+                own.head.predicate in names and (own.action is None or own.action.predicate in done)
+            )
+        ),
+    )
+
+
+def _fluents(axiom: Axiom, knowledge: Knowledge) -> Iterator[str]:
+    """The fluents that an axiom's conditions speak of."""
+    for condition in axiom.body:
+        names = (
+            {condition.literal.predicate} if condition.literal else predicates_in(condition.text)
+        )
+        yield from (name for name in names if knowledge.signature.kind(name).is_fluent)
