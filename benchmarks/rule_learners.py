@@ -20,6 +20,7 @@ from collections.abc import Callable, Sequence
 from itertools import product
 
 import numpy as np
+from scipy.stats import sem
 from sklearn import datasets
 from sklearn.model_selection import GridSearchCV, StratifiedKFold, StratifiedShuffleSplit
 from sklearn.preprocessing import KBinsDiscretizer
@@ -122,16 +123,18 @@ def seewhy_rules(rows: Rows, labels: np.ndarray, tolerance: float) -> Fitted:
 
 
 def best_tolerance(rows: Rows, labels: np.ndarray, seed: int) -> float:
-    """The tolerance that cross-validation prefers."""
-    folds = list(StratifiedKFold(3, shuffle=True, random_state=seed).split(rows, labels))
+    """The greatest tolerance within a standard error of what cross-validation finds best."""
+    folds = list(StratifiedKFold(5, shuffle=True, random_state=seed).split(rows, labels))
     scores = []
     for tolerance in TOLERANCES:
         right = []
         for train, test in folds:
             predict, _ = seewhy_rules(rows[train], labels[train], tolerance)
             right.append((predict(rows[test]) == labels[test]).mean())
-        scores.append(np.mean(right))
-    return TOLERANCES[int(np.argmax(scores))]
+        scores.append(right)
+    means, best = np.mean(scores, axis=1), int(np.argmax(np.mean(scores, axis=1)))
+    least = means[best] - sem(scores[best])
+    return max(own for own, mean in zip(TOLERANCES, means, strict=True) if mean >= least)
 
 
 def foldrpp_rules(rows: Rows, labels: np.ndarray, _: float) -> Fitted:

@@ -14,7 +14,7 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.planning.diagnosis import diagnose
 from seewhy.planning.environment import PlanningEnvironment
 from seewhy.planning.execution import Decision, Outcome, Run, execute
-from seewhy.planning.goal import read_goal
+from seewhy.planning.goal import Goal, read_goal
 from seewhy.planning.world import World
 from seewhy.planning_domain import load_planning_domain
 
@@ -41,7 +41,9 @@ def run(
     environment: PlanningEnvironment,
     start: World,
     script: Callable[[int, World], World] = lambda _, state: state,
-    **options: int,
+    *,
+    goal: Goal = TO_SALLY,
+    most_steps: int = 40,
 ) -> Run:
     """Pursue the goal in a world without chance, which ``script`` changes after each step."""
     environment.reset(seed=0, options={"state": start})
@@ -59,7 +61,7 @@ def run(
         state = script(next(steps), environment.transitions.after(state, [action]) or state)
         return seen()
 
-    *_, last = execute(OFFICE, TO_SALLY, sensed=seen(), act=act, **options)
+    *_, last = execute(OFFICE, goal, sensed=seen(), act=act, most_steps=most_steps)
     return last
 
 
@@ -170,3 +172,11 @@ def test_the_goal_truly_reached_ends_an_episode(environment: PlanningEnvironment
 
 def test_decisions_have_words_of_their_own() -> None:
     assert len({own.value for own in Decision}) == len(Decision)
+
+
+def test_a_goal_that_may_hold_already_is_looked_at(environment: PlanningEnvironment) -> None:
+    together = read_goal("loc(sally, kitchen), loc(bob, kitchen)", OFFICE.knowledge)
+    start = world(environment, "loc(sally,kitchen)", "loc(bob,kitchen)")
+    found = run(environment, start, goal=together)
+    assert list(map(str, found.actions)) == ["move(rob1,kitchen)"]
+    assert found.outcome is Outcome.ACHIEVED

@@ -217,6 +217,10 @@ GOAL_ERRORS = {
         "'kitchn' is not of sort 'place', which 'loc' takes here; did you mean 'kitchen'?",
     ),
     "unknown fluent": ("lok(sally, kitchen)", "'lok' is not declared; did you mean 'loc'?"),
+    "no condition": (
+        "loc(rob1, kitchen) and loc(bob, kitchen)",
+        "syntax error, unexpected a name; conditions are separated by commas",
+    ),
     "an action": (
         "move(rob1, kitchen)",
         "the action 'move' is a condition; actions stand before 'causes' or after 'impossible' "

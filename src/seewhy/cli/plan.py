@@ -57,7 +57,8 @@ def plan(
     seen = [read_ground_literal(text, knowledge.signature, of="fluent") for text in observed or ()]
     past = past.with_observations(seen, step=past.last_step)
     known = diagnose(knowledge, past)
-    found = find_plan(knowledge, aim, start=known.now, horizon=horizon or own.horizon)
+    most = own.horizon if horizon is None else horizon
+    found = find_plan(knowledge, aim, start=known.now, horizon=most)
     supposed = suppositions(knowledge, aim, found.actions, start=known.now)
     if json:
         print_json(_to_dict(found, goal, supposed))
@@ -73,7 +74,8 @@ def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...]) -> No
     from seewhy.planning.planner import PlanStatus
 
     if found.status is PlanStatus.ALREADY_TRUE:
-        say("The goal holds already; nothing is to be done.")
+        holds = "may hold" if supposed else "holds"
+        say(f"The goal {holds} already; nothing is to be done.")
     elif found.status is PlanStatus.FOUND:
         for number, action in enumerate(found.actions, start=1):
             say(f"{number:3}. {words.do(action)}")

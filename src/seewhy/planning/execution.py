@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any
@@ -16,9 +17,10 @@ from seewhy.knowledge.history import History
 from seewhy.planning.diagnosis import Surprise, diagnose
 from seewhy.planning.doubt import Doubt
 from seewhy.planning.following import follow, suppositions
-from seewhy.planning.goal import Goal
-from seewhy.planning.planner import Plan, plan
+from seewhy.planning.goal import Goal, read_goal
+from seewhy.planning.planner import Plan, PlanStatus, plan
 from seewhy.planning.reached import holds_in
+from seewhy.planning.sensing import condition_to_sense
 from seewhy.planning.state import State
 from seewhy.planning_domain import PlanningDomain
 
@@ -208,6 +210,11 @@ class _Robot:
             self.doubted_before = before
             start = self.doubt.applied(now, last_seen, before=before)
             found = self._plan(start)
+        supposed: tuple[clingo.Symbol, ...] = ()
+        if found.found:
+            supposed = suppositions(knowledge, goal, found.actions, start=start)
+        if found.status is PlanStatus.ALREADY_TRUE:
+            found = self._look(start, supposed)
         seconds = time.perf_counter() - begun
         if not found.actions:
             return {
@@ -220,9 +227,23 @@ class _Robot:
             "decision": Decision.REPLAN if self.began else Decision.PLAN,
             "plan": found.actions,
             "action": found.actions[0],
-            "supposed": suppositions(knowledge, goal, found.actions, start=start),
+            "supposed": supposed,
             "planning_seconds": seconds,
         }
+
+    def _look(self, start: State, supposed: Sequence[clingo.Symbol]) -> Plan:
+        """A shortest plan to see whether something supposed is so: the goal may hold already."""
+        shortest = Plan(PlanStatus.UNREACHABLE)
+        for literal in supposed:
+            for sensing in self.domain.sensing:
+                where = condition_to_sense(sensing, literal)
+                if where is None:
+                    continue
+                aim = read_goal(where, self.domain.knowledge)
+                found = plan(self.domain.knowledge, aim, start=start, horizon=self.domain.horizon)
+                if found.actions and len(found.actions) < (len(shortest.actions) or math.inf):
+                    shortest = found
+        return shortest
 
     def _ages(self, last_seen: Mapping[clingo.Symbol, int]) -> list[int]:
         steps = {own for fluent, own in last_seen.items() if fluent in self.doubt.fluents}
@@ -237,7 +258,7 @@ class _Robot:
         for fluent in sorted(own for own, step in last_seen.items() if step == latest):
             less = {own: step for own, step in last_seen.items() if own != fluent}
             start = self.doubt.applied(now, less, before=latest)
-            if fluent in start.unknown and self._plan(start).found:
+            if fluent in start.unknown and self._plan(start).actions:
                 found.append(fluent if fluent in now.holds else _opposite(fluent))
         usual = diagnose(self.domain.knowledge, self.domain.history).states[0].holds
         unusual = [own for own in found if _opposite(own) in usual]

@@ -12,6 +12,7 @@ from seewhy.knowledge.signature import Location, Predicate, PredicateKind
 
 REACHED = "goal__"
 """The defined fluent that holds where the goal does."""
+_READS = "an axiom reads 'head if condition, condition.'"
 _PLACE = re.compile(r"goal:\d+:\d+: ")
 
 
@@ -57,6 +58,7 @@ def read_goal(text: str, knowledge: Knowledge) -> Goal:
         )
     except (KnowledgeError, ValueError) as problem:
         said = _PLACE.sub("", str(problem)).replace(f"{REACHED} if ", "")
+        said = said.replace(_READS, "conditions are separated by commas")
         raise PlanningError(f"the goal '{conditions}' cannot be used: {said}") from None
     return Goal(text=conditions, axiom=axiom)
 

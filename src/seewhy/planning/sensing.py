@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import clingo
 
 from seewhy.errors import KnowledgeError
-from seewhy.knowledge.axiom import Condition, Literal
+from seewhy.knowledge.axiom import Condition, Literal, substitute, variables_in
 from seewhy.knowledge.dynamics import at_step, fixed_rules, rule
 from seewhy.knowledge.language import Knowledge, read_axioms
 from seewhy.planning.world import World
@@ -43,6 +43,27 @@ def read_sensing(literal: str, where: str, knowledge: Knowledge, *, error: float
             f"'{literal}' is no fluent; what is sensed is whether a fluent such as loc(P, L) holds"
         )
     return Sensing(literal=axiom.head, conditions=axiom.body, error=error)
+
+
+def condition_to_sense(sensing: Sensing, literal: clingo.Symbol) -> str | None:
+    """Return where a literal can be sensed by this rule, as a goal; None where it cannot.
+
+    Examples
+    --------
+    >>> from seewhy.planning_domain import load_planning_domain
+    >>> office = load_planning_domain("robot_assistant")
+    >>> condition_to_sense(office.sensing[0], clingo.parse_term("loc(sally,kitchen)"))
+    'loc(rob1, kitchen)'
+    """
+    if sensing.literal.predicate != literal.name:
+        return None
+    binding: dict[str, str] = {}
+    for argument, value in zip(sensing.literal.arguments, literal.arguments, strict=True):
+        if binding.setdefault(argument, str(value)) != str(value):
+            return None
+        if not variables_in(argument) and argument != str(value):
+            return None
+    return ", ".join(substitute(own.text, binding) for own in sensing.conditions)
 
 
 class Sensors:
