@@ -429,3 +429,9 @@ def test_plans_are_as_short_as_can_be_in_random_worlds(
     for before, action, after in zip(found.states, found.actions, found.states[1:], strict=False):
         # What stays unknown may be either way.
         assert any(after.holds <= own for own in following(known, before.holds, action))
+
+
+def test_what_an_axiom_touches_but_nothing_makes_false_stays_true() -> None:
+    known = read_knowledge("#fluent basic p. #fluent basic r. #action x. x causes r. p if -r, p.")
+    start = diagnose(known, history("observed p at 0. observed -r at 0.", known)).now
+    assert not plan(known, read_goal("not p", known), start=start).found

@@ -207,12 +207,12 @@ def _instance_rules(knowledge: Knowledge) -> Iterator[str]:
         if not signature.changes(axiom.head.predicate) or asks_more(axiom, signature):
             continue
         static = _static_body(axiom, signature)
-        possible = _possible_body(axiom, signature)
         terms = [
             own.literal.complement if own.absent else own.literal
             for own in _fluents(axiom, signature)
             if own.literal
         ]
+        possible = [f"may({own})" for own in terms]
         conditions = f"({', '.join(map(str, terms))}{',' * (len(terms) == 1)})"
         if axiom.kind is AxiomKind.CAUSAL_LAW:
             body = [f"can({axiom.action})", *static, *possible]
