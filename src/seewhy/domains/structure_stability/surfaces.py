@@ -3,26 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
-from seewhy.domains.structure_stability.rays import Array, Hits, Scene
 from seewhy.domains.structure_stability.structure import Structure
 from seewhy.domains.structure_stability.view import View
+from seewhy.rendering.rays import Hits, Scene
+from seewhy.rendering.texture import waves
+from seewhy.rendering.vectors import Array, along, column, unit
 
 __all__ = ["background", "shade"]
 
 _BEVEL = 0.0022  # Radius of the rounded edges of the blocks, in metres.
 _SKY_COLOUR = np.array([[0.95], [1.0], [1.07]], np.float32)
-
-
-def _waves(at: Array, rng: np.random.Generator, *, wavelength: float, count: int = 4) -> Array:
-    """Smooth noise of a wavelength in metres, from -1 to 1, at places of shape (3, n)."""
-    directions = rng.normal(size=(count, 3)) * (2.0 * math.pi / wavelength / math.sqrt(2.0))
-    phases = rng.uniform(0.0, 2.0 * math.pi, (count, 1))
-    angles = directions.astype(np.float32) @ at + phases.astype(np.float32)
-    return np.asarray(np.sin(angles).mean(axis=0))
 
 
 def _albedo(hits: Hits, structure: Structure, view: View) -> Array:
@@ -34,24 +27,24 @@ def _albedo(hits: Hits, structure: Structure, view: View) -> Array:
         rows = np.flatnonzero(hits.geom == number)
         at = hits.local.take(rows, 0).T
         # Under the paint the grain of the wood runs along the width of the block.
-        bent = 0.002 * _waves(at, own, wavelength=0.05)
+        bent = 0.002 * waves(at, own, wavelength=0.05)
         grain_at = np.stack([0.06 * at[0], at[1] + bent, at[2] + bent])
-        grain = _waves(grain_at, own, wavelength=0.0045, count=5)
-        cloud = _waves(at, own, wavelength=0.03)
-        paint = _column(block.colour) ** 2.2
+        grain = waves(grain_at, own, wavelength=0.0045, count=5)
+        cloud = waves(at, own, wavelength=0.03)
+        paint = column(block.colour) ** 2.2
         colour[:, rows] = paint * (1.0 + 0.10 * grain + 0.10 * cloud) + 0.006
     rows = np.flatnonzero(hits.geom == 0)
     at = hits.local.take(rows, 0).T
     grain_at = np.stack([0.05 * at[0], at[1] + 0.004 * np.sin(9.0 * at[0]), at[2]])
-    shade = 1.0 + 0.16 * _waves(grain_at, rng, wavelength=0.011, count=6)
-    shade += 0.10 * _waves(at, rng, wavelength=0.09)
+    shade = 1.0 + 0.16 * waves(grain_at, rng, wavelength=0.011, count=6)
+    shade += 0.10 * waves(at, rng, wavelength=0.09)
     if view.planks:
         across = at[1] / view.planks + rng.uniform()
         board = np.floor(across)
         shade *= 1.0 + 0.13 * np.sin(board * 12.9898 + view.texture % 7)
         seam = np.abs(across - board - 0.5) * 2.0
         shade *= 1.0 - 0.35 * np.clip((seam - 1.0) * view.planks / 0.005 + 1.0, 0.0, 1.0)
-    colour[:, rows] = _column(view.table) * shade
+    colour[:, rows] = column(view.table) * shade
     return np.asarray(np.clip(colour, 0.004, 0.95))
 
 
@@ -69,17 +62,7 @@ def _rounded(hits: Hits, scene: Scene) -> Array:
         over = np.clip((np.abs(at) - begins) / _BEVEL, 0.0, 1.0)
         over[hits.face[rows], np.arange(len(rows))] = 0.0
         bent[:, rows] = rotation @ (flat + 0.9 * over * over * np.sign(at))
-    return _unit(bent)
-
-
-def _along(one: Array, other: Array) -> Array:
-    """The scalar products of vectors, from (3, n) to (n,)."""
-    return np.asarray(one[0] * other[0] + one[1] * other[1] + one[2] * other[2])
-
-
-def _unit(vectors: Array) -> Array:
-    """Vectors of length 1, shape (3, n)."""
-    return np.asarray(vectors / np.sqrt(_along(vectors, vectors)))
+    return unit(bent)
 
 
 def shade(
@@ -98,30 +81,25 @@ def shade(
     """
     normal = _rounded(hits, scene)
     point = np.ascontiguousarray(hits.point.T, dtype=np.float32)
-    lamp = _column(view.lamp)
-    lamp_colour, table = _column(view.lamp_colour), _column(view.table)
+    lamp = column(view.lamp)
+    lamp_colour, table = column(view.lamp_colour), column(view.table)
     is_block = hits.geom > 0
     lit, open_sky = lit.astype(np.float32), open_sky.astype(np.float32)
     towards = lamp - point
-    weaker = (lamp * lamp).sum() / _along(towards, towards)
-    towards = _unit(towards)
-    direct = np.maximum(_along(normal, towards), 0.0) * lit * weaker
+    weaker = (lamp * lamp).sum() / along(towards, towards)
+    towards = unit(towards)
+    direct = np.maximum(along(normal, towards), 0.0) * lit * weaker
     sky = view.sky * open_sky * (0.62 + 0.38 * normal[2])
     # What the lit table throws back at the sides of the blocks that stand on it.
     near = np.exp(np.minimum(-point[2], 0.0) / 0.06) * (1.0 - np.abs(normal[2])) * is_block
     light = direct * lamp_colour + sky * _SKY_COLOUR + 0.3 * near * table
     # A thin coat of varnish: a soft highlight of the lamp, and the room at a grazing angle.
-    back = _unit(_column(eye) - point)
-    shine = np.maximum(_along(normal, _unit(back + towards)), 0.0) ** 34 * lit * is_block
-    grazing = (1.0 - np.maximum(_along(normal, back), 0.0)) ** 2
+    back = unit(column(eye) - point)
+    shine = np.maximum(along(normal, unit(back + towards)), 0.0) ** 34 * lit * is_block
+    grazing = (1.0 - np.maximum(along(normal, back), 0.0)) ** 2
     mirror = np.where(is_block, np.float32(0.05), np.float32(0.10)) * grazing * grazing * open_sky
-    varnish = 0.11 * shine * lamp_colour + mirror * _column(view.wall)
+    varnish = 0.11 * shine * lamp_colour + mirror * column(view.wall)
     return np.asarray((_albedo(hits, structure, view) * light + varnish).T)
-
-
-def _column(values: Any) -> Array:
-    """Three numbers, shape (3, 1)."""
-    return np.array(values, np.float32)[:, None]
 
 
 def background(rays: Array, across: Array, view: View) -> Array:

@@ -1,35 +1,41 @@
-"""A structure on its table as MuJoCo's ray caster sees it."""
+"""What MuJoCo's ray caster meets in a scene."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
 
 import mujoco
 import numpy as np
-from numpy.typing import NDArray
 
-from seewhy.domains.structure_stability.physics import build_model
-from seewhy.domains.structure_stability.structure import Structure
+from seewhy.rendering.vectors import Array
 
-__all__ = ["Array", "Hits", "Scene", "dot"]
-
-Array = NDArray[Any]
-
-
-def dot(one: Array, other: Array) -> Array:
-    """The scalar products of the rows of two arrays of shape (n, 3), shape (n,)."""
-    return np.asarray(np.einsum("ij,ij->i", one, other))
+__all__ = ["Hits", "Scene"]
 
 
 class Scene:
-    """The structure on its table in MuJoCo, to cast rays in."""
+    """A compiled model in MuJoCo, its kinematics computed, to cast rays in.
 
-    def __init__(self, structure: Structure) -> None:
-        self.model, self.data = build_model(structure)
+    Examples
+    --------
+    >>> model = mujoco.MjModel.from_xml_string(
+    ...     '<mujoco><worldbody><geom type="box" size="1 1 1"/></worldbody></mujoco>')
+    >>> data = mujoco.MjData(model)
+    >>> mujoco.mj_forward(model, data)
+    >>> hits = Scene(model, data).look(np.array([0.0, -3.0, 0.0]), np.array([[0.0, 1.0, 0.0]]))
+    >>> hits.point.tolist(), hits.normal.tolist(), hits.face.tolist()
+    ([[0.0, -1.0, 0.0]], [[0.0, -1.0, 0.0]], [1])
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        self.model, self.data = model, data
         self.half: Array = self.model.geom_size.astype(np.float32)
         self.centre: Array = self.data.geom_xpos.copy()
         self.rotation: Array = self.data.geom_xmat.reshape(-1, 3, 3).copy()
+        kind = self.model.geom_type
+        self._flat_ends = (kind == mujoco.mjtGeom.mjGEOM_BOX) | (
+            kind == mujoco.mjtGeom.mjGEOM_CYLINDER
+        )
+        self._flat_sides = kind == mujoco.mjtGeom.mjGEOM_BOX
 
     def cast(
         self, origin: Array, directions: Array, *, normals: bool = False
@@ -61,12 +67,19 @@ class Scene:
         point = eye + distance[:, None] * rays
         local = np.zeros((len(geom), 3), np.float32)
         face = np.zeros(len(geom), np.int64)
+        order = np.argsort(geom, kind="stable")
+        ends = np.searchsorted(geom[order], np.arange(len(self.rotation) + 1))
         for number, rotation in enumerate(self.rotation):
-            rows = np.flatnonzero(geom == number)
+            rows = order[ends[number] : ends[number + 1]]
+            if not len(rows):
+                continue
             local[rows] = (point.take(rows, 0) - self.centre[number]) @ rotation
             along = np.abs(normal.take(rows, 0) @ rotation)
-            # The normal is one of the axes of the geom: one component is 1, the others are 0.
-            face[rows] = (along[:, 1] > 0.5) + 2 * (along[:, 2] > 0.5)
+            # On a flat face the normal is an axis of the geom: one component is 1, the others 0.
+            if self._flat_sides[number]:
+                face[rows] = along[:, 1] > 0.5
+            if self._flat_ends[number]:
+                face[rows] += 2 * (along[:, 2] > 0.99)
         return Hits(geom, point, normal, local, face)
 
 
@@ -74,10 +87,11 @@ class Scene:
 class Hits:
     """What a bundle of rays meets, one row a ray.
 
-    - `geom`: number of the geom, 0 the table, 1 the lowest block; -1 nothing. Shape (n,).
+    - `geom`: number of the geom in the model; -1 nothing. Shape (n,).
     - `point`, `normal`: place and outward normal in the world, shape (n, 3).
     - `local`: the place in the frame of the geom, shape (n, 3).
-    - `face`: the axis of the geom, 0 to 2, along which the normal points. Shape (n,).
+    - `face`: the axis of the geom, 0 to 2, along which the normal of a flat face points; 0 on
+      round ones. Shape (n,).
     """
 
     geom: Array

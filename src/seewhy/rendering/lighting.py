@@ -1,7 +1,7 @@
 """Soft light: how much of a lamp with a real size, and of the sky, each point sees.
 
 Every point asks a few of sixteen points of the lamp and of the sky; its neighbours ask the
-others, and neighbours on the same face of a block share what they found (interleaved sampling:
+others, and neighbours on the same face of a geom share what they found (interleaved sampling:
 Keller and Heidrich, 2001).
 """
 
@@ -11,14 +11,14 @@ import math
 
 import numpy as np
 
-from seewhy.domains.structure_stability.rays import Array, Hits, Scene, dot
-from seewhy.domains.structure_stability.view import View
+from seewhy.rendering.rays import Hits, Scene
+from seewhy.rendering.vectors import Array, dot
 
 __all__ = [
     "LIGHTS",
     "TILE",
     "ask_order",
-    "lamp_points",
+    "disc_points",
     "nearest_alike",
     "share",
     "sky_points",
@@ -38,21 +38,24 @@ _ORDER = np.array([0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5])
 _AROUND = ((0, 0), (0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1))
 
 
-def lamp_points(view: View, turn: float) -> Array:
-    """Points spread evenly over the disc of the lamp, shape (16, 3); `turn` is the first angle."""
-    lamp = np.array(view.lamp)
+def disc_points(centre: tuple[float, float, float], radius: float, turn: float) -> Array:
+    """Points spread evenly over a round lamp that faces the origin, shape (16, 3).
+
+    `turn` is the first angle.
+    """
+    lamp = np.array(centre)
     facing = lamp / np.linalg.norm(lamp)
     side = np.cross(facing, [0.0, 0.0, 1.0])
     side /= np.linalg.norm(side)
     other = np.cross(facing, side)
     angle = _spiral(turn)
-    radius = view.lamp_size * np.sqrt(_EVENLY)[:, None]
-    points: Array = lamp + radius * (np.cos(angle)[:, None] * side + np.sin(angle)[:, None] * other)
+    out = radius * np.sqrt(_EVENLY)[:, None]
+    points: Array = lamp + out * (np.cos(angle)[:, None] * side + np.sin(angle)[:, None] * other)
     return points
 
 
 def sky_points(turn: float) -> Array:
-    """Points spread evenly over the sky down to just above the table, shape (16, 3)."""
+    """Points spread evenly over the sky down to just above the horizon, shape (16, 3)."""
     height = 0.06 + 0.9 * _EVENLY
     flat = np.sqrt(1.0 - height**2)
     angle = _spiral(turn)
@@ -72,18 +75,18 @@ def ask_order(rows: Array, columns: Array) -> Array:
 def visible(scene: Scene, hits: Hits, lights: Array, turn: Array, *, asks: int = 1) -> list[Array]:
     """What each point sees of the lights that it asks.
 
-    `lights` has shape (kinds, 16, 3): the points of the lamp and those of the sky. Of every kind a
-    point on the table asks number `turn`, and where `asks` is 2, 4 or 8 that many evenly spread
-    from there on; a point on a block asks twice as many, because its face may fill only a part of
-    a tile. For every kind the result holds the light that arrives and the light that would without
-    anything in between, both weighted by the cosine at the surface and of shape (n,).
+    `lights` has shape (kinds, 16, 3): the points of each kind of light. Of every kind a point on
+    geom 0, the ground, asks number `turn`, and where `asks` is 2, 4 or 8 that many evenly spread
+    from there on; a point on another geom asks twice as many, because its face may fill only a
+    part of a tile. For every kind the result holds the light that arrives and the light that would
+    without anything in between, both weighted by the cosine at the surface and of shape (n,).
     """
     arrives = np.zeros((len(lights), len(hits.geom)), np.float32)
     possible = np.zeros_like(arrives)
     surface = hits.point + _LIFT * hits.normal
     level = dot(hits.normal, surface)
-    on_any, on_block = hits.geom >= 0, hits.geom > 0
-    step = np.where(on_block, LIGHTS // asks // 2, LIGHTS // asks)
+    on_any, on_thing = hits.geom >= 0, hits.geom > 0
+    step = np.where(on_thing, LIGHTS // asks // 2, LIGHTS // asks)
     first = np.where(on_any, turn % step, -1)
     for number in range(LIGHTS):
         rows = np.flatnonzero(first == number % step)
