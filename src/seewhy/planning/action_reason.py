@@ -26,11 +26,12 @@ class Failing:
 
     ``action`` is the first that cannot be done, or None where all can but the goal is not
     reached; ``place`` is its place in the sequence, ``obstacles`` are the executability
-    conditions that forbid it.
+    conditions that forbid it. ``state`` is what the actions before it lead to.
     """
 
     place: int
     action: clingo.Symbol | None
+    state: State
     obstacles: tuple[Applied, ...] = ()
 
 
@@ -63,10 +64,9 @@ class Intentions:
     >>> from seewhy.planning_domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")
     >>> goal = read_goal("loc(rob1, kitchen)", domain.knowledge)
-    >>> start = read_goal("loc(rob1, bathroom)", domain.knowledge).axiom.body[0].literal
-    >>> run = next(execute(domain, goal, sensed=[start], act=lambda action: []))
-    >>> why_not = Intentions(domain, run).why_not(clingo.parse_term("move(rob1,library)"),
-    ...     run.steps[0])
+    >>> run = next(execute(domain, goal, sensed=[], act=lambda action: []))
+    >>> elsewhere = clingo.parse_term("move(rob1,sallys_office)")
+    >>> why_not = Intentions(domain, run).why_not(elsewhere, run.steps[0])
     >>> why_not.against.value, why_not.obstacles[0].axiom.text
     ('it was impossible', 'the robot moves to places next to its own')
     """
@@ -103,11 +103,11 @@ class Intentions:
         for place, action in enumerate(actions):
             after = state_after(knowledge, actions[: place + 1], start=start)
             if after is None:
-                return Failing(place, action, self.obstacles(action, before))
+                return Failing(place, action, before, self.obstacles(action, before))
             before = after
         if follow(knowledge, self.run.goal, actions, start=start):
             return None
-        return Failing(len(actions), None)
+        return Failing(len(actions), None, before)
 
     def obstacles(self, action: clingo.Symbol, state: State) -> tuple[Applied, ...]:
         """Return the executability conditions that forbid an action in a state."""

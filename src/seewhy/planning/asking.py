@@ -14,7 +14,6 @@ from rapidfuzz.distance import DamerauLevenshtein
 
 from seewhy.errors import QuestionError
 from seewhy.knowledge.signature import PredicateKind
-from seewhy.planning.mutex import mutexes
 from seewhy.planning.speech import base
 from seewhy.planning.whereabouts import places
 from seewhy.planning_domain import PlanningDomain
@@ -258,7 +257,8 @@ class PlanningQuestions:
                 robot if own is None and template.sorts[place] in self._sorts[robot] else own
                 for place, own in enumerate(arguments)
             ]
-        text = self._filled(template, {s: own for s, (_, own) in zip(template.slots, chosen)})
+        filling = zip(template.slots, chosen, strict=True)
+        text = self._filled(template, {slot: own for slot, (_, own) in filling})
         when = "" if step is None else f" at step {step}"
         return Query(
             asks=template.asks,
@@ -358,10 +358,13 @@ class PlanningQuestions:
         read = " ".join(own if isinstance(own, str) else _HOLE for own in marked)
         things = [own for own in marked if isinstance(own, _Thing)]
 
+        told = _told(read.split())
+        alike = [own for own in self._skeletons if _told(own[1]) == told] if marked else []
+
         def unlikeness(own: tuple[_Template, list[str]]) -> float:
             return -fuzz.ratio(read, " ".join(own[1]))
 
-        ranked = sorted(self._skeletons, key=unlikeness) if marked else self._skeletons
+        ranked = sorted(alike or self._skeletons, key=unlikeness) if marked else self._skeletons
         texts: dict[str, None] = {}
         asked: set[tuple[Asks, str | None]] = set()
         for template, _ in ranked:
@@ -395,7 +398,7 @@ def _chosen(
 
 def _fits(asks: Asks, read: Sequence[str], skeleton: Sequence[str], alike: float) -> bool:
     if asks in _ACTIONS:
-        return alike >= _ALIKE_ACTION and _HOLE in read or alike >= _ALIKE
+        return (alike >= _ALIKE_ACTION and _HOLE in read) or alike >= _ALIKE
     telling = [word for word in skeleton if word not in _FREE]
     return alike >= _ALIKE and all(
         max(fuzz.ratio(word, other) for other in read) >= _ALIKE for word in telling

@@ -55,7 +55,7 @@ def say_counted(beliefs: Beliefs, literal: clingo.Symbol, step: int) -> str | No
         rule = f'"{axiom.text}"' if has_sentence(axiom) else ""
         if literal.positive:
             return f"{speech.say(literal)} because {clauses}"
-        but = f"only {clauses}" if clauses else "I know of nothing that counts"
+        but = f"only {clauses}" if clauses else "I know of nothing that would make it otherwise"
         return ", and ".join(filter(None, [f"{speech.say(literal)}: {but}", rule]))
     return None
 

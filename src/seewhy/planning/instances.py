@@ -48,7 +48,8 @@ class Instances:
     ... impossible read(P) if dark(P).
     ... ''')
     >>> state = [clingo.parse_term("dark(attic)")]
-    >>> (own,) = Instances(known).of(known.axioms[0], state, action=clingo.parse_term("read(attic)"))
+    >>> read = clingo.parse_term("read(attic)")
+    >>> (own,) = Instances(known).of(known.axioms[0], state, action=read)
     >>> [str(literal) for literal in own.holds]
     ['dark(attic)']
     """

@@ -10,7 +10,7 @@ import clingo
 
 from seewhy.planning.diagnosis import Surprise
 from seewhy.planning.words import PlanningWords
-from seewhy.wording import join_words, say_one_of
+from seewhy.wording import join_words, say_one_of, sentence
 
 _ME = "\x01"
 _PAST = {"is": "was", "are": "were", "am": "was", "has": "had", "have": "had", "does": "did",
@@ -119,6 +119,8 @@ def together(clauses: Sequence[str]) -> str:
     --------
     >>> together(["a cup is here", "a sofa is here", "Sally is away"])
     'a cup and a sofa are here and Sally is away'
+    >>> together(["Sally is not in the kitchen", "Sally is not in the library"])
+    'Sally is not in the kitchen or library'
     """
     groups: dict[tuple[str, str], list[str]] = {}
     for clause in dict.fromkeys(clauses):
@@ -130,12 +132,39 @@ def together(clauses: Sequence[str]) -> str:
     said = []
     for (verb, rest), parts in groups.items():
         if not rest:
-            said.append(say_one_of(parts, word="and"))
+            said += parts
         elif len(parts) == 1:
             said.append(f"{parts[0]} {verb} {rest}")
         else:
             said.append(f"{join_words(parts)} {_PLURAL[verb]} {rest}")
-    return join_words(said)
+    return join_words(_by_subject(said))
+
+
+def _by_subject(clauses: Sequence[str]) -> list[str]:
+    """Draw together neighbours that share at least three words at the beginning."""
+    groups: list[list[str]] = []
+    for clause in clauses:
+        beginning = clause.split(" ")[:3]
+        same = groups and groups[-1][0].split(" ")[:3] == beginning and len(beginning) == 3
+        if same and "," not in clause:
+            groups[-1].append(clause)
+        else:
+            groups.append([clause])
+    return [
+        say_one_of(own, word="or" if re.search(r"\b(not|no)\b", own[0]) else "and")
+        for own in groups
+    ]
+
+
+def sentences(clauses: Iterable[str]) -> str:
+    """Return clauses as sentences, empty ones left out.
+
+    Examples
+    --------
+    >>> sentences(["it is so", "", "I saw it"])
+    'It is so. I saw it.'
+    """
+    return " ".join(sentence(own) for own in clauses if own)
 
 
 def plural(noun: str) -> str:
