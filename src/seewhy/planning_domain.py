@@ -122,7 +122,13 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         title=table.planning.title,
         knowledge=knowledge,
         history=read_history_file(past, knowledge.signature) if past.is_file() else History(),
-        words=PlanningWords(table.things, table.fluents, table.actions, table.planning.robot),
+        words=PlanningWords(
+            table.things,
+            table.fluents,
+            table.actions,
+            table.planning.robot,
+            possessives=table.possessives,
+        ),
         robot=table.planning.robot,
         horizon=table.planning.horizon,
         sensing=tuple(sensing),
@@ -158,9 +164,10 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
     robot = table.planning.robot
     if robot is not None and robot not in members:
         yield ("planning", "robot"), f"'{robot}' is of no sort; {did_you_mean(robot, members)}"
-    for thing in table.things:
-        if thing not in members:
-            yield ("things", thing), f"'{thing}' is of no sort; {did_you_mean(thing, members)}"
+    for key, things in (("things", table.things), ("possessives", table.possessives)):
+        for thing in things:
+            if thing not in members:
+                yield (key, thing), f"'{thing}' is of no sort; {did_you_mean(thing, members)}"
     for kind, named, known in (
         ("fluents", _said(table.fluents), fluents),
         ("actions", _said(table.actions), actions),

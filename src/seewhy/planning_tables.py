@@ -85,10 +85,14 @@ class MapTable(_Table):
 
 
 class PlanningFile(_Table):
-    """The whole of planning.toml."""
+    """The whole of planning.toml.
+
+    ``possessives`` says for a thing what stands for its name with 's, once it was named: "her".
+    """
 
     planning: PlanningTable
     things: dict[str, str] = {}
+    possessives: dict[str, str] = {}
     fluents: dict[str, FluentTable] = {}
     actions: dict[str, ActionTable] = {}
     sensing: tuple[SensingTable, ...] = ()

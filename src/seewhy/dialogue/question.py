@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -19,6 +18,7 @@ from seewhy.domain import Domain
 from seewhy.domain_tables import QuestionTable
 from seewhy.errors import DomainError, QuestionError
 from seewhy.nearest import did_you_mean
+from seewhy.question_words import CONTRACTIONS, words_of
 from seewhy.toml_file import line_of
 
 LONGEST_QUESTION = 300
@@ -46,12 +46,6 @@ _ABOUT_A_CLASS = {
     Asks.DIFFERENCE_TO_CLASS,
 }  # fmt: skip
 _ABOUT_A_FEATURE = {Asks.FEATURE_VALUE, Asks.FEATURE_IS}
-_CONTRACTIONS = {
-    "what's": "what is", "whats": "what is", "it's": "it is", "isn't": "is not",
-    "isnt": "is not", "aren't": "are not", "doesn't": "does not", "doesnt": "does not",
-    "don't": "do not", "won't": "will not", "can't": "can not", "cannot": "can not",
-    "there's": "there is", "how's": "how is", "why's": "why is",
-}  # fmt: skip
 _DROPPED = {"a", "an", "the", "any", "some"}
 _SUBJECT = {"it", "this", "that", "these", "those"}
 # Words that a question may have or lack without asking for anything else.
@@ -117,14 +111,14 @@ class Questions:
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
         _check_words(domain)
-        self._subject = {_STEM(word) for word in (_tokens(domain.subject)[-1], *_SUBJECT)}
+        self._subject = {_STEM(word) for word in (words_of(domain.subject)[-1], *_SUBJECT)}
         self._synonyms = self._read_synonyms()
         self._known: dict[tuple[str, ...], Question] = {}
-        spelling: set[str] = set(_CONTRACTIONS) | _LIGHT | _SUBJECT | _DROPPED
+        spelling: set[str] = set(CONTRACTIONS) | _LIGHT | _SUBJECT | _DROPPED
         for canonical, others in domain.questions.synonyms.items():
-            spelling.update(word for phrase in (canonical, *others) for word in _tokens(phrase))
+            spelling.update(word for phrase in (canonical, *others) for word in words_of(phrase))
         for question in self._expand(domain):
-            spelling.update(_tokens(question.text))
+            spelling.update(words_of(question.text))
             self._known.setdefault(question.words, question)
         self._by_weighty: dict[frozenset[str], list[Question]] = {}
         for question in self._known.values():
@@ -165,7 +159,7 @@ class Questions:
                 f"{self._suggest(self._examples())}",
                 nearest=self._examples(),
             )
-        tokens = _tokens(text)
+        tokens = words_of(text)
         if not any(re.search("[a-z]", token) for token in tokens):
             raise QuestionError(
                 f"'{' '.join(text.split())}' has no word in the vocabulary's alphabet; "
@@ -252,18 +246,18 @@ class Questions:
     def _read_synonyms(self) -> dict[str, list[tuple[tuple[str, ...], tuple[str, ...]]]]:
         """First stem → the phrases that begin with it and what they stand for, longest first."""
         pairs = [
-            (tuple(map(_STEM, _tokens(other))), tuple(map(_STEM, _tokens(canonical))))
+            (tuple(map(_STEM, words_of(other))), tuple(map(_STEM, words_of(canonical))))
             for canonical, others in self.domain.questions.synonyms.items()
             for other in others
         ]
-        fillers = [(tuple(map(_STEM, _tokens(f))), ()) for f in self.domain.questions.fillers]
+        fillers = [(tuple(map(_STEM, words_of(f))), ()) for f in self.domain.questions.fillers]
         by_first: dict[str, list[tuple[tuple[str, ...], tuple[str, ...]]]] = {}
         for pair in sorted([*pairs, *fillers], key=lambda pair: -len(pair[0])):
             by_first.setdefault(pair[0][0], []).append(pair)
         return by_first
 
     def _normalise(self, text: str) -> tuple[str, ...]:
-        stems = [_STEM(token) for token in _tokens(text) if token not in _DROPPED]
+        stems = [_STEM(token) for token in words_of(text) if token not in _DROPPED]
         position = 0
         while position < len(stems):
             for other, canonical in self._synonyms.get(stems[position], ()):
@@ -320,7 +314,7 @@ def _check_pattern(pattern: str, place: str) -> None:
 
 def _check_words(domain: Domain) -> None:
     """Raise a DomainError where a subject, synonym or filler is not made of words."""
-    if not _tokens(domain.subject):
+    if not words_of(domain.subject):
         raise DomainError(
             f"{domain.folder / 'domain.toml'}: subject = '{domain.subject}' has no word; "
             'write one such as "the apple"'
@@ -330,7 +324,7 @@ def _check_words(domain: Domain) -> None:
     phrases["fillers"] = tuple(questions.fillers)
     for where, own in phrases.items():
         for phrase in own:
-            if not _tokens(phrase):
+            if not words_of(phrase):
                 raise DomainError(
                     f"{domain.folder / 'questions.toml'}: '{phrase}' in the {where} has no word; "
                     "remove it"
@@ -343,16 +337,6 @@ _LIGHT_STEMS = frozenset(_STEM(word) for word in _LIGHT)
 def _weighty(words: Sequence[str]) -> frozenset[str]:
     """The normalised words that tell what is asked."""
     return frozenset(words) - _LIGHT_STEMS
-
-
-def _tokens(text: str) -> list[str]:
-    plain = text.casefold()
-    if not plain.isascii():
-        plain = unicodedata.normalize("NFKD", text).casefold().replace("’", "'")
-        plain = "".join(c for c in plain if not unicodedata.combining(c))
-    words = re.findall(r"(?<!\w)-\d+|[\w']+", plain.replace("_", " "))
-    expanded = " ".join(_CONTRACTIONS.get(word, word) for word in words)
-    return [word.strip("'") for word in expanded.split() if word.strip("'")]
 
 
 def _after_not(words: Sequence[str]) -> tuple[str, ...]:

@@ -95,3 +95,30 @@ def _solved(
             pass
         last = solving.last()
         return None if last is None else list(last.symbols(shown=True))
+
+
+def state_after(
+    knowledge: Knowledge, actions: Sequence[clingo.Symbol], *, start: State
+) -> State | None:
+    """Return what is known after the actions; None where they cannot be done one after the other.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge("#fluent basic lit. #action press. press causes lit. "
+    ...     "impossible press if lit.")
+    >>> press = clingo.Function("press")
+    >>> dark = State(frozenset({clingo.parse_term("-lit")}))
+    >>> [str(own) for own in state_after(known, [press], start=dark).holds]
+    ['lit']
+    >>> state_after(known, [press, press], start=dark) is None
+    True
+    """
+    model = _solved(knowledge, actions, start, "", cautious=True)
+    if model is None:
+        return None
+    last = len(actions)
+    holds = frozenset(own.arguments[0] for own in model if own.arguments[1].number == last)
+    known = {clingo.Function(own.name, own.arguments) for own in holds}
+    before = {clingo.Function(own.name, own.arguments) for own in start.holds} | start.unknown
+    return State(holds, frozenset(before - known))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import clingo
 
@@ -31,6 +31,7 @@ class PlanningWords:
     fluents: Mapping[str, FluentTable]
     actions: Mapping[str, ActionTable]
     robot: str | None = None
+    possessives: Mapping[str, str] = field(default_factory=dict)
 
     def name(self, term: clingo.Symbol | str) -> str:
         """How a thing is called."""

@@ -1,0 +1,209 @@
+"""Answer what is believed at a step of a run, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import clingo
+
+from seewhy.knowledge.ground import complement_of
+from seewhy.planning.asking import Query
+from seewhy.planning.belief_reason import Beliefs, tell
+from seewhy.planning.describing import describe_place, say_counted
+from seewhy.planning.execution import Run
+from seewhy.planning.mutex import mutexes
+from seewhy.planning.speech import Speech, past, sentences
+from seewhy.planning.supposing import known_at
+from seewhy.planning.whereabouts import contents as whats_at
+from seewhy.planning.whereabouts import places, whereabouts
+from seewhy.planning_domain import PlanningDomain
+
+
+class BeliefAnswers:
+    """The answers about what is believed; each with its reasons as values for JSON.
+
+    Examples
+    --------
+    >>> from seewhy.planning.asking import PlanningQuestions
+    >>> from seewhy.planning.goal import read_goal
+    >>> from seewhy.planning_domain import load_planning_domain
+    >>> domain = load_planning_domain("robot_assistant")
+    >>> run = Run(read_goal("loc(rob1, kitchen)", domain.knowledge), domain.history)
+    >>> query = PlanningQuestions(domain).understand("is the kitchen open?")
+    >>> BeliefAnswers(domain, run).is_so(query)[0]
+    'Yes, the kitchen is open. That is usual: "doors are open".'
+    """
+
+    def __init__(self, domain: PlanningDomain, run: Run) -> None:
+        self.domain = domain
+        self.run = run
+        self.speech = Speech(domain.words)
+
+    def is_so(self, query: Query) -> tuple[str, dict[str, Any]]:
+        """Whether something is so, with the reason."""
+        beliefs, step = self._beliefs(query)
+        before: list[str] = []
+        if query.whose is not None:
+            thing = query.arguments[query.whose] or ""
+            place = self._place_of(thing, beliefs, step)
+            if place is None:
+                return self._unknown_place(thing, beliefs, step)
+            before = [self._saying(step)(place[0])]
+            query = replace(
+                query,
+                whose=None,
+                arguments=tuple(
+                    place[1] if n == query.whose else own for n, own in enumerate(query.arguments)
+                ),
+            )
+        literal = query.symbol()
+        known = self._known(literal, beliefs, step)
+        reasons: dict[str, Any] = {"literal": str(literal), "believed": None}
+        if known is None:
+            return sentences([*before, self._not_known(literal)]), reasons
+        yes = "yes" if known == literal else "no"
+        known = self._instead(known, beliefs, step) if yes == "no" else known
+        reasons |= {"believed": yes == "yes", "why": beliefs.why(known, step).to_dict()}
+        counted = say_counted(beliefs, known, step)
+        if counted is not None:
+            seen = [
+                text
+                for argument in known.arguments
+                if self._is_place(str(argument))
+                for text in describe_place(beliefs, str(argument), step, named=bool(before))
+            ]
+            counted = counted if step == self.run.history.last_step else past(counted)
+            if not (before or seen):
+                counted = f"{yes}, {counted}"
+            return sentences([*before, *seen, counted]), reasons
+        said = f"{yes}, {self._saying(step)(known)}"
+        return sentences([*before, said, *self._because(known, beliefs, step)]), reasons
+
+    def _saying(self, step: int) -> Callable[[clingo.Symbol], str]:
+        """How literals of a step are said: what is past in the past tense."""
+        return self.speech.say if step == self.run.history.last_step else self.speech.said
+
+    def _instead(self, denied: clingo.Symbol, beliefs: Beliefs, step: int) -> clingo.Symbol:
+        """What is so instead of something that is not, where only one of them can be."""
+        if denied.positive:
+            return denied
+        for own in mutexes(self.domain.knowledge):
+            for literal in beliefs.diagnosis.states[step].positive(own.predicate):
+                if own.predicate == denied.name and all(
+                    one == other or place == own.position
+                    for place, (one, other) in enumerate(
+                        zip(literal.arguments, denied.arguments, strict=True)
+                    )
+                ):
+                    return literal
+        return denied
+
+    def why_believe(self, query: Query) -> tuple[str, dict[str, Any]]:
+        """Why something is believed."""
+        beliefs, step = self._beliefs(query)
+        literal = query.symbol()
+        known = self._known(literal, beliefs, step)
+        if known is None:
+            return sentences([self._not_known(literal)]), {"literal": str(literal)}
+        why = beliefs.why(known, step)
+        reasons = {"literal": str(literal), "believed": known == literal, "why": why.to_dict()}
+        counted = say_counted(beliefs, known, step)
+        because = [counted] if counted else self._because(known, beliefs, step)
+        believe = f"I believe that {self.speech.say(known)}"
+        not_that = "I do not believe that"
+        if step != self.run.history.last_step:
+            believe = f"at step {step} I believed that {self.speech.said(known)}"
+            not_that = f"at step {step} I did not believe that"
+        if known != literal:
+            return sentences([f"{not_that}; {believe}", *because]), reasons
+        first = "" if counted else believe
+        return sentences([first, *because]), reasons
+
+    def where(self, query: Query) -> tuple[str, dict[str, Any]]:
+        """Where a thing is."""
+        beliefs, step = self._beliefs(query)
+        thing = next(own for own in query.arguments if own is not None)
+        place = self._place_of(thing, beliefs, step)
+        if place is None:
+            return self._unknown_place(thing, beliefs, step)
+        literal = place[0]
+        reasons = {"literal": str(literal), "why": beliefs.why(literal, step).to_dict()}
+        said = [self._saying(step)(literal), *self._because(literal, beliefs, step)]
+        return sentences(said), reasons
+
+    def contents(self, query: Query) -> tuple[str, dict[str, Any]]:
+        """What is at a place."""
+        beliefs, step = self._beliefs(query)
+        place = query.arguments[0] or ""
+        found = whats_at(self.domain, beliefs.diagnosis.states[step], place)
+        single = {own.predicate for own in places(self.domain) if own.single}
+        who = self.speech.every(own for own in found if own.name in single)
+        described = describe_place(beliefs, place, step, named=bool(who))
+        said = [who, *described] if found else [self._nothing(place, beliefs, step)]
+        return sentences(said), {"literals": [str(own) for own in found]}
+
+    def _nothing(self, place: str, beliefs: Beliefs, step: int) -> str:
+        own = next(own for own in places(self.domain) if self._is_place(place))
+        looked = any(
+            at <= step and str(seen.arguments[other.place]) == place
+            for seen, at in beliefs.observations
+            for other in places(self.domain)
+            if seen.name == other.predicate
+        )
+        said = f"I know of nothing {own.preposition} {self.speech.name(place)}"
+        return said if looked else f"{said}; I have not looked there"
+
+    def _because(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:
+        said = self.speech.say(literal)
+        return [
+            own.replace(f"it is usual that {said}", "that is usual")
+            for own in tell(beliefs.why(literal, step), self.speech)
+        ]
+
+    def _beliefs(self, query: Query) -> tuple[Beliefs, int]:
+        history = known_at(self.run.history, query.step)
+        beliefs = Beliefs(self.domain, history)
+        return beliefs, history.last_step if query.step is None else query.step
+
+    def _known(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> clingo.Symbol | None:
+        return next((own for own in (literal, complement_of(literal)) if beliefs.holds(own, step)),
+                    None)  # fmt: skip
+
+    def _not_known(self, literal: clingo.Symbol) -> str:
+        said = self.speech.say(clingo.Function(literal.name, literal.arguments))
+        return f"I do not know whether {said}: I have not seen it, and nothing that I know tells"
+
+    def _place_of(
+        self, thing: str, beliefs: Beliefs, step: int
+    ) -> tuple[clingo.Symbol, str] | None:
+        literal = whereabouts(self.domain, beliefs.diagnosis.states[step], thing)
+        if literal is None:
+            return None
+        own = next(own for own in places(self.domain) if own.predicate == literal.name)
+        return literal, str(literal.arguments[own.place])
+
+    def _unknown_place(self, thing: str, beliefs: Beliefs, step: int) -> tuple[str, dict[str, Any]]:
+        is_me = thing == self.domain.robot
+        where = "I am" if is_me else f"{self.speech.name(thing)} is"
+        ruled_out = [
+            literal
+            for own in places(self.domain)
+            if own.single
+            for literal in sorted(beliefs.diagnosis.states[step].holds)
+            if literal.name == own.predicate
+            and not literal.positive
+            and str(literal.arguments[own.thing]) == thing
+        ]
+        said = [f"I do not know where {where}"]
+        if ruled_out:
+            said.append(f"I only know that {self.speech.every(ruled_out)}")
+        return sentences(said), {"ruled_out": [str(own) for own in ruled_out]}
+
+    def _is_place(self, term: str) -> bool:
+        signature = self.domain.knowledge.signature
+        return any(
+            term in signature.members(signature.predicates[own.predicate].sorts[own.place])
+            for own in places(self.domain)
+        )

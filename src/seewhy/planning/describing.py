@@ -1,0 +1,73 @@
+"""Describe a place: what was detected in it, and what that amounts to."""
+
+from __future__ import annotations
+
+import re
+
+import clingo
+
+from seewhy.planning.belief_reason import Beliefs, has_sentence
+from seewhy.planning.speech import plural
+from seewhy.planning.whereabouts import Place, places
+from seewhy.wording import join_words
+
+
+def describe_place(beliefs: Beliefs, place: str, step: int, *, named: bool) -> list[str]:
+    """Return clauses that list what is at a place: "objects detected are a cup and a sofa".
+
+    What was never seen is listed as expected. ``named`` says that the place is known already.
+    """
+    domain, speech = beliefs.domain, beliefs.speech
+    seen = {own for own, at in beliefs.observations if at <= step}
+    said = []
+    for own in places(domain):
+        if own.single:
+            continue
+        signature = domain.knowledge.signature
+        kind = plural(signature.predicates[own.predicate].sorts[own.thing].replace("_", " "))
+        there = [
+            literal
+            for literal in beliefs.diagnosis.states[step].positive(own.predicate)
+            if str(literal.arguments[own.place]) == place
+        ]
+        where = "" if named else f" {own.preposition} {speech.name(place)}"
+        for how, listed in (
+            ("detected", [literal for literal in there if literal in seen]),
+            ("expected", [literal for literal in there if literal not in seen]),
+        ):
+            if listed:
+                things = join_words([_noun_phrase(beliefs, own, literal) for literal in listed])
+                verb = "are" if len(listed) > 1 else "is"
+                subject = kind if len(listed) > 1 else f"the only {_singular(beliefs, own)}"
+                said.append(f"{subject} {how}{where} {verb} {things}")
+    return said
+
+
+def say_counted(beliefs: Beliefs, literal: clingo.Symbol, step: int) -> str | None:
+    """Return a fluent with what is counted for it; None where nothing is."""
+    speech = beliefs.speech
+    for axiom, counted in beliefs.counted(literal, step):
+        clauses = speech.every(counted)
+        for own in places(beliefs.domain):
+            for term in literal.arguments:
+                where = f" {own.preposition} {speech.name(term)}"
+                clauses = re.sub(rf"{re.escape(where)}(?=$| and |, )", " there", clauses)
+        rule = f'"{axiom.text}"' if has_sentence(axiom) else ""
+        if literal.positive:
+            return f"{speech.say(literal)} because {clauses}"
+        but = f"only {clauses}" if clauses else "I know of nothing that would make it otherwise"
+        return ", and ".join(filter(None, [f"{speech.say(literal)}: {but}", rule]))
+    return None
+
+
+def _singular(beliefs: Beliefs, own: Place) -> str:
+    predicate = beliefs.domain.knowledge.signature.predicates[own.predicate]
+    return predicate.sorts[own.thing].replace("_", " ")
+
+
+def _noun_phrase(beliefs: Beliefs, own: Place, literal: clingo.Symbol) -> str:
+    """The thing with the article that it is said with."""
+    say = beliefs.domain.words.fluents[own.predicate].say
+    article = "a " if re.search(rf"\ban? \{{{own.thing}\}}", say) else ""
+    phrase = article + beliefs.speech.name(literal.arguments[own.thing])
+    return re.sub(r"\ba (?=[aeiou])", "an ", phrase)

@@ -1,0 +1,195 @@
+"""The instances of an axiom that apply in a state, with the literals that make them apply."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import clingo
+from clingo import ast
+
+from seewhy.knowledge.axiom import Axiom, Condition, Literal, substitute, variables_in
+from seewhy.knowledge.dynamics import at_step, body_at, fixed_rules, rule
+from seewhy.knowledge.ground import key_of, literal_of
+from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.program import variable_tuple
+
+
+@dataclass(frozen=True)
+class Applied:
+    """An instance of an axiom whose conditions all hold.
+
+    Attributes
+    ----------
+    axiom : Axiom
+        With the terms of the instance for its variables.
+    holds : tuple of clingo.Symbol
+        The literals about fluents among its conditions.
+    counted : tuple of clingo.Symbol
+        Those that an aggregate counts.
+    absent : tuple of clingo.Symbol
+        Those that are not believed (``not …``).
+    """
+
+    axiom: Axiom
+    holds: tuple[clingo.Symbol, ...] = ()
+    counted: tuple[clingo.Symbol, ...] = ()
+    absent: tuple[clingo.Symbol, ...] = ()
+
+
+class Instances:
+    """Looks up which axioms apply; what does not change is worked out once.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge('''
+    ... #sort place = {hall, attic}. #fluent basic dark(place). #action read(place).
+    ... impossible read(P) if dark(P).
+    ... ''')
+    >>> state = [clingo.parse_term("dark(attic)")]
+    >>> read = clingo.parse_term("read(attic)")
+    >>> (own,) = Instances(known).of(known.axioms[0], state, action=read)
+    >>> [str(literal) for literal in own.holds]
+    ['dark(attic)']
+    """
+
+    def __init__(self, knowledge: Knowledge) -> None:
+        self.knowledge = knowledge
+        control = _grounded("\n".join(fixed_rules(knowledge)))
+        fixed = [
+            str(atom.symbol)
+            for name, arity in (("sort", 2), ("holds", 1))
+            for atom in control.symbolic_atoms.by_signature(name, arity)
+        ]
+        self._fixed = " ".join(f"{own}." for own in fixed)
+
+    def of(
+        self,
+        axiom: Axiom,
+        state: Iterable[clingo.Symbol],
+        *,
+        head: clingo.Symbol | None = None,
+        action: clingo.Symbol | None = None,
+    ) -> list[Applied]:
+        """Return the instances that apply in a state, with this head and action where given."""
+        own: Axiom | None = axiom
+        if head is not None:
+            own = unified(axiom, axiom.head, head)
+        if action is not None and own is not None:
+            own = unified(own, own.action, action)
+        if own is None:
+            return []
+        facts = self._facts(state)
+        signature = self.knowledge.signature
+        found = _grounded(
+            f"{facts}\n{rule(f'applies({variable_tuple(own)})', body_at(own, signature, '0'))}"
+        )
+        bindings = sorted(
+            atom.symbol.arguments[0]
+            for atom in found.symbolic_atoms.by_signature("applies", 1)
+            if atom.is_fact
+        )
+        return [self._applied(own, binding, facts) for binding in bindings]
+
+    def counted(self, axiom: Axiom, state: Iterable[clingo.Symbol]) -> list[clingo.Symbol]:
+        """Return the literals that the aggregates of an axiom without variables count."""
+        return list(self._counted(axiom, self._facts(state)))
+
+    def _facts(self, state: Iterable[clingo.Symbol]) -> str:
+        held = " ".join(f"holds({own}, 0)." for own in sorted(state))
+        return (
+            f"{self._fixed} {held} at(0, 0). #defined holds/1. #defined holds/2. #defined sort/2."
+        )
+
+    def _applied(self, axiom: Axiom, binding: clingo.Symbol, facts: str) -> Applied:
+        own = _substituted(
+            axiom, dict(zip(axiom.variables, map(str, binding.arguments), strict=True))
+        )
+        fluents = [
+            (condition, clingo.parse_term(key_of(condition.literal)))
+            for condition in own.body
+            if condition.literal is not None
+            and self.knowledge.signature.kind(condition.literal.predicate).is_fluent
+            and "_" not in condition.literal.arguments
+        ]
+        counted = tuple(self._counted(own, facts))
+        return Applied(
+            own,
+            holds=tuple(own for condition, own in fluents if not condition.absent),
+            counted=counted,
+            absent=tuple(own for condition, own in fluents if condition.absent),
+        )
+
+    def _counted(self, axiom: Axiom, facts: str) -> Iterator[clingo.Symbol]:
+        signature = self.knowledge.signature
+        rules = []
+        for condition in axiom.body:
+            for parts in _elements(condition) if condition.is_local else ():
+                body = [
+                    timed
+                    for number, part in enumerate(parts)
+                    for timed in at_step(Condition(part), signature, "0", number=number)
+                ]
+                fluents = [own for own in parts if signature.kind(_predicate(own)).is_fluent]
+                if fluents and not fluents[0].startswith("not "):
+                    rules.append(rule(f"counted({fluents[0]})", body))
+        if rules:
+            found = _grounded("\n".join([facts, *rules]))
+            yield from sorted(
+                atom.symbol.arguments[0] for atom in found.symbolic_atoms.by_signature("counted", 1)
+            )
+
+
+def _grounded(text: str) -> clingo.Control:
+    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+    control.add("base", [], text)
+    control.ground([("base", [])])
+    return control
+
+
+def unified(axiom: Axiom, literal: Literal | None, symbol: clingo.Symbol) -> Axiom | None:
+    """Return the axiom where its head or action is this one; None where it cannot be."""
+    if literal is None or (literal.predicate, literal.positive) != (symbol.name, symbol.positive):
+        return None
+    binding: dict[str, str] = {}
+    compared: list[Condition] = []
+    for argument, term in zip(literal.arguments, map(str, symbol.arguments), strict=True):
+        if variables_in(argument) != (argument,):
+            compared.append(Condition(f"{argument} = {term}"))
+        elif binding.setdefault(argument, term) != term:
+            return None
+    own = _substituted(replace(axiom, body=(*axiom.body, *compared)), binding)
+    same = literal_of(str(symbol))
+    is_head = literal == axiom.head
+    return replace(own, head=same) if is_head else replace(own, action=same)
+
+
+def _substituted(axiom: Axiom, binding: dict[str, str]) -> Axiom:
+    return replace(
+        axiom,
+        head=axiom.head.substitute(binding),
+        action=axiom.action and axiom.action.substitute(binding),
+        body=tuple(
+            Condition(
+                substitute(own.text, binding),
+                own.literal and own.literal.substitute(binding),
+                own.absent,
+            )
+            for own in axiom.body
+        ),
+    )
+
+
+def _elements(condition: Condition) -> Iterator[list[str]]:
+    """The conditions of each element of an aggregate."""
+    found: list[ast.AST] = []
+    ast.parse_string(f":- {condition.text}.", found.append)
+    (body,) = found[1].body
+    if body.ast_type is ast.ASTType.Literal and hasattr(body.atom, "elements"):
+        for element in body.atom.elements:
+            yield [str(own) for own in element.condition]
+
+
+def _predicate(text: str) -> str:
+    return text.removeprefix("not ").lstrip("-").split("(")[0]

@@ -1,0 +1,202 @@
+"""Speak as the robot: its own term becomes "I", clauses get a tense and are drawn together."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import clingo
+
+from seewhy.planning.diagnosis import Surprise
+from seewhy.planning.words import PlanningWords
+from seewhy.wording import join_words, say_one_of, sentence
+
+_ME = "\x01"
+_PAST = {"is": "was", "are": "were", "am": "was", "has": "had", "have": "had", "does": "did",
+         "do": "did", "can": "could"}  # fmt: skip
+_PLURAL = {"is": "are", "has": "have", "does": "do", "was": "were", "had": "had"}
+_VERB = re.compile(rf"^(.+?) ({'|'.join(_PLURAL)}) (.+)$")
+_FIRST = {"is": "am", "has": "have", "does": "do", "was": "was", "goes": "go"}
+
+
+class Speech:
+    """The words of a domain in the mouth of whoever acts in it.
+
+    Examples
+    --------
+    >>> from seewhy.planning_domain import load_planning_domain
+    >>> speech = Speech(load_planning_domain("robot_assistant").words)
+    >>> speech.say(clingo.parse_term("has(rob1,m1)"))
+    'I have the first message'
+    >>> speech.said(clingo.parse_term("loc(rob1,kitchen)"))
+    'I was in the kitchen'
+    >>> speech.say(clingo.parse_term("loc(sally,sallys_office)"))
+    'Sally is in her office'
+    """
+
+    def __init__(self, words: PlanningWords) -> None:
+        self._plain = words
+        robot = {words.robot: _ME} if words.robot else {}
+        self.words = replace(words, things={**words.things, **robot})
+
+    def name(self, term: clingo.Symbol | str) -> str:
+        """How a thing is called; the robot is "me"."""
+        return self.words.name(term).replace(_ME, "me")
+
+    def say(self, literal: clingo.Symbol) -> str:
+        """A literal as a clause in the present tense."""
+        return self._spoken(self.words.say(literal))
+
+    def said(self, literal: clingo.Symbol) -> str:
+        """A literal as a clause in the past tense."""
+        return past(self.say(literal))
+
+    def do(self, action: clingo.Symbol) -> str:
+        """An action as what is to be done: "move to the kitchen"."""
+        return self._spoken(self.words.do(action))
+
+    def did(self, action: clingo.Symbol) -> str:
+        """An action as what was done: "moved to the kitchen"."""
+        return self._spoken(self.words.did(action))
+
+    def happened(self, action: clingo.Symbol) -> str:
+        """What was done or happened as a clause: "I moved to the kitchen", "Bob walked away"."""
+        table = self.words.actions.get(action.name)
+        return self.did(action) if table and table.do is None else f"I {self.did(action)}"
+
+    def surprise(self, surprise: Surprise) -> str:
+        """What a diagnosis assumes, as a clause."""
+        return self._spoken(self.words.surprise(surprise))
+
+    def every(self, literals: Iterable[clingo.Symbol]) -> str:
+        """Literals as one clause in the present tense."""
+        return together([self.say(own) for own in literals])
+
+    def every_past(self, literals: Iterable[clingo.Symbol]) -> str:
+        """Literals as one clause in the past tense."""
+        return together([self.said(own) for own in literals])
+
+    def _spoken(self, clause: str) -> str:
+        clause = _in_first_person(clause)
+        for term, possessive in self._plain.possessives.items():
+            name = self._plain.name(term)
+            if clause.startswith(f"{name} "):
+                clause = name + clause[len(name) :].replace(f"{name}'s", possessive)
+        return re.sub(r"\b([Aa]) (?=[aeiou])", r"\1n ", clause)
+
+
+def past(clause: str) -> str:
+    """Put a clause into the past tense, as far as its verb is known.
+
+    Examples
+    --------
+    >>> past("the kitchen is closed")
+    'the kitchen was closed'
+    """
+    words = clause.split(" ")
+    for place, word in enumerate(words):
+        if word in _PAST:
+            return " ".join([*words[:place], _PAST[word], *words[place + 1 :]])
+    return clause
+
+
+def subjunctive(clause: str) -> str:
+    """Put a clause into the form that follows "if".
+
+    Examples
+    --------
+    >>> subjunctive("the kitchen is closed")
+    'the kitchen were closed'
+    """
+    return past(clause).replace(" was ", " were ", 1)
+
+
+def together(clauses: Sequence[str]) -> str:
+    """Join clauses, saying once what they share.
+
+    Examples
+    --------
+    >>> together(["a cup is here", "a sofa is here", "Sally is away"])
+    'a cup and a sofa are here and Sally is away'
+    >>> together(["Sally is not in the kitchen", "Sally is not in the library"])
+    'Sally is not in the kitchen or library'
+    """
+    groups: dict[tuple[str, str], list[str]] = {}
+    for clause in dict.fromkeys(clauses):
+        found = _VERB.match(clause)
+        if found and found.group(1) not in ("there", "it", "I"):
+            groups.setdefault((found.group(2), found.group(3)), []).append(found.group(1))
+        else:
+            groups.setdefault((clause.split(" ")[0], ""), []).append(clause)
+    said = []
+    for (verb, rest), parts in groups.items():
+        if not rest:
+            said += parts
+        elif len(parts) == 1:
+            said.append(f"{parts[0]} {verb} {rest}")
+        else:
+            said.append(f"{join_words(parts)} {_PLURAL[verb]} {rest}")
+    return join_words(_by_subject(said))
+
+
+def _by_subject(clauses: Sequence[str]) -> list[str]:
+    """Draw together neighbours that share at least three words at the beginning."""
+    groups: list[list[str]] = []
+    for clause in clauses:
+        beginning = clause.split(" ")[:3]
+        same = groups and groups[-1][0].split(" ")[:3] == beginning and len(beginning) == 3
+        if same and "," not in clause:
+            groups[-1].append(clause)
+        else:
+            groups.append([clause])
+    return [
+        say_one_of(own, word="or" if re.search(r"\b(not|no)\b", own[0]) else "and")
+        for own in groups
+    ]
+
+
+def sentences(clauses: Iterable[str]) -> str:
+    """Return clauses as sentences, empty ones left out.
+
+    Examples
+    --------
+    >>> sentences(["it is so", "", "I saw it"])
+    'It is so. I saw it.'
+    """
+    return " ".join(sentence(own) for own in clauses if own)
+
+
+def plural(noun: str) -> str:
+    """Return the plural of a regular noun.
+
+    Examples
+    --------
+    >>> plural("object"), plural("box")
+    ('objects', 'boxes')
+    """
+    if noun.endswith(("s", "x", "ch", "sh")):
+        return f"{noun}es"
+    return f"{noun[:-1]}ies" if re.search("[^aeiou]y$", noun) else f"{noun}s"
+
+
+def _in_first_person(clause: str) -> str:
+    if clause.startswith(f"{_ME} "):
+        _, verb, *rest = clause.split(" ")
+        clause = " ".join(["I", _FIRST.get(verb) or base(verb), *rest])
+    return clause.replace(f"{_ME}'s", "my").replace(_ME, "me")
+
+
+def base(verb: str) -> str:
+    """Return a regular verb of the third person without its ending.
+
+    Examples
+    --------
+    >>> base("holds"), base("carries"), base("reaches"), base("moved")
+    ('hold', 'carry', 'reach', 'moved')
+    """
+    if verb.endswith("ies"):
+        return f"{verb[:-3]}y"
+    if verb.endswith(("sses", "ches", "shes", "xes", "oes")):
+        return verb[:-2]
+    return verb[:-1] if verb.endswith("s") and not verb.endswith("ss") else verb

@@ -1,0 +1,99 @@
+"""A history as it was at an earlier step, or with something supposed that was not seen."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import clingo
+
+from seewhy.errors import PlanningError
+from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.ground import complement_of, key_of, literal_of
+from seewhy.knowledge.history import History, Observation
+from seewhy.knowledge.language import Knowledge
+from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.mutex import mutexes
+
+
+def known_at(history: History, step: int | None) -> History:
+    """Return what was known at a step: all of the history where it is None.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.history import read_history
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge("#fluent basic lit. #action press.")
+    >>> past = read_history("happened press at 0. observed lit at 1.", known.signature)
+    >>> known_at(past, 0).last_step
+    0
+    """
+    if step is None:
+        return history
+    return History(
+        tuple(own for own in history.observations if own.step <= step),
+        tuple(own for own in history.occurrences if own.step < step),
+    )
+
+
+def supposed_history(
+    knowledge: Knowledge, history: History, literal: clingo.Symbol
+) -> History | None:
+    """Return the history with a literal seen at its end, without what contradicts that there.
+
+    None where nothing that may be assumed explains it.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.history import read_history
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge("#sort place = {hall, attic}. #fluent basic dark(place). "
+    ...     "#fluent basic locked.")
+    >>> past = read_history("observed -dark(hall) at 0. observed locked at 0.", known.signature)
+    >>> print(supposed_history(known, past, clingo.parse_term("dark(hall)")))
+    observed locked at 0.
+    observed dark(hall) at 0.
+    """
+    step = history.last_step
+    supposed = Observation(literal_of(str(literal)), step)
+    before = [own for own in history.observations if own.step < step]
+    present = [
+        own
+        for own in history.observations
+        if own.step == step and not _excludes(own.literal, literal, knowledge)
+    ]
+    whole = replace(history, observations=(*before, *present, supposed))
+    if _explained(knowledge, whole):
+        return whole
+    kept = replace(history, observations=(*before, supposed))
+    if not _explained(knowledge, kept):
+        return None
+    for own in present:
+        more = replace(kept, observations=(*kept.observations, own))
+        kept = more if _explained(knowledge, more) else kept
+    return kept
+
+
+def _excludes(seen: Literal, literal: clingo.Symbol, knowledge: Knowledge) -> bool:
+    symbol = clingo.parse_term(key_of(seen))
+    if symbol == complement_of(literal):
+        return True
+    if not (symbol.positive and literal.positive) or symbol == literal:
+        return False
+    return any(
+        own.predicate == symbol.name == literal.name
+        and all(
+            one == other or place == own.position
+            for place, (one, other) in enumerate(
+                zip(symbol.arguments, literal.arguments, strict=True)
+            )
+        )
+        for own in mutexes(knowledge)
+    )
+
+
+def _explained(knowledge: Knowledge, history: History) -> bool:
+    try:
+        diagnose(knowledge, history)
+    except PlanningError:
+        return False
+    return True

@@ -1,0 +1,31 @@
+"""The words of a question, without case, accents and punctuation."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+CONTRACTIONS = {
+    "what's": "what is", "whats": "what is", "it's": "it is", "isn't": "is not",
+    "isnt": "is not", "aren't": "are not", "doesn't": "does not", "doesnt": "does not",
+    "don't": "do not", "won't": "will not", "can't": "can not", "cannot": "can not",
+    "there's": "there is", "how's": "how is", "why's": "why is", "where's": "where is",
+    "who's": "who is", "didn't": "did not", "didnt": "did not", "wasn't": "was not",
+}  # fmt: skip
+
+
+def words_of(text: str) -> list[str]:
+    """Return the words of a text in lower case, contractions written out.
+
+    Examples
+    --------
+    >>> words_of("Why isn't Sally's_office OPEN?")
+    ['why', 'is', 'not', "sally's", 'office', 'open']
+    """
+    plain = text.casefold()
+    if not plain.isascii():
+        plain = unicodedata.normalize("NFKD", text).casefold().replace("’", "'")
+        plain = "".join(c for c in plain if not unicodedata.combining(c))
+    words = re.findall(r"(?<!\w)-\d+|[\w']+", plain.replace("_", " "))
+    expanded = " ".join(CONTRACTIONS.get(word, word) for word in words)
+    return [word.strip("'") for word in expanded.split() if word.strip("'")]

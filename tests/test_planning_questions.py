@@ -1,0 +1,620 @@
+"""Questions about a run: golden answers in the office, and in a domain of two lamps."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from collections.abc import Callable
+from dataclasses import replace
+
+import clingo
+import pytest
+
+from seewhy.errors import QuestionError
+from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.ground import literal_of
+from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.execution import Run, execute
+from seewhy.planning.goal import read_goal
+from seewhy.planning.replying import answer
+from seewhy.planning.world import Transitions, World
+from seewhy.planning_domain import PlanningDomain, load_planning_domain
+
+OFFICE = load_planning_domain("robot_assistant")
+TO_SALLY = read_goal("message_status(m1, sally, delivered)", OFFICE.knowledge)
+# That there is no plan is shown sooner.
+SHORT_SIGHTED = replace(OFFICE, horizon=8)
+SEEN = ("loc", "present", "closed", "has")
+CLUTTER = ("present(cup,sallys_office)", "present(large_box,sallys_office)",
+           "present(sofa,sallys_office)")  # fmt: skip
+
+
+def term(text: str) -> clingo.Symbol:
+    return clingo.parse_term(text)
+
+
+@pytest.fixture(scope="module")
+def transitions() -> Transitions:
+    return Transitions(OFFICE.knowledge)
+
+
+def seen_in(state: World) -> list[Literal]:
+    """What the robot sees: all that is at its place, the doors, and its messages."""
+    (here,) = [own.arguments[1] for own in state if own.positive and own.match("loc", 2)
+               and str(own.arguments[0]) == "rob1"]  # fmt: skip
+    return [
+        literal_of(str(own))
+        for own in sorted(state)
+        if own.name in SEEN and (own.name not in ("loc", "present") or own.arguments[1] == here)
+    ]
+
+
+def office_run(
+    transitions: Transitions,
+    *literals: str,
+    script: Callable[[int, World], World] = lambda _, state: state,
+    domain: PlanningDomain = OFFICE,
+) -> Run:
+    """A run to Sally in a world in which these hold and else what is usual."""
+    usual = sorted(diagnose(OFFICE.knowledge, OFFICE.history).states[0].holds)
+    state = transitions.complete([*map(term, literals), *usual])
+    steps = itertools.count(1)
+
+    def act(action: clingo.Symbol) -> list[Literal]:
+        nonlocal state
+        state = script(next(steps), transitions.after(state, [action]) or state)
+        return seen_in(state)
+
+    *_, last = execute(domain, TO_SALLY, sensed=seen_in(state), act=act)
+    return last
+
+
+@pytest.fixture(scope="module")
+def delivered(transitions: Transitions) -> Run:
+    return office_run(transitions, *CLUTTER)
+
+
+@pytest.fixture(scope="module")
+def met(transitions: Transitions) -> Run:
+    return office_run(transitions, "loc(sally,kitchen)")
+
+
+@pytest.fixture(scope="module")
+def lost(transitions: Transitions) -> Run:
+    def lose(step: int, state: World) -> World:
+        return transitions.after(state, [term("lose(m1)")]) or state if step == 1 else state
+
+    return office_run(transitions, script=lose)
+
+
+@pytest.fixture(scope="module")
+def shut_in(transitions: Transitions) -> Run:
+    return office_run(
+        transitions,
+        "closed(kitchen)",
+        "closed(bobs_office)",
+        "closed(johns_office)",
+        domain=SHORT_SIGHTED,
+    )
+
+
+def asked(run: Run, question: str, domain: PlanningDomain = OFFICE) -> str:
+    reply = answer(domain, run, question)
+    json.dumps(reply.to_dict())
+    return reply.text
+
+
+DELIVERED = {
+    "Is Sally's location cluttered?": (
+        "Sally is in her office. Objects detected are a chair, a computer, a cup, a desk, a "
+        "large box and a sofa. Sally's office is cluttered because a cup, a large box and a "
+        "sofa are not usually there."
+    ),
+    "is the kitchen cluttered?": (
+        "No, the kitchen is not cluttered: I know of nothing that would make it otherwise, and "
+        '"a place is cluttered where three or more objects are that are not usually there".'
+    ),
+    "is the bathroom cluttered?": (
+        "I do not know whether the bathroom is cluttered: I have not seen it, and nothing that "
+        "I know tells."
+    ),
+    "is Sally in the kitchen?": (
+        "No, Sally is in her office. I saw at step 3 that Sally was in her office."
+    ),
+    "is the kitchen open?": "Yes, the kitchen is open. I saw at step 3 that the kitchen was open.",
+    "do you have the first message?": (
+        "Yes, I have the first message. I saw at step 3 that I had the first message."
+    ),
+    "are you in the kitchen at step 1?": (
+        "Yes, I was in the kitchen. I saw at step 1 that I was in the kitchen."
+    ),
+    "where is Sally?": "Sally is in her office. I saw at step 3 that Sally was in her office.",
+    "where is Bob?": (
+        'Bob is in his office. That is usual: "people are in their own office unless they are '
+        'elsewhere"; nothing that I know of has changed it since.'
+    ),
+    "where are you at step 1?": "I was in the kitchen. I saw at step 1 that I was in the kitchen.",
+    "what is in Sally's office?": (
+        "I am in Sally's office and Sally is in her office. Objects detected are a chair, a "
+        "computer, a cup, a desk, a large box and a sofa."
+    ),
+    "what is in the bathroom?": "I know of nothing in the bathroom; I have not looked there.",
+    "what is your plan?": "I have no plan any more: the goal is reached.",
+    "what was your plan at step 1?": (
+        "At step 1 my plan was to move to Sally's office and deliver the first message to Sally."
+    ),
+    "what did you do?": (
+        "I moved to the kitchen, moved to Sally's office and delivered the first message to "
+        "Sally. The goal is reached."
+    ),
+    "what is your goal?": "My goal is that the first message for Sally is delivered.",
+    "why did you move to the kitchen?": (
+        "I moved to the kitchen at step 0 because I wanted to move to Sally's office, in order "
+        'to deliver the first message to Sally. Otherwise I could not have done that: "the '
+        'robot moves to places next to its own", and I was in the library.'
+    ),
+    "why did you move to Sally's office at step 1?": (
+        "I moved to Sally's office at step 1 because I wanted to deliver the first message to "
+        'Sally. Otherwise I could not have done that: "a message is delivered to somebody who '
+        'is where the robot is", and I was in the kitchen and Sally was in her office.'
+    ),
+    "why did you deliver the first message to Sally?": (
+        "I delivered the first message to Sally at step 2 because my goal was that the first "
+        "message for Sally is delivered."
+    ),
+    "why did you move to the library?": "I did not move to the library.",
+    "why did you move to the kitchen at step 1?": (
+        "I did not move to the kitchen at step 1, but at step 0."
+    ),
+    "why did you not move to Bob's office at step 0?": (
+        "The plan would have been longer: 5 actions (move to Bob's office, move to the "
+        "library, move to the kitchen, move to Sally's office and deliver the first message to "
+        "Sally) instead of 3."
+    ),
+    "why didn't you go to Sally's office instead at step 0?": (
+        "I could not move to Sally's office at step 0: \"the robot moves to places next to its "
+        'own", and I was in the library.'
+    ),
+    "why did you not deliver the first message to Sally at step 1?": (
+        'I could not deliver the first message to Sally at step 1: "a message is delivered to '
+        'somebody who is where the robot is", and I was in the kitchen and Sally was in her '
+        "office."
+    ),
+    "why did you not move to the kitchen at step 0?": "But I did move to the kitchen at step 0.",
+    "why do you believe that Sally is in her office at step 1?": (
+        'At step 1 I believed that Sally was in her office. That is usual: "people are in '
+        'their own office unless they are elsewhere"; nothing that I know of has changed it '
+        "since."
+    ),
+    "why do you believe that Sally is in the kitchen?": (
+        "I do not believe that; I believe that Sally is not in the kitchen. I saw at step 1 "
+        "that Sally was not in the kitchen; nothing that I know of has changed it since."
+    ),
+    "why do you believe that Sally is not in the library at step 2?": (
+        "At step 2 I believed that Sally was not in the library. I saw at step 0 that Sally "
+        "was not in the library; nothing that I know of has changed it since."
+    ),
+    "why is the first message for Sally delivered?": (
+        "I believe that the first message for Sally is delivered. I delivered the first "
+        'message to Sally at step 2, and "who delivers a message to a person has delivered it".'
+    ),
+    "why is the first message for Bob not delivered?": (
+        'I believe that the first message for Bob is not delivered. It follows from "a message '
+        'is delivered or is not": the first message for Bob is undelivered. It is usual that '
+        'the first message for Bob is undelivered: "messages are not yet delivered"; nothing '
+        "that I know of has changed it since."
+    ),
+    "why is Sally's office cluttered?": (
+        "Sally's office is cluttered because a cup, a large box and a sofa are not usually there."
+    ),
+    "what would you do if the kitchen were closed?": (
+        "If the kitchen were closed, I would do nothing: the goal is reached."
+    ),
+    "what would you do if the kitchen were closed at step 0?": (
+        "If the kitchen were closed, I would move to John's office and deliver the first "
+        "message to Sally, hoping that Sally is in John's office. No plan would be sure."
+    ),
+    "what would you do if Sally were in the library at step 1?": (
+        "If Sally were in the library, I would move to the library and deliver the first "
+        "message to Sally."
+    ),
+    "why did the plan change?": "The plan did not change.",
+}
+
+
+@pytest.mark.parametrize("question", DELIVERED)
+def test_answers_about_a_run_that_went_well(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == DELIVERED[question]
+
+
+MET = {
+    "what did you do?": (
+        "I moved to the kitchen. At step 1 I found that Sally was not in her office, other "
+        "than usual. I delivered the first message to Sally. The goal is reached."
+    ),
+    "why did the plan change at step 1?": (
+        "At step 1 I saw that Sally was in the kitchen. So I concluded that Sally was not in "
+        "her office, other than usual. It was no longer needed to move to Sally's office."
+    ),
+    "why do you believe that Sally is not in her office?": (
+        'I believe that Sally is not in her office. It follows from "nobody is at two places": '
+        "Sally is in the kitchen. I saw at step 2 that Sally was in the kitchen."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", MET)
+def test_answers_after_somebody_was_met_on_the_way(met: Run, question: str) -> None:
+    assert asked(met, question) == MET[question]
+
+
+LOST = {
+    "what did you do?": (
+        "I moved to the kitchen. At step 1 I found that the first message was lost after step "
+        "0. I moved to the library, printed the first message, moved to the kitchen, moved to "
+        "Sally's office and delivered the first message to Sally. The goal is reached."
+    ),
+    "why did your plan change?": (
+        "At step 1 I saw that I did not have the first message. So I concluded that the first "
+        "message was lost after step 0. I could no longer deliver the first message to Sally "
+        'as planned: "a message that the robot does not have cannot be delivered", and I did '
+        "not have the first message. So I decided to move to the library, print the first "
+        "message, move to the kitchen, move to Sally's office and deliver the first message to "
+        "Sally."
+    ),
+    "why did you print the first message?": (
+        "I printed the first message at step 2 because I wanted to deliver the first message "
+        'to Sally. Otherwise I could not have done that: "a message that the robot does not '
+        'have cannot be delivered", and I did not have the first message.'
+    ),
+    "why do you believe that you do not have the first message at step 1?": (
+        "At step 1 I believed that I did not have the first message. I saw at step 1 that I "
+        "did not have the first message."
+    ),
+    "why did the plan change at step 2?": "The plan did not change at step 2.",
+}
+
+
+@pytest.mark.parametrize("question", LOST)
+def test_answers_after_a_message_was_lost(lost: Run, question: str) -> None:
+    assert asked(lost, question) == LOST[question]
+
+
+SHUT_IN = {
+    "what did you do?": (
+        "I did not do anything. I gave up: the goal could not be reached, since Bob's office, "
+        "John's office and the kitchen were closed."
+    ),
+    "what is your plan?": (
+        "I gave up: the goal could not be reached, since Bob's office, John's office and the "
+        "kitchen were closed."
+    ),
+    "why did you not move to the kitchen?": (
+        'I could not move to the kitchen at step 0: "nobody enters a place that is closed", '
+        "and the kitchen was closed."
+    ),
+    "what would you do if the kitchen were open?": (
+        "If the kitchen were open, I would move to the kitchen, move to Sally's office and "
+        "deliver the first message to Sally."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", SHUT_IN)
+def test_answers_after_giving_up(shut_in: Run, question: str) -> None:
+    assert asked(shut_in, question, SHORT_SIGHTED) == SHUT_IN[question]
+
+
+BEFORE = {
+    "what is your plan?": (
+        "My plan is to move to the kitchen, move to Sally's office and deliver the first "
+        "message to Sally."
+    ),
+    "what did you do?": "I have not done anything yet.",
+    "where is Sally?": (
+        'Sally is in her office. That is usual: "people are in their own office unless they '
+        'are elsewhere".'
+    ),
+    "what would you do if you did not have the first message?": (
+        "If I did not have the first message, I would print the first message, move to the "
+        "kitchen, move to Sally's office and deliver the first message to Sally: 4 actions "
+        "instead of 3."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", BEFORE)
+def test_answers_before_anything_was_done(question: str) -> None:
+    assert asked(Run(TO_SALLY, OFFICE.history), question) == BEFORE[question]
+
+
+@pytest.fixture(scope="module")
+def begun(transitions: Transitions) -> Run:
+    """A run that has come no further than its first action."""
+    usual = sorted(diagnose(OFFICE.knowledge, OFFICE.history).states[0].holds)
+    state = transitions.complete(usual)
+    after = transitions.after(state, [term("move(rob1,kitchen)")]) or state
+    goal = read_goal("message_status(m1, P, delivered), loc(rob1, kitchen), P != bob",
+                     OFFICE.knowledge)  # fmt: skip
+    return next(execute(OFFICE, goal, sensed=seen_in(state), act=lambda _: seen_in(after)))
+
+
+BEGUN = {
+    "what is your goal?": (
+        "My goal is that the first message for some person is delivered, I am in the kitchen "
+        "and that person is not Bob."
+    ),
+    "what is your plan?": (
+        "My plan is to move to Sarah's office, deliver the first message to Sarah and move to "
+        "the kitchen."
+    ),
+    "what did you do?": "I moved to the kitchen.",
+    "why do you not print the first message?": (
+        'I could not print the first message at step 1: "messages are printed where a printer '
+        'is", and I was in the kitchen.'
+    ),
+    "what would you do if Sarah were in the bathroom?": (
+        "If Sarah were in the bathroom, I would move to the bathroom, deliver the first "
+        "message to Sarah and move to the kitchen."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", BEGUN)
+def test_answers_while_a_run_goes_on(begun: Run, question: str) -> None:
+    assert asked(begun, question) == BEGUN[question]
+
+
+def failed_once(transitions: Transitions) -> Run:
+    """A run in which the second action has no effect at first."""
+    kept: list[World] = []
+
+    def keep(step: int, state: World) -> World:
+        kept.append(state)
+        return kept[0] if step == 2 else state
+
+    return office_run(transitions, script=keep)
+
+
+@pytest.fixture(scope="module")
+def failed(transitions: Transitions) -> Run:
+    return failed_once(transitions)
+
+
+FAILED = {
+    "what did you do?": (
+        "I moved to the kitchen, tried to move to Sally's office and failed, moved to Sally's "
+        "office and delivered the first message to Sally. The goal is reached."
+    ),
+    "why did the plan change?": (
+        "At step 2 I saw that I was in the kitchen. So I concluded that the attempt to move to "
+        "Sally's office at step 1 failed. I could no longer deliver the first message to Sally "
+        'as planned: "a message is delivered to somebody who is where the robot is", and I was '
+        "in the kitchen and Sally was in her office. So I decided to move to Sally's office "
+        "and deliver the first message to Sally."
+    ),
+    "why did you move to Sally's office at step 1?": (
+        "I tried to move to Sally's office at step 1 because I wanted to deliver the first "
+        'message to Sally. Otherwise I could not have done that: "a message is delivered to '
+        'somebody who is where the robot is", and I was in the kitchen and Sally was in her '
+        "office."
+    ),
+    "are you in the kitchen at step 2?": (
+        "Yes, I was in the kitchen. I saw at step 2 that I was in the kitchen."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", FAILED)
+def test_answers_after_an_attempt_failed(failed: Run, question: str) -> None:
+    assert asked(failed, question) == FAILED[question]
+
+
+def test_spelling_case_and_articles_are_forgiven(delivered: Run) -> None:
+    plain = asked(delivered, "why did you move to the kitchen at step 0?")
+    assert asked(delivered, "WHY did you go to kichen, at step 0") == plain
+    assert asked(delivered, "why did you move to kitchen?") == plain
+
+
+def test_reasons_are_a_tree_down_to_a_default(delivered: Run) -> None:
+    reply = answer(OFFICE, delivered, "why do you believe that Sally is in her office at step 1?")
+    why = reply.reasons["why"]
+    assert (why["basis"], why["step"]) == ("unchanged", 1)
+    (usual,) = why["children"]
+    assert (usual["basis"], usual["step"]) == ("usual", 0)
+    assert usual["axiom"] == "people are in their own office unless they are elsewhere"
+
+
+def test_what_needed_an_action_is_told_to_the_goal(delivered: Run) -> None:
+    reply = answer(OFFICE, delivered, "why did you move to the kitchen?")
+    assert [own["action"] for own in reply.reasons["needed_by"]] == [
+        "move(rob1,sallys_office)",
+        "deliver(rob1,m1,sally)",
+        None,
+    ]
+
+
+REFUSED = {
+    "": (
+        "the question is empty; ask for instance: what is your plan? · what did you do? · what "
+        "is your goal?"
+    ),
+    "where is Harry?": "'where is Harry?' is not understood; ask for instance: where is Bob?",
+    "is the kitchen cosy?": (
+        "'is the kitchen cosy?' is not understood; ask for instance: is the kitchen closed? · "
+        "is the first message for Bob undelivered? · is Bob in the kitchen?"
+    ),
+    "tell me a joke": (
+        "'tell me a joke' is not understood; ask for instance: is Bob's office open? · do you "
+        "have the first message? · is there a desk in Bob's office?"
+    ),
+    "where is Sally at step 9?": (
+        "there is no step 9 yet: the run has come to step 3; ask about step 0 to 3"
+    ),
+}
+
+
+@pytest.mark.parametrize("question", REFUSED)
+def test_what_is_not_understood_names_the_nearest_questions(delivered: Run, question: str) -> None:
+    with pytest.raises(QuestionError) as refused:
+        answer(OFFICE, delivered, question)
+    assert str(refused.value) == REFUSED[question]
+
+
+KNOWLEDGE = """
+#sort lamp = {red_lamp, blue_lamp}.
+#sort colour = {dim, bright}.
+#static wired(lamp).
+wired(red_lamp).
+wired(blue_lamp).
+#fluent basic power.
+#fluent basic lit(lamp).
+#fluent basic light(lamp, colour).
+#fluent defined festive.
+#action press(lamp).
+#action turn(lamp, colour).
+#action connect.
+#action exogenous outage.
+%% a wired lamp that is switched on is lit
+press(L) causes lit(L) if wired(L).
+turn(L, C) causes light(L, C).
+%% connecting brings power
+connect causes power.
+outage causes -power.
+%% a lamp has one brightness
+-light(L, C2) if light(L, C1), C1 != C2.
+%% no switch works without power
+impossible press(L) if not power.
+impossible press(L) if lit(L).
+%% a dark lamp cannot be turned
+impossible turn(L, C) if not lit(L).
+impossible connect if power.
+impossible outage if not power.
+default -power.
+default -lit(L).
+%% lamps are dim when they are bought
+default light(L, dim).
+%% it is festive where two lamps are lit
+festive if #count { L : lit(L) } >= 2.
+"""
+WORDS = """
+[planning]
+name = "lamps"
+title = "Two lamps"
+
+[things]
+red_lamp = "the red lamp"
+blue_lamp = "the blue lamp"
+
+[fluents.power]
+say = "there is power"
+deny = "there is no power"
+
+[fluents.lit]
+say = "{0} is lit"
+deny = "{0} is dark"
+
+[fluents.light]
+say = "{0} shines {1}"
+
+[fluents.festive]
+say = "it is festive"
+deny = "it is not festive"
+
+[actions.press]
+do = "switch on {0}"
+did = "switched on {0}"
+
+[actions.turn]
+do = "turn {0} to {1}"
+did = "turned {0} to {1}"
+
+[actions.connect]
+do = "connect the power"
+did = "connected the power"
+
+[actions.outage]
+did = "the power failed"
+
+[[sensing]]
+literal = "lit(L)"
+where = "lamp(L)"
+"""
+
+
+@pytest.fixture(scope="module")
+def lamps(tmp_path_factory: pytest.TempPathFactory) -> tuple[PlanningDomain, Run]:
+    folder = tmp_path_factory.mktemp("lamps")
+    (folder / "knowledge.al").write_text(KNOWLEDGE, encoding="utf-8")
+    (folder / "planning.toml").write_text(WORDS, encoding="utf-8")
+    domain = load_planning_domain(folder)
+    goal = read_goal("light(red_lamp, bright), lit(blue_lamp)", domain.knowledge)
+    *_, run = execute(domain, goal, sensed=[], act=lambda _: [])
+    return domain, run
+
+
+LAMPS = {
+    "is the red lamp lit?": (
+        'Yes, the red lamp is lit. I switched on the red lamp at step 2, and "a wired lamp '
+        'that is switched on is lit"; nothing that I know of has changed it since.'
+    ),
+    "is the red lamp dark?": (
+        'No, the red lamp is lit. I switched on the red lamp at step 2, and "a wired lamp that '
+        'is switched on is lit"; nothing that I know of has changed it since.'
+    ),
+    "is there power at step 0?": "No, there was no power. That is usual.",
+    "is it festive?": "Yes, it is festive because the blue lamp and the red lamp are lit.",
+    "is it festive at step 1?": (
+        'No, it was not festive: I know of nothing that would make it otherwise, and "it is '
+        'festive where two lamps are lit".'
+    ),
+    "does the red lamp shine bright?": (
+        "Yes, the red lamp shines bright. I turned the red lamp to bright at step 3."
+    ),
+    "what was your plan at step 2?": (
+        "At step 2 my plan was to switch on the red lamp and turn the red lamp to bright."
+    ),
+    "what did you do?": (
+        "I connected the power, switched on the blue lamp, switched on the red lamp and turned "
+        "the red lamp to bright. The goal is reached."
+    ),
+    "what is your goal?": "My goal is that the red lamp shines bright and the blue lamp is lit.",
+    "why did you connect the power?": (
+        "I connected the power at step 0 because I wanted to switch on the blue lamp. "
+        'Otherwise I could not have done that: "no switch works without power", and there was '
+        "no power."
+    ),
+    "why did you switch on the blue lamp?": (
+        "I switched on the blue lamp at step 1 because my goal was that the blue lamp is lit."
+    ),
+    "why did you turn the red lamp to bright?": (
+        "I turned the red lamp to bright at step 3 because my goal was that the red lamp "
+        "shines bright."
+    ),
+    "why did you not switch on the blue lamp at step 0?": (
+        'I could not switch on the blue lamp at step 0: "no switch works without power", and '
+        "there was no power."
+    ),
+    "why did you not turn the red lamp to dim?": (
+        "The plan would have been longer: 2 actions (turn the red lamp to dim and turn the red "
+        "lamp to bright) instead of 1."
+    ),
+    "why is there power?": (
+        'I believe that there is power. I connected the power at step 0, and "connecting '
+        'brings power"; nothing that I know of has changed it since.'
+    ),
+    "why does the blue lamp shine dim?": (
+        'I believe that the blue lamp shines dim. That is usual: "lamps are dim when they are '
+        'bought"; nothing that I know of has changed it since.'
+    ),
+    "what would you do if there were no power at step 1?": (
+        "If there were no power, I would connect the power, switch on the blue lamp, switch on "
+        "the red lamp and turn the red lamp to bright: 4 actions instead of 3."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", LAMPS)
+def test_answers_in_any_other_domain(lamps: tuple[PlanningDomain, Run], question: str) -> None:
+    domain, run = lamps
+    assert asked(run, question, domain) == LAMPS[question]
