@@ -140,3 +140,18 @@ def test_beliefs_and_truth_look_different() -> None:
         len({drawn(believed=b, true=t) for b, t in ((True, True), (True, False), (False, True))})
         == 3
     )
+
+
+def test_a_run_can_be_asked_about(run: Run) -> None:
+    goal = "message_status(m1, sally, delivered)"
+    questions = ("why did you move to the kitchen?", "what would you do if I sang?")
+    asked = ("simulate", "robot_assistant", "--goal", goal, "--seed", "1", "--ask")
+    assert run(*asked, questions[0]).out.endswith(
+        "why did you move to the kitchen?\n"
+        "I moved to the kitchen at step 0 because I wanted to move to Sally's office, in order to "
+        "deliver the first message to Sally. Otherwise I could not have done that: \"the robot "
+        "moves to places next to its own\", and I was in the library.\n"
+    )
+    refused = run(*asked, questions[1])
+    assert refused.code == 2
+    assert "what would you do if I sang" in refused.err

@@ -354,8 +354,8 @@ BEGUN = {
         'is", and I was in the kitchen.'
     ),
     "what would you do if Sarah were in the bathroom?": (
-        "If Sarah were in the bathroom, I would move to the bathroom, deliver the first "
-        "message to Sarah and move to the kitchen."
+        "If Sarah were in the bathroom, I would move to Sally's office, deliver the first "
+        "message to Sally and move to the kitchen."
     ),
 }
 

@@ -23,6 +23,10 @@ def simulate(
     out: Annotated[
         Path | None, typer.Option("--out", help="Also write the run to this .html file.")
     ] = None,
+    ask: Annotated[
+        list[str] | None,
+        typer.Option("--ask", help="A question about the run; may be given several times."),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Simulate a robot that plans, acts, is surprised, and plans anew."""
@@ -30,6 +34,7 @@ def simulate(
     from seewhy.files import write_whole
     from seewhy.planning.goal import read_goal
     from seewhy.planning.narration import narrate_end, narrate_step
+    from seewhy.planning.replying import answer
     from seewhy.planning.simulation import simulate as run_simulation
     from seewhy.planning_domain import load_planning_domain
     from seewhy.report.run_page import run_page
@@ -49,11 +54,15 @@ def simulate(
         remark("interrupted; what was done so far follows")
     if last is None:
         raise typer.Exit(1)
+    run = last.run
+    replies = [answer(own, run, question) for question in ask or ()]
     if json:
-        print_json(_to_dict(last, goal, seed))
+        print_json({**_to_dict(last, goal, seed), "replies": [own.to_dict() for own in replies]})
     else:
-        say(narrate_end(last.run))
+        say(narrate_end(run))
         say(f"In truth it {'is' if last.achieved else 'is not'} reached.")
+        for question, reply in zip(ask or (), replies, strict=True):
+            say(f"\n{question}\n{reply.text}")
     if out is not None:
         command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
         write_whole(out, run_page(own, last, command=command))

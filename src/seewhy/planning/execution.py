@@ -63,6 +63,8 @@ class Step:
         What is intended from here on.
     skipped : tuple of clingo.Symbol
         The actions that became needless.
+    doubted : bool
+        Whether a new plan supposes that things changed since they were seen.
     supposed : tuple of clingo.Symbol
         What a new plan supposes: what is not known, or may have changed since it was seen.
     action : clingo.Symbol or None
@@ -79,6 +81,7 @@ class Step:
     decision: Decision
     plan: tuple[clingo.Symbol, ...]
     skipped: tuple[clingo.Symbol, ...] = ()
+    doubted: bool = False
     supposed: tuple[clingo.Symbol, ...] = ()
     action: clingo.Symbol | None = None
     because: tuple[clingo.Symbol, ...] = ()
@@ -227,6 +230,7 @@ class _Robot:
             "decision": Decision.REPLAN if self.began else Decision.PLAN,
             "plan": found.actions,
             "action": found.actions[0],
+            "doubted": self.doubted_before is not None,
             "supposed": supposed,
             "planning_seconds": seconds,
         }

@@ -196,6 +196,8 @@ def _by_answer_sets(
         return Plan(PlanStatus.UNREACHABLE, horizon=horizon)
     search = _Search(knowledge, start, possible)
     for steps in range(horizon + 1):
+        if until is not None and time.perf_counter() >= until:
+            return Plan(PlanStatus.OUT_OF_TIME, horizon=max(0, steps - 1))
         search.extend(steps)
         if steps < least:
             continue
@@ -203,10 +205,10 @@ def _by_answer_sets(
         if found is not None:
             status = PlanStatus.FOUND if steps else PlanStatus.ALREADY_TRUE
             return Plan(status, *found, horizon=horizon)
-        if until is not None and time.perf_counter() >= until:
-            return Plan(PlanStatus.OUT_OF_TIME, horizon=steps)
         if not possible.can:
             break
+    if until is not None and time.perf_counter() >= until:
+        return Plan(PlanStatus.OUT_OF_TIME, horizon=horizon)
     return Plan(
         PlanStatus.NOT_WITHIN_HORIZON if possible.can else PlanStatus.UNREACHABLE, horizon=horizon
     )
