@@ -69,6 +69,13 @@ def test_somebody_observed_absent_is_nowhere_that_is_known() -> None:
     assert clingo.parse_term("loc(sally,library)") in gone.now.unknown
 
 
+def test_what_is_clear_from_the_first_look_is_no_surprise() -> None:
+    assert surprises("observed loc(sally, library) at 0.") == []
+    assert surprises("observed loc(sally, library) at 1. happened move(rob1, kitchen) at 0.") == [
+        (0, "exception", "loc(sally,sallys_office)")
+    ]
+
+
 def test_somebody_seen_before_must_have_walked() -> None:
     seen = "observed -loc(sally, kitchen) at 1. happened move(rob1, kitchen) at 2. "
     found = SALLY_GONE + seen + "observed loc(sally, kitchen) at 3."

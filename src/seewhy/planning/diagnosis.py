@@ -23,12 +23,14 @@ from seewhy.knowledge.dynamics import (
     gives_way,
     instance,
     of_kind,
+    predicates_in,
     rule,
     transition_rules,
 )
 from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.signature import Signature
 from seewhy.planning.state import State
 
 # Few surprises explain most histories: raising the bound from below proves that soonest.
@@ -45,7 +47,11 @@ event(A, T) :- occurs(A, T), exogenous(A), not happened(A, T).
 #minimize { 1@1, event(A, T) : event(A, T); 1@1, failed(A, T) : failed(A, T);
             2@1, misread(L, T) : misread(L, T) }.
 #minimize { N-T@0, A, T : event(A, T), last(N) }.
-#show holds/2. #show exception/2. #show event/2. #show failed/2. #show misread/2.
+at(seen, seen).
+holds(L, seen) :- observed(L, 0), not misread(L, 0).
+evident(L) :- holds(L, seen).
+#defined misread/2. #defined observed/2.
+#show evident/1. #show holds/2. #show exception/2. #show event/2. #show failed/2. #show misread/2.
 """
 
 
@@ -158,17 +164,17 @@ def diagnose(
     fluents = [own.symbol.arguments[1] for own in control.symbolic_atoms.by_signature("fluent", 2)]
     return Diagnosis(
         states=tuple(_states(sure, fluents, last)),
-        surprises=tuple(sorted(_surprises(knowledge, history, best, frozenset(sure)))),
+        surprises=tuple(sorted(_surprises(knowledge, best, frozenset(sure)))),
     )
 
 
 def diagnosis_program(knowledge: Knowledge, *, last: int, sensors_err: bool = False) -> str:
     """Return the program whose preferred answer sets explain a history of steps 0 to ``last``."""
     signature = knowledge.signature
-    signature = knowledge.signature
     lines = list(transition_rules(knowledge, last=last))
     for axiom in constraints(knowledge):
         if not gives_way(axiom, signature):
+            lines += _evident(axiom, signature)
             continue
         # At first a constraint that gives way is a default like any other.
         usual = [own for own in axiom.body if own.literal != axiom.head.complement]
@@ -184,6 +190,13 @@ def diagnosis_program(knowledge: Knowledge, *, last: int, sensors_err: bool = Fa
     if sensors_err:
         lines.append("{ misread(L, T) } :- observed(L, T).")
     return "\n".join(lines) + _PROGRAM
+
+
+def _evident(axiom: Axiom, signature: Signature) -> Iterator[str]:
+    """Yield what follows by a constraint from what was seen at first, and from nothing else."""
+    fluents = [own for own in axiom.body if any(map(signature.changes, predicates_in(own.text)))]
+    if all(own.literal and not own.absent for own in fluents):
+        yield rule(f"holds({axiom.head}, seen)", body_at(axiom, signature, "seen"))
 
 
 def history_facts(history: History) -> Iterator[str]:
@@ -206,7 +219,7 @@ def _last_model(control: clingo.Control) -> list[clingo.Symbol] | None:
 def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) -> Iterator[State]:
     holds: list[set[clingo.Symbol]] = [set() for _ in range(last + 1)]
     for atom in sure:
-        if atom.name == "holds" and len(atom.arguments) == 2:
+        if atom.name == "holds" and atom.arguments[1].type is clingo.SymbolType.Number:
             holds[atom.arguments[1].number].add(atom.arguments[0])
     for believed in holds:
         known = {clingo.Function(own.name, own.arguments) for own in believed}
@@ -215,19 +228,18 @@ def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) 
 
 def _surprises(
     knowledge: Knowledge,
-    history: History,
     model: list[clingo.Symbol],
     sure: frozenset[clingo.Symbol],
 ) -> Iterator[Surprise]:
-    seen_at_first = {key_of(own.literal) for own in history.observations if own.step == 0}
+    evident = {str(own.arguments[0]) for own in model if own.name == "evident"}
     axioms = {own.identifier: own for own in knowledge.axioms}
     for atom in model:
         if atom.name == SurpriseKind.EXCEPTION:
             axiom = axioms[str(atom.arguments[0])]
             binding = dict(zip(axiom.variables, map(str, atom.arguments[1].arguments), strict=True))
             head = axiom.head.substitute(binding)
-            if key_of(head.complement) in seen_at_first:
-                continue  # seen, not assumed
+            if key_of(head.complement) in evident:
+                continue  # seen, or clear from what was seen, and not assumed
             usual = clingo.parse_term(str(head))
             yield Surprise(0, SurpriseKind.EXCEPTION, usual, axiom, atom in sure)
         elif atom.name in (SurpriseKind.EVENT, SurpriseKind.FAILURE, SurpriseKind.MISREADING):
