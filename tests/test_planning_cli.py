@@ -149,8 +149,8 @@ def test_a_run_can_be_asked_about(run: Run) -> None:
     assert run(*asked, questions[0]).out.endswith(
         "why did you move to the kitchen?\n"
         "I moved to the kitchen at step 0 because I wanted to move to Sally's office, in order to "
-        "deliver the first message to Sally. Otherwise I could not have done that: \"the robot "
-        "moves to places next to its own\", and I was in the library.\n"
+        'deliver the first message to Sally. Otherwise I could not have done that: "the robot '
+        'moves to places next to its own", and I was in the library.\n'
     )
     refused = run(*asked, questions[1])
     assert refused.code == 2

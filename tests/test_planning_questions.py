@@ -486,6 +486,8 @@ outage causes -power.
 %% no switch works without power
 impossible press(L) if not power.
 impossible press(L) if lit(L).
+%% the red lamp is switched on after the blue one
+impossible press(red_lamp) if not lit(blue_lamp).
 %% a dark lamp cannot be turned
 impossible turn(L, C) if not lit(L).
 impossible connect if power.
@@ -580,12 +582,14 @@ LAMPS = {
     ),
     "what is your goal?": "My goal is that the red lamp shines bright and the blue lamp is lit.",
     "why did you connect the power?": (
-        "I connected the power at step 0 because I wanted to switch on the blue lamp. "
-        'Otherwise I could not have done that: "no switch works without power", and there was '
-        "no power."
+        "I connected the power at step 0 because I wanted to switch on the blue lamp, in order "
+        "to turn the red lamp to bright. Otherwise I could not have done that: "
+        '"no switch works without power", and there was no power.'
     ),
     "why did you switch on the blue lamp?": (
-        "I switched on the blue lamp at step 1 because my goal was that the blue lamp is lit."
+        "I switched on the blue lamp at step 1 because I wanted to switch on the red lamp, in "
+        "order to turn the red lamp to bright. Otherwise I could not have done that: "
+        '"the red lamp is switched on after the blue one", and the blue lamp was dark.'
     ),
     "why did you turn the red lamp to bright?": (
         "I turned the red lamp to bright at step 3 because my goal was that the red lamp "
