@@ -5,18 +5,16 @@ from __future__ import annotations
 import itertools
 from collections import deque
 from collections.abc import Callable, Iterator
-from typing import Any
 
-import clingo
 import pytest
 
 from seewhy.knowledge.history import read_history
+from seewhy.planning.check import check_change
 from seewhy.planning.diagnosis import Diagnosis, diagnose
 from seewhy.planning.goal import read_goal
 from seewhy.planning.planner import Plan, PlanStatus, plan
 from seewhy.planning.simulation import simulate
 from seewhy.planning.state import State
-from seewhy.planning.world import Transitions
 from seewhy.planning_domain import load_planning_domain
 
 DOMAIN = load_planning_domain("tower_building")
@@ -197,44 +195,11 @@ def test_a_box_that_feels_heavy_is_other_than_usual() -> None:
     assert surprises(text) == [(0, "exception", "-heavy(b1)")]
 
 
-def test_every_action_has_one_outcome() -> None:
-    """Knowledge about change can leave open what follows; here it settles everything."""
-    transitions = Transitions(KNOWLEDGE)
-    low = transitions.complete(sorted(after(LOW_TEXT).now.holds))
-    held = transitions.after(low, [clingo.parse_term("pick_up(rob1, b5)")])
-    assert held is not None
-    for state in (low, held):
-        counted = {
-            str(action): outcomes(transitions, state, action)
-            for action in (*transitions.actions, *transitions.events)
-        }
-        assert set(counted.values()) == {0, 1}
-    assert counted["put(rob1,b5,b1)"] == 1
-    assert counted["put(rob1,b5,b6)"] == 0
-
-
-def outcomes(
-    transitions: Transitions, state: frozenset[clingo.Symbol], action: clingo.Symbol
-) -> int:
-    """How many next states there are, counted with the world's own program."""
-    control = transitions.control
-    holds = {own.symbol: own.literal for own in control.symbolic_atoms.by_signature("holds", 2)}
-    occurs = {own.symbol: own.literal for own in control.symbolic_atoms.by_signature("occurs", 2)}
-    first = clingo.Number(0)
-    assumed = [
-        holds[clingo.Function("holds", [own, first])]
-        for own in state
-        if KNOWLEDGE.signature.kind(own.name).value == "fluent basic"
-    ]
-    happens = clingo.Function("occurs", [action, first])
-    assumed += [literal if own == happens else -literal for own, literal in occurs.items()]
-    if happens not in occurs:
-        return 0
-    found: set[frozenset[clingo.Symbol]] = set()
-    solve: Any = control.configuration.solve
-    solve.models = 0
-    control.solve(assumed, on_model=lambda model: found.add(frozenset(model.symbols(atoms=True))))
-    return len(found)
+def test_nothing_is_put_on_the_ball_or_the_roof() -> None:
+    assert check_change(DOMAIN) == (
+        "never possible: put(rob1, _, b5)",
+        "never possible: put(rob1, _, b6)",
+    )
 
 
 def test_the_robot_builds_a_tower_in_the_simulated_world() -> None:

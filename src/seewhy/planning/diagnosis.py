@@ -28,7 +28,7 @@ from seewhy.knowledge.dynamics import (
     transition_rules,
 )
 from seewhy.knowledge.ground import key_of
-from seewhy.knowledge.history import History
+from seewhy.knowledge.history import History, Observation, Occurrence
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Signature
 from seewhy.planning.state import State
@@ -251,9 +251,24 @@ def _surprises(
             )
 
 
-def _unexplained(knowledge: Knowledge, history: History) -> str:
-    """Say which entries of the history would have to be otherwise, as few as possible."""
-    entries = (*history.observations, *history.occurrences)
+def entries_in_the_way(
+    knowledge: Knowledge, history: History
+) -> tuple[Observation | Occurrence, ...] | None:
+    """Return what a history that nothing explains should not say, as few entries as possible.
+
+    None where no history at all could be explained.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.history import read_history
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge("#fluent basic dark. #fluent basic lit. -lit if dark.")
+    >>> both = read_history("observed dark at 0. observed lit at 0. observed lit at 1.",
+    ...     known.signature)
+    >>> [str(own) for own in entries_in_the_way(known, both)]
+    ['observed dark at 0.']
+    """
+    entries: list[Observation | Occurrence] = [*history.observations, *history.occurrences]
     lines = [
         diagnosis_program(knowledge, last=history.last_step),
         "#minimize { 1@3, E : wrong(E) }.",
@@ -265,12 +280,20 @@ def _unexplained(knowledge: Knowledge, history: History) -> str:
     control.ground([("base", [])])
     best = _last_model(control)
     if best is None:
+        return None
+    wrong = sorted(own.arguments[0].number for own in best if own.name == "wrong")
+    return tuple(entries[number] for number in wrong)
+
+
+def _unexplained(knowledge: Knowledge, history: History) -> str:
+    """Say which entries of the history would have to be otherwise."""
+    wrong = entries_in_the_way(knowledge, history)
+    if wrong is None:
         return (
             f"{knowledge.file}: no state satisfies the axioms, whatever is observed; look for "
             "defaults or constraints that contradict each other"
         )
-    wrong = sorted(own.arguments[0].number for own in best if own.name == "wrong")
-    said = " and ".join(f"'{str(entries[number]).rstrip('.')}'" for number in wrong)
+    said = " and ".join(f"'{str(own).rstrip('.')}'" for own in wrong)
     return (
         f"nothing that may be assumed explains this history as long as it says {said}; correct "
         f"{'it' if len(wrong) == 1 else 'them'}, or add to the knowledge what could have happened"

@@ -1,0 +1,209 @@
+"""Ask about all states at once: is there one in which this can be done, and what follows it?"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import clingo
+
+from seewhy.knowledge.axiom import Axiom, AxiomKind
+from seewhy.knowledge.dynamics import (
+    STEP,
+    body_at,
+    constraints,
+    fixed_rules,
+    gives_way,
+    of_kind,
+    rule,
+)
+from seewhy.knowledge.language import Knowledge
+
+# Every state is tried as the first one; each of the others is a state that may follow it.
+_PROGRAM = """
+at(T, T) :- step(T).
+1 { holds(F, 0); holds(-F, 0) } 1 :- fluent(basic, F).
+holds(-F, T) :- fluent(defined, F), step(T), not holds(F, T).
+:- holds(F, 0), holds(-F, 0).
+holds(F, T) :- fluent(basic, F), holds(F, 0), not holds(-F, T), step(T), T > 0.
+holds(-F, T) :- fluent(basic, F), holds(-F, 0), not holds(F, T), step(T), T > 0.
+1 { occurs(A) : named(N, A) } 1 :- doing(N).
+{ consistent }.
+:- consistent, holds(F, T), holds(-F, T).
+#minimize { 1, F : holds(F, 1), holds(-F, 1) }.
+#defined used/1. #defined doing/1. #defined named/2. #defined action/1. #defined exogenous/1.
+"""
+_TWO_FOLLOW = """
+differs(F) :- fluent(basic, F), holds(F, 1), holds(-F, 2).
+:- not differs(_).
+"""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A state, what is done in it, and what follows.
+
+    Attributes
+    ----------
+    action : clingo.Symbol or None
+    conclusions : tuple of (str, clingo.Symbol, int)
+        The axioms that conclude something in a state that follows, what, and in which.
+    contradicted : frozenset of clingo.Symbol
+        The fluents that would be both true and false.
+    differing : frozenset of clingo.Symbol
+        The fluents that are true in one of two states that may follow, and false in the other.
+    """
+
+    action: clingo.Symbol | None
+    conclusions: tuple[tuple[str, clingo.Symbol, int], ...]
+    contradicted: frozenset[clingo.Symbol]
+    differing: frozenset[clingo.Symbol]
+
+
+class TransitionProbe:
+    """All states that the constraints allow, and for each what may be done and may follow.
+
+    ``following`` is how many states after the first are looked at: none (what is possible), one
+    (what follows), or two that may both follow the same one and differ.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge('''
+    ... #fluent basic lit. #action press. press causes lit. impossible press if lit.
+    ... -lit.
+    ... ''')
+    >>> law, = of_kind(known, AxiomKind.CAUSAL_LAW)
+    >>> TransitionProbe(known, following=0).find(action="press", applies=law) is None
+    False
+    >>> TransitionProbe(known, following=1).find(action="press", applies=law) is None
+    True
+    """
+
+    def __init__(self, knowledge: Knowledge, *, following: int) -> None:
+        self.control = clingo.Control(["--warn=none"], logger=lambda *_: None)
+        text = "\n".join(_rules(knowledge, following))
+        self.control.add("base", [], text)
+        self.control.ground([("base", [])])
+        atoms = self.control.symbolic_atoms
+        self._literals = {str(own.symbol): own.literal for own in atoms}
+        self.actions = [n for n, p in knowledge.signature.predicates.items() if p.kind.is_action]
+        self.guarded = [own for own in knowledge.axioms if f"used({own.identifier})" in text]
+
+    def find(
+        self,
+        *,
+        action: str | None = None,
+        applies: Axiom | None = None,
+        without: Collection[Axiom] = (),
+        contradictions: bool = False,
+    ) -> Found | None:
+        """Return some state with these properties, None where there is no such state.
+
+        Parameters
+        ----------
+        action : str, optional
+            The predicate of the one action that happens; by default nothing happens.
+        applies : Axiom, optional
+            A causal law of the action that applies.
+        without : collection of Axiom
+            Constraints, executability conditions and defaults to leave out.
+        contradictions : bool
+            Whether what follows may contradict itself.
+        """
+        dropped = {own.identifier for own in without}
+        wanted = [] if contradictions else ["consistent"]
+        wanted += [f"applies({applies.identifier})"] if applies else []
+        if any(own not in self._literals for own in wanted):
+            return None
+        assumed = [self._literals[own] for own in wanted]
+        for name in self.actions:
+            literal = self._literals[f"doing({name})"]
+            assumed.append(literal if name == action else -literal)
+        for own in self.guarded:
+            literal = self._literals[f"used({own.identifier})"]
+            assumed.append(-literal if own.identifier in dropped else literal)
+        found: list[list[clingo.Symbol]] = []
+        self.control.solve(
+            assumed, on_model=lambda model: found.append(list(model.symbols(atoms=True)))
+        )
+        return _read(found[-1]) if found else None
+
+    def smallest_conflict(
+        self, axioms: Sequence[Axiom], *, action: str | None = None, without: Sequence[Axiom] = ()
+    ) -> list[Axiom]:
+        """Return those of ``axioms`` that leave no state; without any of them there is one."""
+        needed = list(axioms)
+        for own in axioms:
+            fewer = [other for other in needed if other is not own]
+            dropped = [*without, *(other for other in axioms if other not in fewer)]
+            if self.find(action=action, without=dropped) is None:
+                needed = fewer
+        return needed
+
+
+def _rules(knowledge: Knowledge, following: int) -> Iterator[str]:
+    signature = knowledge.signature
+    yield from fixed_rules(knowledge)
+    yield f"step(0..{following})."
+    for predicate in signature.predicates.values():
+        if predicate.kind.is_action:
+            terms = ", ".join(f"X{place}" for place in range(len(predicate.sorts)))
+            atom = f"{predicate.name}({terms})" if terms else predicate.name
+            for kind in ("action", "exogenous"):
+                yield f"named({predicate.name}, {atom}) :- {kind}({atom})."
+            yield f"{{ doing({predicate.name}) }}."
+    for axiom in constraints(knowledge):
+        used = f"used({axiom.identifier})"
+        yield f"{{ {used} }}."
+        if gives_way(axiom, signature):
+            usual = [own for own in axiom.body if own.literal != axiom.head.complement]
+            body = body_at(replace(axiom, body=tuple(usual)), signature, "0")
+            yield rule("", [*body, f"holds({axiom.head.complement}, 0)", used])
+            continue
+        body = [*body_at(axiom, signature, STEP), f"step({STEP})", used]
+        yield rule(f"holds({axiom.head}, {STEP})", body)
+        yield rule(f"concludes({axiom.identifier}, {axiom.head}, {STEP})", body)
+    for axiom in of_kind(knowledge, AxiomKind.DEFAULT):
+        used = f"used({axiom.identifier})"
+        yield f"{{ {used} }}."
+        body = body_at(axiom, signature, "0")
+        yield rule("", [*body, f"holds({axiom.head.complement}, 0)", used])
+    for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
+        body = [f"occurs({axiom.action})", *body_at(axiom, signature, "0")]
+        yield rule(f"applies({axiom.identifier})", body)
+        body += [f"step({STEP})", f"{STEP} > 0"]
+        yield rule(f"holds({axiom.head}, {STEP})", body)
+        yield rule(f"concludes({axiom.identifier}, {axiom.head}, {STEP})", body)
+    for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION):
+        used = f"used({axiom.identifier})"
+        yield f"{{ {used} }}."
+        yield rule("", [f"occurs({axiom.action})", *body_at(axiom, signature, "0"), used])
+    yield _PROGRAM
+    if following == 2:
+        yield _TWO_FOLLOW
+
+
+def _read(model: list[clingo.Symbol]) -> Found:
+    occurs = [own.arguments[0] for own in model if own.name == "occurs"]
+    after = {
+        own.arguments[0]
+        for own in model
+        if own.name == "holds" and len(own.arguments) == 2 and str(own.arguments[1]) == "1"
+    }
+    return Found(
+        action=occurs[0] if occurs else None,
+        conclusions=tuple(
+            sorted(
+                (str(own.arguments[0]), own.arguments[1], own.arguments[2].number)
+                for own in model
+                if own.name == "concludes"
+            )
+        ),
+        contradicted=frozenset(
+            own
+            for own in after
+            if own.positive and clingo.Function(own.name, own.arguments, False) in after
+        ),
+        differing=frozenset(own.arguments[0] for own in model if own.name == "differs"),
+    )
