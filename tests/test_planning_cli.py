@@ -155,3 +155,32 @@ def test_a_run_can_be_asked_about(run: Run) -> None:
     refused = run(*asked, questions[1])
     assert refused.code == 2
     assert "what would you do if I sang" in refused.err
+
+
+def test_a_domain_that_plans_is_checked(run: Run, tmp_path: Path) -> None:
+    done = run("check", "robot_assistant")
+    assert done.out.splitlines()[1:] == [
+        "  fluents: 7",
+        "  actions: 7",
+        "  axioms: 52",
+        "nothing is wrong",
+    ]
+    folder = tmp_path / "own"
+    shutil.copytree(load_planning_domain("robot_assistant").folder, folder)
+    text = (folder / "knowledge.al").read_text(encoding="utf-8")
+    (folder / "knowledge.al").write_text(
+        text.replace("library, bathroom}", "library, bathroom, attic}")
+    )
+    assert "  note: never possible: move(rob1, attic)\n" in run("check", str(folder)).out
+    found = json.loads(run("check", str(folder), "--json").out)
+    assert found["fluents"] == 7
+
+
+def test_a_domain_that_plans_is_not_trained(run: Run, tmp_path: Path) -> None:
+    done = run("train", "robot_assistant", "--data", str(tmp_path), "--out", str(tmp_path / "m"))
+    assert done.code == 2
+    assert done.err == (
+        "seewhy: 'robot_assistant' is a domain that plans and has no pictures to train on; ask "
+        "'seewhy plan robot_assistant', 'seewhy simulate robot_assistant' or 'seewhy check "
+        "robot_assistant'\n"
+    )

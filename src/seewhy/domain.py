@@ -170,6 +170,11 @@ def domain_folder(name: str | Path) -> Path:
         return path
     if str(name) in bundled_domains():
         return Path(__file__).parent / "domains" / str(name)
+    if (Path(__file__).parent / "domains" / str(name) / "planning.toml").is_file():
+        raise DomainError(
+            f"'{name}' is a domain that plans and has no pictures to train on; ask 'seewhy plan "
+            f"{name}', 'seewhy simulate {name}' or 'seewhy check {name}'"
+        )
     raise DomainError(
         f"'{name}' is neither a folder nor a bundled domain; "
         f"{did_you_mean(str(name), bundled_domains())}"

@@ -89,6 +89,21 @@ def bundled_planning_domains() -> tuple[str, ...]:
     return tuple(sorted(own.parent.name for own in home.glob(f"*/{FILE}")))
 
 
+def plans_only(name: str | Path) -> bool:
+    """Whether a folder, or a bundled domain of that name, has planning.toml and no domain.toml.
+
+    Examples
+    --------
+    >>> plans_only("robot_assistant"), plans_only("traffic_signs")
+    (True, False)
+    """
+    try:
+        folder = _folder(name)
+    except DomainError:
+        return False
+    return (folder / FILE).is_file() and not (folder / "domain.toml").is_file()
+
+
 def load_planning_domain(name: str | Path) -> PlanningDomain:
     """Load a bundled planning domain by name, or a user's by its folder.
 

@@ -22,7 +22,11 @@ def check(
     """Check a domain folder: its files, words, axioms and questions."""
     from seewhy.domain import load_domain
     from seewhy.domain_check import check_domain
+    from seewhy.planning_domain import plans_only
 
+    if plans_only(domain):
+        _check_planning(domain, json=json)
+        return
     own = load_domain(domain)
     report = check_domain(own, data)
     if json:
@@ -46,4 +50,27 @@ def check(
             f"decided: {percent(report.decided or 0.0)} of the scenes, "
             f"{percent(report.decided_rightly or 0.0)} of those rightly"
         )
+    say("nothing is wrong")
+
+
+def _check_planning(domain: str, *, json: bool) -> None:
+    from seewhy.planning.check import check_change
+    from seewhy.planning_domain import load_planning_domain
+
+    own = load_planning_domain(domain)
+    notes = check_change(own)
+    kinds = [predicate.kind for predicate in own.knowledge.signature.predicates.values()]
+    counts = {
+        "fluents": sum(kind.is_fluent for kind in kinds),
+        "actions": sum(kind.is_action for kind in kinds),
+        "axioms": len(own.knowledge.axioms),
+    }
+    if json:
+        print_json({"name": own.name, **counts, "notes": list(notes)})
+        return
+    say(f"{own.title} ({own.name}) in {own.folder}")
+    for name, count in counts.items():
+        say(f"  {name}: {count}")
+    for note in notes:
+        say(f"  note: {note}")
     say("nothing is wrong")
