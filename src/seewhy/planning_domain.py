@@ -10,13 +10,13 @@ from pathlib import Path
 import clingo
 
 from seewhy.domain import domain_folder
-from seewhy.errors import DomainError, KnowledgeError
+from seewhy.errors import DomainError
 from seewhy.knowledge.dynamics import fixed_rules
 from seewhy.knowledge.history import History, read_history_file
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.nearest import did_you_mean
-from seewhy.planning.sensing import Sensing, read_sensing
+from seewhy.planning.sensing import Sensing, SensingError, read_sensing
 from seewhy.planning.words import PlanningWords
 from seewhy.planning_tables import MapTable, PlanningFile, SimulationTable
 from seewhy.toml_file import line_of, read_toml
@@ -128,8 +128,8 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
     for number, own in enumerate(table.sensing):
         try:
             sensing.append(read_sensing(own.literal, own.where, knowledge, error=own.error))
-        except KnowledgeError as problem:
-            line = line_of(source, ("sensing", str(number)))
+        except SensingError as problem:
+            line = line_of(source, ("sensing", str(number), problem.part))
             raise DomainError(f"{path}:{line}: {problem}") from None
     past = folder / "history.al"
     return PlanningDomain(
@@ -191,11 +191,11 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
             if name not in known:
                 yield (kind, name), f"'{name}' is none of the {kind}; {did_you_mean(name, known)}"
                 continue
-            for text in texts:
+            for key, text in texts.items():
                 for slot in _SLOT.findall(text):
                     if int(slot) >= known[name]:
                         yield (
-                            (kind, name),
+                            (kind, name, key),
                             f"'{name}' has {known[name]} arguments, counted from 0, but '{text}' "
                             f"asks for {{{slot}}}",
                         )
@@ -243,8 +243,8 @@ def _map_problems(table: MapTable, knowledge: Knowledge) -> Iterator[tuple[tuple
             )
 
 
-def _said(tables: Mapping[str, object]) -> dict[str, list[str]]:
+def _said(tables: Mapping[str, object]) -> dict[str, dict[str, str]]:
     return {
-        name: [text for text in vars(own).values() if text is not None]
+        name: {key: text for key, text in vars(own).items() if text is not None}
         for name, own in tables.items()
     }

@@ -50,7 +50,7 @@ def read_goal(text: str, knowledge: Knowledge) -> Goal:
     conditions = " ".join(text.split()).rstrip(".").strip()
     if not conditions:
         raise PlanningError(
-            f'the goal is empty; say what shall hold, such as "{_example(knowledge)}"'
+            f'the goal is empty; say what shall hold, such as "{example_fluent(knowledge)}"'
         )
     try:
         (axiom,) = read_axioms(
@@ -76,7 +76,15 @@ def with_goal(knowledge: Knowledge, goal: Goal | None = None) -> Knowledge:
     )
 
 
-def _example(knowledge: Knowledge) -> str:
+def example_fluent(knowledge: Knowledge) -> str:
+    """Return a fluent with arguments, to be shown in an error.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> example_fluent(read_knowledge("#sort place = {hall}. #fluent basic closed(place)."))
+    'closed(hall)'
+    """
     signature = knowledge.signature
     for own in signature.predicates.values():
         if own.kind.is_fluent:

@@ -11,7 +11,8 @@ import clingo
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Condition, Literal, substitute, variables_in
 from seewhy.knowledge.dynamics import at_step, fixed_rules, rule
-from seewhy.knowledge.language import Knowledge, read_axioms
+from seewhy.knowledge.language import Knowledge, read_axioms, read_literal
+from seewhy.planning.goal import example_fluent
 from seewhy.planning.world import World
 
 _PLACE = re.compile(r"^sensing:\d+:\d+: ")
@@ -26,23 +27,61 @@ class Sensing:
     error: float = 0.0
 
 
+class SensingError(KnowledgeError):
+    """What is sensed, or where, cannot be read; ``part`` says which of the two."""
+
+    def __init__(self, text: str, *, part: str) -> None:
+        super().__init__(text)
+        self.part = part
+
+
 def read_sensing(literal: str, where: str, knowledge: Knowledge, *, error: float = 0.0) -> Sensing:
     """Read what is sensed, and where; see :class:`Sensing`.
 
     Raises
     ------
-    KnowledgeError
+    SensingError
         If either speaks of something that there is not, or the literal is about no fluent.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge("#sort place = {hall}. #fluent basic dark(place). "
+    ...     "#fluent basic at(place).")
+    >>> sensing = read_sensing("dark(L)", "at(L)", known, error=0.1)
+    >>> str(sensing.literal), [str(own) for own in sensing.conditions], sensing.error
+    ('dark(L)', ['at(L)'], 0.1)
     """
+    signature, example = knowledge.signature, example_fluent(knowledge)
     try:
-        (axiom,) = read_axioms(f"{literal} if {where}.", knowledge.signature, file="sensing")
-    except KnowledgeError as problem:
-        raise KnowledgeError(_PLACE.sub("", str(problem))) from None
-    if not knowledge.signature.kind(axiom.head.predicate).is_fluent or not axiom.head.positive:
-        raise KnowledgeError(
-            f"'{literal}' is no fluent; what is sensed is whether a fluent such as loc(P, L) holds"
+        sensed = read_literal(literal)
+    except KnowledgeError:
+        sensed = None
+    if sensed is None or (
+        sensed.predicate in signature.predicates
+        and not (signature.kind(sensed.predicate).is_fluent and sensed.positive)
+    ):
+        raise SensingError(
+            f"'{literal}' is no fluent; what is sensed is whether a fluent such as {example} holds",
+            part="literal",
         )
-    return Sensing(literal=axiom.head, conditions=axiom.body, error=error)
+    if not where.strip():
+        raise SensingError(
+            f"nothing is said; write where the robot senses this, such as {example}", part="where"
+        )
+    # The literal first by itself: what is then still wrong is wrong with the conditions.
+    for part, text in (("literal", f"{literal}."), ("where", f"{literal} if {where}.")):
+        try:
+            axioms = read_axioms(text, signature, file="sensing")
+        except KnowledgeError as problem:
+            raise SensingError(_PLACE.sub("", str(problem)), part=part) from None
+    if len(axioms) != 1:
+        raise SensingError(
+            f"found {len(axioms)} statements in '{where}'; write conditions with commas between "
+            "them and no full stop",
+            part="where",
+        )
+    return Sensing(literal=axioms[0].head, conditions=axioms[0].body, error=error)
 
 
 def condition_to_sense(sensing: Sensing, literal: clingo.Symbol) -> str | None:
