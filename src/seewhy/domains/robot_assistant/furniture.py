@@ -34,7 +34,7 @@ _WHITE: Colour = (0.94, 0.94, 0.94)
 def _desk(rng: np.random.Generator) -> Thing:
     width, depth = rng.uniform(1.30, 1.60), rng.uniform(0.62, 0.75)
     height, thick = rng.uniform(0.68, 0.76), rng.uniform(0.045, 0.07)
-    wood = shade_of(rng, hue=(24, 31), saturation=(0.58, 0.72), value=(0.52, 0.70))
+    wood = shade_of(rng, hue=(15, 21), saturation=(0.62, 0.76), value=(0.40, 0.54))
     darker: Colour = tuple(0.72 * c for c in wood)  # type: ignore[assignment]
     left, right, below = -width / 2.0 + 0.04, width / 2.0 - 0.04, height - thick
     solids = [
@@ -59,7 +59,7 @@ def _desk(rng: np.random.Generator) -> Thing:
 
 
 def _chair(rng: np.random.Generator) -> Thing:
-    cloth = shade_of(rng, hue=(76, 92), saturation=(0.72, 0.9), value=(0.62, 0.82))
+    cloth = shade_of(rng, hue=(68, 78), saturation=(0.78, 0.92), value=(0.68, 0.85))
     seat, wide = rng.uniform(0.44, 0.52), rng.uniform(0.46, 0.54)
     tall, lean = rng.uniform(0.46, 0.62), rng.uniform(0.05, 0.22)
     solids = [
@@ -90,10 +90,10 @@ def _chair(rng: np.random.Generator) -> Thing:
 def _computer(rng: np.random.Generator) -> Thing:
     width, height = rng.uniform(0.58, 0.68), rng.uniform(0.37, 0.44)
     middle = 0.13 + height / 2.0
-    desktop = shade_of(rng, hue=(200, 216), saturation=(0.28, 0.5), value=(0.95, 1.0))
+    desktop = shade_of(rng, hue=(208, 213), saturation=(0.70, 0.82), value=(0.88, 0.96))
     solids = [
         box((width, 0.05, height), (0.0, 0.05, middle), _BLACK, gloss=0.2),
-        box((width - 0.06, 0.01, height - 0.06), (0.0, 0.022, middle), desktop, glow=0.75),
+        box((width - 0.06, 0.01, height - 0.06), (0.0, 0.022, middle), desktop, glow=0.5),
         box((0.07, 0.05, 0.2), (0.0, 0.09, 0.11), _BLACK),
         box((0.28, 0.2, 0.02), (0.0, 0.07, 0.01), _BLACK),
         box((0.46, 0.15, 0.03), (-0.02, -0.2, 0.015), (0.85, 0.86, 0.88)),
@@ -112,8 +112,8 @@ def _computer(rng: np.random.Generator) -> Thing:
 
 
 def _cup(rng: np.random.Generator) -> Thing:
-    radius, height = rng.uniform(0.085, 0.105), rng.uniform(0.19, 0.24)
-    glaze = shade_of(rng, hue=(176, 188), saturation=(0.85, 1.0), value=(0.78, 0.95))
+    radius, height = rng.uniform(0.095, 0.115), rng.uniform(0.20, 0.25)
+    glaze = shade_of(rng, hue=(176, 183), saturation=(0.88, 1.0), value=(0.84, 0.97))
     side = rng.choice([-1.0, 1.0])
     reach, turn = 0.085, rng.uniform(-0.5, 0.5)
     solids = [
@@ -158,7 +158,7 @@ def _small_box(rng: np.random.Generator) -> Thing:
 
 def _large_box(rng: np.random.Generator) -> Thing:
     wide, deep, high = rng.uniform(0.6, 0.76), rng.uniform(0.5, 0.62), rng.uniform(0.5, 0.68)
-    card = shade_of(rng, hue=(31, 37), saturation=(0.38, 0.48), value=(0.70, 0.82))
+    card = shade_of(rng, hue=(34, 39), saturation=(0.42, 0.52), value=(0.78, 0.90))
     dark: Colour = tuple(0.62 * c for c in card)  # type: ignore[assignment]
     solids = _parcel("large_box", (wide, deep, high), card, dark, 0.075)
     label = (rng.uniform(-0.3, 0.3) * wide, -deep / 2.0 - 0.003, rng.uniform(0.3, 0.7) * high)
@@ -177,7 +177,7 @@ def _large_box(rng: np.random.Generator) -> Thing:
 def _sofa(rng: np.random.Generator) -> Thing:
     width, depth = rng.uniform(1.35, 1.65), rng.uniform(0.72, 0.85)
     seat, back, arm = rng.uniform(0.38, 0.44), rng.uniform(0.74, 0.88), rng.uniform(0.14, 0.2)
-    cloth = shade_of(rng, hue=(262, 280), saturation=(0.45, 0.65), value=(0.36, 0.55))
+    cloth = shade_of(rng, hue=(150, 159), saturation=(0.72, 0.88), value=(0.44, 0.58))
     lighter: Colour = tuple(min(1.0, 1.18 * c) for c in cloth)  # type: ignore[assignment]
     elbow = seat + rng.uniform(0.14, 0.2)
     inner = width - 2.0 * arm
@@ -212,12 +212,12 @@ def _sofa(rng: np.random.Generator) -> Thing:
     return Thing(name="sofa", solids=tuple(solids), half=(width / 2, depth / 2))
 
 
-_COVERS = ((0.10, 0.16, 0.40), (0.42, 0.06, 0.12), (0.08, 0.28, 0.17), (0.78, 0.58, 0.10))
-
-
 def _books(rng: np.random.Generator) -> Thing:
-    order = [*rng.permutation(len(_COVERS)), *rng.permutation(len(_COVERS))]
-    covers = [_COVERS[number] for number in order[: int(rng.integers(5, 7))]]
+    covers = [
+        shade_of(rng, hue=(262, 284), saturation=(0.62, 0.85), value=value)
+        # Of one series, light and dark in turn, so that one sees where each ends.
+        for value in [(0.42, 0.54), (0.72, 0.9)] * 3
+    ][: int(rng.integers(5, 7))]
     solids = []
     if rng.uniform() < 0.5:  # A pile, with the pages to the front.
         level = 0.0
@@ -233,7 +233,7 @@ def _books(rng: np.random.Generator) -> Thing:
     else:  # A row, with the backs to the front.
         x = -0.036 * len(covers)
         for cover in covers:
-            thick, deep, tall = rng.uniform(0.05, 0.07), 0.2, rng.uniform(0.27, 0.36)
+            thick, deep, tall = rng.uniform(0.055, 0.07), 0.22, rng.uniform(0.30, 0.38)
             x += thick / 2.0
             solids.append(box((thick, deep, tall), (x, 0.0, tall / 2.0), cover))
             for z in (0.22 * tall, 0.78 * tall):
@@ -244,7 +244,7 @@ def _books(rng: np.random.Generator) -> Thing:
 
 
 def _plant(rng: np.random.Generator) -> Thing:
-    green = shade_of(rng, hue=(118, 140), saturation=(0.6, 0.8), value=(0.32, 0.5))
+    green = shade_of(rng, hue=(102, 116), saturation=(0.68, 0.85), value=(0.38, 0.52))
     pot = shade_of(rng, hue=(14, 20), saturation=(0.55, 0.7), value=(0.55, 0.7))
     deep, wide = rng.uniform(0.24, 0.34), rng.uniform(0.15, 0.19)
     solids = [

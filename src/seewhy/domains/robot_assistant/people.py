@@ -52,7 +52,7 @@ _LOOKS = {
         girth=(0.94, 1.04),
         skin=((20, 24), (0.42, 0.52), (0.62, 0.74)),
         hair=((0, 30), (0.10, 0.30), (0.05, 0.10)),
-        top=((216, 226), (0.78, 0.92), (0.62, 0.85)),
+        top=((226, 234), (0.80, 0.92), (0.52, 0.72)),
         bottom=((220, 230), (0.30, 0.45), (0.14, 0.22)),
         cut="short",
     ),
@@ -151,15 +151,7 @@ def person(name: str, rng: np.random.Generator) -> Thing:
 
     stance = rng.uniform(0.08, 0.12) * (0.7 + 0.3 * girth)
     if look.skirt:
-        # Rings that widen downwards make a skirt.
-        knee = 0.27 * tall
-        rings = 6
-        for number in range(rings):
-            low = hip + 0.06 - (number + 1) * (hip + 0.06 - knee) / rings
-            radius = 0.14 + 0.018 * (number + 1)
-            solids.append(
-                cylinder(radius, (hip + 0.06 - knee) / rings + 0.002, (0.0, 0.0, low), bottom)
-            )
+        solids.append(ball((0.46, 0.40, 0.44 * tall), (0.0, 0.0, 0.43 * tall), bottom))
     for side in (-1.0, 1.0):
         foot, x = 0.09, side * stance
         leg = skin if look.skirt else bottom

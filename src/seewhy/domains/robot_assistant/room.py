@@ -120,8 +120,8 @@ def _attempt(
         if raised:
             standing.append(sideboard(rng))
     crowd = len(standing) / 10.0
-    width = rng.uniform(2.7, 3.3) + 0.7 * crowd
-    depth = rng.uniform(2.5, 3.0) + 0.7 * crowd
+    width = rng.uniform(2.7, 3.3) + 0.6 * crowd
+    depth = rng.uniform(2.3, 2.8) + 0.6 * crowd
     placed = _laid_out(standing, width, depth, rng)
     if placed is None:
         return None

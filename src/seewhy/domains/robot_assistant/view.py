@@ -13,7 +13,8 @@ from seewhy.rendering.vectors import Array
 
 __all__ = ["Decor", "View", "random_decor", "random_view"]
 
-_ATTEMPTS = 40
+_ATTEMPTS = 24
+_MAY_BE_BEHIND = ("sofa", "desk")  # So large that what stands before them does not hide them.
 _WITHIN = 0.93  # Share of the frame in which the middle of a thing must lie.
 
 
@@ -40,14 +41,25 @@ class View:
             -math.sin(self.elevation),
         )
 
-    def frames(self, places: Array) -> bool:
-        """Whether all places, shape (n, 3), lie in the frame, not at its very edge."""
-        forward = np.array(self.forward)
+    def frames(self, places: Array) -> Array:
+        """Which places, shape (n, 3), lie in the frame and not at its very edge, shape (n,)."""
+        forward_x, forward_y, forward_z = self.forward
         right = np.array([math.cos(self.azimuth), math.sin(self.azimuth), 0.0])
+        # The product of right and forward, both of length 1 and at a right angle.
+        up = np.array(
+            [
+                math.sin(self.azimuth) * forward_z,
+                -math.cos(self.azimuth) * forward_z,
+                math.cos(self.azimuth) * forward_y - math.sin(self.azimuth) * forward_x,
+            ]
+        )
         away = places - np.array(self.eye)
-        limit = _WITHIN * math.tan(self.lens / 2.0) * (away @ forward)
-        across, up = away @ right, away @ np.cross(right, forward)
-        return bool(np.all((np.abs(across) < limit) & (np.abs(up) < limit)))
+        limit = (
+            _WITHIN
+            * math.tan(self.lens / 2.0)
+            * (away @ np.array([forward_x, forward_y, forward_z]))
+        )
+        return np.asarray((np.abs(away @ right) < limit) & (np.abs(away @ up) < limit))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,31 +90,67 @@ class Decor:
     noise: float
 
 
+class _Landmarks:
+    """What should be seen of a room, and what may stand before it."""
+
+    def __init__(self, room: Room) -> None:
+        reach = np.array([own.reach for own in room.placed]).reshape(-1, 2)
+        at = np.array([(own.x, own.y, own.z) for own in room.placed]).reshape(-1, 3)
+        high = np.array([own.thing.height for own in room.placed])
+        # Few things fill the cuboid around them.
+        self.low = np.column_stack([at[:, :2] - 0.75 * reach, at[:, 2] + 0.02])
+        self.high = np.column_stack([at[:, :2] + 0.75 * reach, at[:, 2] + 0.95 * high])
+        self.framed = np.concatenate(
+            [at + share * high[:, None] * (0.0, 0.0, 1.0) for share in (0.3, 0.92)]
+        )[np.tile(np.array([bool(own.thing.name) for own in room.placed], bool), 2)]
+        targets, owners = [], []
+        for number, own in enumerate(room.placed):
+            if own.thing.name and own.thing.name not in _MAY_BE_BEHIND:
+                middle = at[number] + (0.0, 0.0, 0.55 * high[number])
+                aside = (0.6 * reach[number, 0], 0.0, 0.0)
+                targets += [middle - aside, middle, middle + aside]
+                owners += [number] * 3
+        self.targets = np.array(targets).reshape(-1, 3)
+        self.own = np.array(owners, int)[:, None] == np.arange(len(room.placed))
+
+    def lacking(self, view: View) -> int:
+        """How many places are out of the frame or have a thing before them."""
+        outside = int(np.sum(~view.frames(self.framed)))
+        if not len(self.targets):
+            return outside
+        eye = np.array(view.eye)
+        way = (self.targets - eye)[:, None]
+        way = np.where(np.abs(way) < 1e-9, 1e-9, way)
+        # Where the way to each place enters and leaves each cuboid: 0 the eye, 1 the place.
+        enters, leaves = (self.low - eye) / way, (self.high - eye) / way
+        enters, leaves = np.minimum(enters, leaves), np.maximum(enters, leaves)
+        first, last = enters.max(axis=2), leaves.min(axis=2)
+        before = (first < last) & (last > 0.0) & (first < 0.99) & ~self.own
+        return outside + int(before.any(axis=1).sum())
+
+
 def random_view(room: Room, rng: np.random.Generator) -> View:
     """A camera at the height of a robot's head, at the door, that looks at what is in the room.
 
-    Of a few that are drawn it is the first in whose frame the middle and the upper end of every
-    thing lie, else the last.
+    Of a few that are drawn it is the first in whose frame all things lie, none before another; or
+    the one that comes nearest to this.
     """
-    wanted = np.array(
-        [
-            (own.x, own.y, own.z + share * own.thing.height)
-            for own in room.placed
-            for share in (0.3, 0.92)
-            if own.thing.name
-        ]
-    ).reshape(-1, 3)
+    landmarks = _Landmarks(room)
+    best, fewest = _any_view(room, rng), math.inf
     for _ in range(_ATTEMPTS):
         view = _any_view(room, rng)
-        if view.frames(wanted):
+        lacking = landmarks.lacking(view)
+        if lacking < fewest:
+            best, fewest = view, lacking
+        if not lacking:
             break
-    return view
+    return best
 
 
 def _any_view(room: Room, rng: np.random.Generator) -> View:
     eye = (
         rng.uniform(-0.38, 0.38) * room.width,
-        -room.depth / 2.0 - rng.uniform(0.25, 0.75),
+        -room.depth / 2.0 - rng.uniform(0.2, 0.6),
         rng.uniform(1.05, 1.5),
     )
     bearings = [math.atan2(eye[0] - own.x, own.y - eye[1]) for own in room.placed] or [0.0]
@@ -113,7 +161,7 @@ def _any_view(room: Room, rng: np.random.Generator) -> View:
         eye=eye,
         azimuth=azimuth,
         elevation=rng.uniform(math.radians(6.0), math.radians(24.0)),
-        lens=rng.uniform(math.radians(58.0), math.radians(70.0)),
+        lens=rng.uniform(math.radians(60.0), math.radians(72.0)),
     )
 
 
