@@ -8,7 +8,7 @@ import pytest
 
 from seewhy.errors import KnowledgeError, PlanningError, SeeWhyError
 from seewhy.planning.check import check_change
-from seewhy.planning_domain import PlanningDomain, load_planning_domain
+from seewhy.planning.domain import PlanningDomain, load_planning_domain
 
 HEADER = (
     "#sort robot = {rob1}. #sort place = {hall, kitchen, attic}. #static next_to(place, place).\n"

@@ -12,11 +12,11 @@ from gymnasium.utils.env_checker import check_env
 
 from seewhy.knowledge.axiom import Literal
 from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.environment import PlanningEnvironment
 from seewhy.planning.execution import Decision, Outcome, Run, execute
 from seewhy.planning.goal import Goal, read_goal
 from seewhy.planning.world import World
-from seewhy.planning_domain import load_planning_domain
 
 OFFICE = load_planning_domain("robot_assistant")
 TO_SALLY = read_goal("message_status(m1, sally, delivered)", OFFICE.knowledge)
@@ -179,4 +179,12 @@ def test_a_goal_that_may_hold_already_is_looked_at(environment: PlanningEnvironm
     start = world(environment, "loc(sally,kitchen)", "loc(bob,kitchen)")
     found = run(environment, start, goal=together)
     assert list(map(str, found.actions)) == ["move(rob1,kitchen)"]
+    assert found.outcome is Outcome.ACHIEVED
+
+
+def test_a_count_that_may_be_reached_is_looked_at(environment: PlanningEnvironment) -> None:
+    crowd = read_goal("#count { P : loc(P, kitchen) } >= 3", OFFICE.knowledge)
+    found = run(
+        environment, world(environment, "loc(sally,kitchen)", "loc(bob,kitchen)"), goal=crowd
+    )
     assert found.outcome is Outcome.ACHIEVED

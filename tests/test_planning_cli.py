@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from conftest import Run
-from seewhy.planning_domain import load_planning_domain
+from seewhy.planning.domain import load_planning_domain
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
 
 PAPER = "message_status(m1, sarah, delivered), loc(rob1, L), loc(sally, L)"
@@ -62,6 +62,20 @@ def test_a_plan_as_json(run: Run) -> None:
     found = json.loads(done.out)
     assert (found["status"], found["actions"]) == ("found", ["move(rob1,kitchen)"])
     assert len(found["states"]) == 2
+
+
+def test_a_problem_is_written_for_other_planners(run: Run, tmp_path: Path) -> None:
+    goal = "message_status(m1, sarah, delivered)"
+    folder = tmp_path / "new" / "pddl"
+    assert run("plan", "robot_assistant", "--goal", goal, "--pddl", str(folder)).code == 0
+    assert (folder / "domain.pddl").read_text(encoding="utf-8").startswith("(define (domain ")
+    assert "(:goal " in (folder / "problem.pddl").read_text(encoding="utf-8")
+    done = run(
+        "plan", "robot_assistant", "--goal", "cluttered(library)", "--pddl", str(tmp_path / "no")
+    )
+    assert done.code == 2
+    assert "cluttered(L) if place(L)" in done.err
+    assert not (tmp_path / "no").exists()
 
 
 @pytest.mark.parametrize("command", ["plan", "simulate"])

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from seewhy.errors import DomainError, KnowledgeError, SeeWhyError
-from seewhy.planning_domain import bundled_planning_domains, load_planning_domain
+from seewhy.planning.domain import bundled_planning_domains, load_planning_domain
 
 KNOWLEDGE = (
     "#sort robot = {rob1}. #sort place = {hall, kitchen}. #static next_to(place, place).\n"

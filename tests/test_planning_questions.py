@@ -14,11 +14,11 @@ from seewhy.errors import QuestionError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import literal_of
 from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.dialogue.replying import answer
+from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution import Run, execute
 from seewhy.planning.goal import read_goal
-from seewhy.planning.replying import answer
 from seewhy.planning.world import Transitions, World
-from seewhy.planning_domain import PlanningDomain, load_planning_domain
 
 OFFICE = load_planning_domain("robot_assistant")
 TO_SALLY = read_goal("message_status(m1, sally, delivered)", OFFICE.knowledge)

@@ -11,11 +11,11 @@ import pytest
 from seewhy.knowledge.history import read_history
 from seewhy.planning.check import check_change
 from seewhy.planning.diagnosis import Diagnosis, diagnose
+from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.goal import read_goal
 from seewhy.planning.planner import Plan, PlanStatus, plan
 from seewhy.planning.simulation import simulate
 from seewhy.planning.state import State
-from seewhy.planning_domain import load_planning_domain
 
 DOMAIN = load_planning_domain("tower_building")
 KNOWLEDGE = DOMAIN.knowledge

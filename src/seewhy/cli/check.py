@@ -22,7 +22,7 @@ def check(
     """Check a domain folder: its files, words, axioms and questions."""
     from seewhy.domain import load_domain
     from seewhy.domain_check import check_domain
-    from seewhy.planning_domain import plans_only
+    from seewhy.planning.domain import plans_only
 
     if plans_only(domain):
         _check_planning(domain, json=json)
@@ -55,7 +55,7 @@ def check(
 
 def _check_planning(domain: str, *, json: bool) -> None:
     from seewhy.planning.check import check_change
-    from seewhy.planning_domain import load_planning_domain
+    from seewhy.planning.domain import load_planning_domain
 
     own = load_planning_domain(domain)
     notes = check_change(own)

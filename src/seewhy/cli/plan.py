@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from seewhy.cli.options import DomainName, Json
-from seewhy.cli.screen import print_json, say
+from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
     from clingo import Symbol
 
+    from seewhy.planning.pddl import PddlProblem
     from seewhy.planning.planner import Plan
     from seewhy.planning.words import PlanningWords
 
@@ -39,16 +40,21 @@ def plan(
     horizon: Annotated[
         int | None, typer.Option("--horizon", min=0, help="The most actions to try.")
     ] = None,
+    pddl: Annotated[
+        Path | None,
+        typer.Option("--pddl", help="Also write domain.pddl and problem.pddl to this folder."),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Find a shortest plan to a goal."""
     from seewhy.knowledge.ground_literal import read_ground_literal
     from seewhy.knowledge.history import read_history_file
     from seewhy.planning.diagnosis import diagnose
+    from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.following import suppositions
     from seewhy.planning.goal import read_goal
+    from seewhy.planning.pddl import to_pddl
     from seewhy.planning.planner import plan as find_plan
-    from seewhy.planning_domain import load_planning_domain
 
     own = load_planning_domain(domain)
     knowledge = own.knowledge
@@ -57,6 +63,8 @@ def plan(
     seen = [read_ground_literal(text, knowledge.signature, of="fluent") for text in observed or ()]
     past = past.with_observations(seen, step=past.last_step)
     known = diagnose(knowledge, past)
+    if pddl is not None:
+        _write_pddl(to_pddl(knowledge, aim, start=known.now), pddl)
     most = own.horizon if horizon is None else horizon
     found = find_plan(knowledge, aim, start=known.now, horizon=most)
     supposed = suppositions(knowledge, aim, found.actions, start=known.now)
@@ -68,6 +76,15 @@ def plan(
         _show(found, own.words, supposed)
     if not found.found:
         raise typer.Exit(1)
+
+
+def _write_pddl(problem: PddlProblem, folder: Path) -> None:
+    from seewhy.files import write_whole
+
+    folder.mkdir(parents=True, exist_ok=True)
+    write_whole(folder / "domain.pddl", problem.domain)
+    write_whole(folder / "problem.pddl", problem.problem)
+    remark(f"the problem for other planners is in {folder}")
 
 
 def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...]) -> None:

@@ -32,11 +32,11 @@ def simulate(
     """Simulate a robot that plans, acts, is surprised, and plans anew."""
     from seewhy.errors import PlanningError
     from seewhy.files import write_whole
+    from seewhy.planning.dialogue.replying import answer
+    from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.goal import read_goal
     from seewhy.planning.narration import narrate_end, narrate_step
-    from seewhy.planning.replying import answer
     from seewhy.planning.simulation import simulate as run_simulation
-    from seewhy.planning_domain import load_planning_domain
     from seewhy.report.run_page import run_page
 
     if out is not None and out.suffix.lower() != ".html":

@@ -49,3 +49,14 @@ def literal_of(key: str) -> Literal:
 def complement_of(symbol: clingo.Symbol) -> clingo.Symbol:
     """The same symbol with the opposite classical sign."""
     return clingo.Function(symbol.name, symbol.arguments, not symbol.positive)
+
+
+def fluent_of(literal: clingo.Symbol) -> clingo.Symbol:
+    """The fluent that a literal affirms or denies.
+
+    Examples
+    --------
+    >>> str(fluent_of(clingo.parse_term("-closed(kitchen)")))
+    'closed(kitchen)'
+    """
+    return literal if literal.positive else complement_of(literal)

@@ -142,7 +142,7 @@ def _read_axioms(
             (
                 statement,
                 rule,
-                axiom.ranging_variables if signature.changes(axiom.head.predicate) else (),
+                _bound_variables(axiom, signature),
             )
             for (statement, _, rule), axiom in zip(parsed, axioms, strict=True)
         ]

@@ -10,15 +10,16 @@ import clingo
 from seewhy.errors import KnowledgeError, PlanningError
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Literal
 from seewhy.knowledge.dynamics import constraints, gives_way, of_kind
+from seewhy.knowledge.ground import complement_of
 from seewhy.knowledge.history import Observation, Occurrence, read_history
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Location, PredicateKind, Signature
 from seewhy.knowledge.statements import statements
 from seewhy.planning.diagnosis import diagnose, entries_in_the_way
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.reachability import reachable
 from seewhy.planning.state import State
 from seewhy.planning.transition_probe import Found, TransitionProbe
-from seewhy.planning_domain import PlanningDomain
 
 
 def check_change(domain: PlanningDomain) -> tuple[str, ...]:
@@ -37,7 +38,7 @@ def check_change(domain: PlanningDomain) -> tuple[str, ...]:
 
     Examples
     --------
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> check_change(load_planning_domain("robot_assistant"))
     ()
     """
@@ -202,7 +203,7 @@ class _Check:
         for fluent in sorted(found.contradicted) if found else ():
             concluding = {
                 sign: [axioms[name] for name, head, _ in found.conclusions if head == literal]
-                for sign, literal in ((True, fluent), (False, _denied(fluent)))
+                for sign, literal in ((True, fluent), (False, complement_of(fluent)))
                 if found
             }
             for sign, own in concluding.items():
@@ -263,10 +264,6 @@ def _undecided(found: Found, knowledge: Knowledge) -> Axiom | None:
         ),
         None,
     )
-
-
-def _denied(fluent: clingo.Symbol) -> clingo.Symbol:
-    return clingo.Function(fluent.name, fluent.arguments, False)
 
 
 def _shown(symbol: clingo.Symbol) -> Literal:

@@ -27,7 +27,7 @@ from seewhy.knowledge.dynamics import (
     rule,
     transition_rules,
 )
-from seewhy.knowledge.ground import key_of
+from seewhy.knowledge.ground import fluent_of, key_of
 from seewhy.knowledge.history import History, Observation, Occurrence
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Signature
@@ -222,7 +222,7 @@ def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) 
         if atom.name == "holds" and atom.arguments[1].type is clingo.SymbolType.Number:
             holds[atom.arguments[1].number].add(atom.arguments[0])
     for believed in holds:
-        known = {clingo.Function(own.name, own.arguments) for own in believed}
+        known = {fluent_of(own) for own in believed}
         yield State(frozenset(believed), frozenset(set(fluents) - known))
 
 

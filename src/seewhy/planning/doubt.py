@@ -8,6 +8,7 @@ import clingo
 
 from seewhy.knowledge.axiom import AxiomKind, Literal
 from seewhy.knowledge.dynamics import fixed_rules, of_kind, rule
+from seewhy.knowledge.ground import fluent_of
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.mutex import mutexes
@@ -49,7 +50,7 @@ class Doubt:
         doubtful = {
             own
             for own in state.holds
-            if (fluent := clingo.Function(own.name, own.arguments)) in self.fluents
+            if (fluent := fluent_of(own)) in self.fluents
             and not recent(fluent)
             and self._group(fluent) not in settled
         }
@@ -60,7 +61,7 @@ class Doubt:
             for own in state.holds
             if self.knowledge.signature.kind(own.name) is PredicateKind.FLUENT_DEFINED
         }
-        unknown = {clingo.Function(own.name, own.arguments) for own in doubtful | defined}
+        unknown = {fluent_of(own) for own in doubtful | defined}
         return State(state.holds - doubtful - defined, state.unknown | unknown)
 
     def _group(self, fluent: clingo.Symbol) -> tuple[str, ...] | None:

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import literal_of
 from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.goal import Goal
 from seewhy.planning.reached import holds_in
 from seewhy.planning.sensing import Sensors
 from seewhy.planning.world import Transitions, World
-from seewhy.planning_domain import PlanningDomain
 
 NOT_SENSED, SEEN_FALSE, SEEN_TRUE = 0, 1, 2
 
@@ -58,7 +58,7 @@ class PlanningEnvironment(gymnasium.Env[NDArray[np.int8], np.int64]):
 
     Examples
     --------
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> environment = PlanningEnvironment(load_planning_domain("robot_assistant"))
     >>> observation, info = environment.reset(seed=0)
     >>> "loc(rob1, library)" in map(str, environment.read(observation))

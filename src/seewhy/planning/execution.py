@@ -12,9 +12,10 @@ from typing import Any
 import clingo
 
 from seewhy.knowledge.axiom import Literal
-from seewhy.knowledge.ground import literal_of
+from seewhy.knowledge.ground import complement_of, fluent_of, literal_of
 from seewhy.knowledge.history import History
 from seewhy.planning.diagnosis import Surprise, diagnose
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.doubt import Doubt
 from seewhy.planning.following import follow, suppositions
 from seewhy.planning.goal import Goal, read_goal
@@ -22,7 +23,6 @@ from seewhy.planning.planner import Plan, PlanStatus, plan
 from seewhy.planning.reached import holds_in
 from seewhy.planning.sensing import condition_to_sense
 from seewhy.planning.state import State
-from seewhy.planning_domain import PlanningDomain
 
 Act = Callable[[clingo.Symbol], list[Literal]]
 """Does an action in the world and returns what is sensed after it."""
@@ -263,9 +263,9 @@ class _Robot:
             less = {own: step for own, step in last_seen.items() if own != fluent}
             start = self.doubt.applied(now, less, before=latest)
             if fluent in start.unknown and self._plan(start).actions:
-                found.append(fluent if fluent in now.holds else _opposite(fluent))
+                found.append(fluent if fluent in now.holds else complement_of(fluent))
         usual = diagnose(self.domain.knowledge, self.domain.history).states[0].holds
-        unusual = [own for own in found if _opposite(own) in usual]
+        unusual = [own for own in found if complement_of(own) in usual]
         return tuple(unusual or found)
 
     def _plan(self, start: State) -> Plan:
@@ -273,14 +273,10 @@ class _Robot:
         return plan(self.domain.knowledge, self.goal, start=start, horizon=horizon)
 
 
-def _opposite(literal: clingo.Symbol) -> clingo.Symbol:
-    return clingo.Function(literal.name, literal.arguments, not literal.positive)
-
-
 def _last_seen(history: History) -> dict[clingo.Symbol, int]:
     """For every fluent that was observed, the last step at which it was."""
     return {
-        clingo.Function(symbol.name, symbol.arguments): own.step
+        fluent_of(symbol): own.step
         for own in sorted(history.observations, key=lambda own: own.step)
         for symbol in (clingo.parse_term(str(own.literal)),)
     }

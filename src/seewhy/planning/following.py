@@ -8,6 +8,7 @@ from typing import Any
 import clingo
 
 from seewhy.knowledge.dynamics import transition_rules
+from seewhy.knowledge.ground import fluent_of
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.goal import REACHED, Goal, with_goal
@@ -31,7 +32,8 @@ def suppositions(
 ) -> tuple[clingo.Symbol, ...]:
     """Return what is unknown at the start and must be so for the actions to reach the goal.
 
-    Where a fluent must hold of something, that it must not hold of other things is left out.
+    Where a fluent must hold of something, that it must not hold of other things is left out. Where
+    there are several ways and none of it must be so, it is what holds in one with the least of it.
 
     Examples
     --------
@@ -55,9 +57,13 @@ def suppositions(
     needed = [
         own
         for own in at_first
-        if clingo.Function(own.name, own.arguments) in unknown
+        if fluent_of(own) in unknown
         and knowledge.signature.kind(own.name) is PredicateKind.FLUENT_BASIC
     ]
+    if not needed:
+        model = _solved(aimed, actions, start, wanted, cautious=False) or []
+        at_first = (own.arguments[0] for own in model if own.arguments[1].number == 0)
+        needed = [own for own in at_first if own in unknown]
     affirmed = {own.name for own in needed if own.positive}
     return tuple(sorted(own for own in needed if own.positive or own.name not in affirmed))
 
@@ -83,6 +89,8 @@ def _solved(
         wanted,
         "#show holds/2.",
     ]
+    if not cautious:
+        lines += [f":~ holds({own}, 0). [1, {own}]" for own in basic]
     control = clingo.Control(["--warn=none"], logger=lambda *_: None)
     control.add("base", [], "\n".join(lines))
     control.ground([("base", [])])
@@ -119,6 +127,6 @@ def state_after(
         return None
     last = len(actions)
     holds = frozenset(own.arguments[0] for own in model if own.arguments[1].number == last)
-    known = {clingo.Function(own.name, own.arguments) for own in holds}
-    before = {clingo.Function(own.name, own.arguments) for own in start.holds} | start.unknown
+    known = {fluent_of(own) for own in holds}
+    before = {fluent_of(own) for own in start.holds} | start.unknown
     return State(holds, frozenset(before - known))

@@ -15,6 +15,7 @@ import clingo
 from seewhy.errors import PlanningError
 from seewhy.knowledge.axiom import Axiom, AxiomKind
 from seewhy.knowledge.dynamics import constraints
+from seewhy.knowledge.ground import fluent_of
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.goal import REACHED
@@ -130,7 +131,7 @@ class _Compilation:
                             self._literal(own.arguments[1]),
                         )
                         for own in laws[action]
-                        if _fluent(own.arguments[1]) in self.number
+                        if fluent_of(own.arguments[1]) in self.number
                     ],
                 )
             ]
@@ -156,12 +157,12 @@ class _Compilation:
         return [sorted(own) for _, own in sorted(found.items())]
 
     def _literal(self, symbol: clingo.Symbol) -> int:
-        number = self.number[_fluent(symbol)]
+        number = self.number[fluent_of(symbol)]
         return number if symbol.positive else -number
 
     def _literals(self, symbols: Iterable[clingo.Symbol]) -> Literals:
         """The conditions that may change; the others hold, or there would be no instance."""
-        return frozenset(self._literal(own) for own in symbols if _fluent(own) in self.number)
+        return frozenset(self._literal(own) for own in symbols if fluent_of(own) in self.number)
 
     def _read_conclusions(self) -> None:
         signature = self.knowledge.signature
@@ -172,7 +173,7 @@ class _Compilation:
                 continue
             if head.name == REACHED:
                 self.goals.append(body)
-            elif _fluent(head) not in self.number:
+            elif fluent_of(head) not in self.number:
                 continue
             elif signature.kind(head.name) is PredicateKind.FLUENT_DEFINED:
                 self.derived.append((self._literal(head), body))
@@ -429,10 +430,6 @@ def _consistent(literals: Collection[int]) -> bool:
 
 def _order(effect: tuple[Literals, int]) -> tuple[bool, int, list[int]]:
     return effect[1] < 0, abs(effect[1]), sorted(effect[0])
-
-
-def _fluent(literal: clingo.Symbol) -> clingo.Symbol:
-    return literal if literal.positive else clingo.Function(literal.name, literal.arguments)
 
 
 def _refusal(axiom: Axiom, why: str) -> PlanningError:

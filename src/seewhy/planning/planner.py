@@ -28,6 +28,7 @@ from seewhy.knowledge.dynamics import (
     rule,
     untimed_predicates,
 )
+from seewhy.knowledge.ground import complement_of, fluent_of
 from seewhy.knowledge.language import Knowledge
 from seewhy.planning.goal import REACHED, Goal, with_goal
 from seewhy.planning.ground_problem import GroundProblem, ground_problem
@@ -175,7 +176,7 @@ def _forwards(
         followed = _Search(knowledge, start, reachable(knowledge, start)).follow(actions)
         return Plan(status, *followed, horizon=horizon)
     numbered = list(enumerate(problem.fluents, start=1))
-    told = {own: _denied(own) for own in problem.fluents}
+    told = {own: complement_of(own) for own in problem.fluents}
     constant = start.holds.difference(told, told.values())
     states = tuple(
         State(
@@ -219,7 +220,7 @@ class _Search:
 
     def __init__(self, knowledge: Knowledge, start: State, possible: Reachability) -> None:
         self.rigid = possible.rigid
-        self.fluents = {_fluent(own) for own in (*start.holds, *start.unknown)}
+        self.fluents = {fluent_of(own) for own in (*start.holds, *start.unknown)}
         self.control = clingo.Control(["--warn=none"], logger=lambda *_: None)
         text = "\n".join(_program(knowledge, start, possible))
         self.control.add(text)
@@ -283,24 +284,16 @@ class _Search:
                 elif atom.name == "holds" and atom.arguments[0].name != REACHED:
                     holds[step].add(atom.arguments[0])
         states = [
-            State(frozenset(own), frozenset(self.fluents - {_fluent(other) for other in own}))
+            State(frozenset(own), frozenset(self.fluents - {fluent_of(other) for other in own}))
             for own in holds
         ]
         return tuple(actions[step] for step in range(steps)), tuple(states)
 
 
-def _fluent(literal: clingo.Symbol) -> clingo.Symbol:
-    return literal if literal.positive else clingo.Function(literal.name, literal.arguments)
-
-
-def _denied(fluent: clingo.Symbol) -> clingo.Symbol:
-    return clingo.Function(fluent.name, fluent.arguments, positive=False)
-
-
 def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iterator[str]:
     signature = knowledge.signature
     untimed = untimed_predicates(knowledge)
-    changing = {_fluent(own) for own in possible.may - possible.rigid}
+    changing = {fluent_of(own) for own in possible.may - possible.rigid}
     basic = {own for own in changing if signature.kind(own.name).value.endswith("basic")}
     always = [own for own in possible.rigid if own.name in untimed]
     copied = [own for own in possible.rigid if own.name not in untimed]

@@ -89,7 +89,7 @@ def condition_to_sense(sensing: Sensing, literal: clingo.Symbol) -> str | None:
 
     Examples
     --------
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> office = load_planning_domain("robot_assistant")
     >>> condition_to_sense(office.sensing[0], clingo.parse_term("loc(sally,kitchen)"))
     'loc(rob1, kitchen)'
@@ -110,7 +110,7 @@ class Sensors:
 
     Examples
     --------
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")
     >>> sensors = Sensors(domain.knowledge, domain.sensing)
     >>> in_library = frozenset({clingo.parse_term("loc(rob1,library)")})

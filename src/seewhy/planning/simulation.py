@@ -9,12 +9,12 @@ import clingo
 import numpy as np
 
 from seewhy.knowledge.axiom import Literal
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.environment import Happening, PlanningEnvironment
 from seewhy.planning.execution import Run, execute
 from seewhy.planning.goal import Goal
 from seewhy.planning.reached import holds_in
 from seewhy.planning.world import World
-from seewhy.planning_domain import PlanningDomain
 
 
 @dataclass
@@ -46,7 +46,7 @@ def simulate(
     Examples
     --------
     >>> from seewhy.planning.goal import read_goal
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> office = load_planning_domain("robot_assistant")
     >>> goal = read_goal("loc(rob1, kitchen)", office.knowledge)
     >>> *_, last = simulate(office, goal, seed=1)

@@ -7,9 +7,6 @@ from dataclasses import dataclass
 
 import clingo
 
-from seewhy.knowledge.axiom import Literal
-from seewhy.knowledge.ground import key_of
-
 
 @dataclass(frozen=True)
 class State:
@@ -24,18 +21,13 @@ class State:
 
     Examples
     --------
-    >>> import clingo
-    >>> state = State(frozenset({clingo.Function("dark", [])}), frozenset())
-    >>> state.believes(Literal("dark", ())), state.believes(Literal("dark", (), positive=False))
-    (True, False)
+    >>> state = State(frozenset(map(clingo.parse_term, ("at(hall)", "-at(attic)", "lit"))))
+    >>> [str(own) for own in state.positive()], [str(own) for own in state.positive("at")]
+    (['lit', 'at(hall)'], ['at(hall)'])
     """
 
     holds: frozenset[clingo.Symbol]
     unknown: frozenset[clingo.Symbol] = frozenset()
-
-    def believes(self, literal: Literal) -> bool:
-        """Whether the literal is believed."""
-        return clingo.parse_term(key_of(literal)) in self.holds
 
     def positive(self, predicate: str | None = None) -> list[clingo.Symbol]:
         """The literals believed that are not denials, of one predicate or all, sorted."""

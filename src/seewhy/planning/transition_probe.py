@@ -17,6 +17,7 @@ from seewhy.knowledge.dynamics import (
     of_kind,
     rule,
 )
+from seewhy.knowledge.ground import complement_of
 from seewhy.knowledge.language import Knowledge
 
 # Every state is tried as the first one; each of the others is a state that may follow it.
@@ -201,9 +202,7 @@ def _read(model: list[clingo.Symbol]) -> Found:
             )
         ),
         contradicted=frozenset(
-            own
-            for own in after
-            if own.positive and clingo.Function(own.name, own.arguments, False) in after
+            own for own in after if own.positive and complement_of(own) in after
         ),
         differing=frozenset(own.arguments[0] for own in model if own.name == "differs"),
     )

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 
 import clingo
 
+from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis import Surprise, SurpriseKind
-from seewhy.planning_tables import ActionTable, FluentTable
+from seewhy.planning.tables import ActionTable, FluentTable
 
 _SLOT = re.compile(r"\{(\d+)\}")
 
@@ -66,7 +67,7 @@ class PlanningWords:
         what, step = surprise.what, surprise.step
         perhaps = "" if surprise.certain else "perhaps "
         if surprise.kind is SurpriseKind.EXCEPTION:
-            opposite = clingo.Function(what.name, what.arguments, not what.positive)
+            opposite = complement_of(what)
             return f"{perhaps}{self.say(opposite)}, other than usual"
         if surprise.kind is SurpriseKind.EVENT:
             return f"{perhaps}{self.did(what)} after step {step}"

@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterable
 import clingo
 
 from seewhy.knowledge.dynamics import transition_rules
+from seewhy.knowledge.ground import complement_of
 from seewhy.knowledge.language import Knowledge
 
 World = frozenset[clingo.Symbol]
@@ -68,7 +69,7 @@ class Transitions:
         A literal that contradicts the ones before it is left out.
         """
         assumed: list[int] = []
-        for literal in (*wanted, *(_denied(own) for own in self._basic)):
+        for literal in (*wanted, *(complement_of(own) for own in self._basic)):
             number = self._holds[0].get(literal)
             if number is not None and self._satisfiable([*assumed, number]):
                 assumed.append(number)
@@ -83,7 +84,7 @@ class Transitions:
 
     def _literals(self, state: World) -> Iterable[clingo.Symbol]:
         for fluent in self._basic:
-            literal = fluent if fluent in state else _denied(fluent)
+            literal = fluent if fluent in state else complement_of(fluent)
             if literal in self._holds[0]:
                 yield literal
 
@@ -107,7 +108,3 @@ class Transitions:
 
         self.control.solve([*assumed, *occurs], on_model=keep)
         return found[-1] if found else None
-
-
-def _denied(fluent: clingo.Symbol) -> clingo.Symbol:
-    return clingo.Function(fluent.name, fluent.arguments, False)

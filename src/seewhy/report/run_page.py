@@ -9,11 +9,11 @@ from typing import Any
 import clingo
 from jinja2 import Environment
 
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.narration import narrate_end, narrate_step
 from seewhy.planning.simulation import Simulation
 from seewhy.planning.state import State
 from seewhy.planning.world import World
-from seewhy.planning_domain import PlanningDomain
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
 
 

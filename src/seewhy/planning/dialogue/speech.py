@@ -25,7 +25,7 @@ class Speech:
 
     Examples
     --------
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> speech = Speech(load_planning_domain("robot_assistant").words)
     >>> speech.say(clingo.parse_term("has(rob1,m1)"))
     'I have the first message'

@@ -10,14 +10,14 @@ import clingo
 
 from seewhy.knowledge.axiom import AxiomKind
 from seewhy.knowledge.dynamics import of_kind
-from seewhy.knowledge.ground import key_of
+from seewhy.knowledge.ground import fluent_of, key_of
+from seewhy.planning.dialogue.instances import Applied, Instances
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.doubt import Doubt
 from seewhy.planning.execution import Decision, Run, Step
 from seewhy.planning.following import follow, state_after
-from seewhy.planning.instances import Applied, Instances
 from seewhy.planning.planner import Plan, plan
 from seewhy.planning.state import State
-from seewhy.planning_domain import PlanningDomain
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Intentions:
     --------
     >>> from seewhy.planning.execution import execute
     >>> from seewhy.planning.goal import read_goal
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")
     >>> goal = read_goal("loc(rob1, kitchen)", domain.knowledge)
     >>> run = next(execute(domain, goal, sensed=[], act=lambda action: []))
@@ -145,7 +145,7 @@ class Intentions:
         seen = {}
         for literal in step.sensed:
             symbol = clingo.parse_term(key_of(literal))
-            seen[clingo.Function(symbol.name, symbol.arguments)] = step.number
+            seen[fluent_of(symbol)] = step.number
         doubt = Doubt(self.domain.knowledge)
         return doubt.applied(step.believed, seen, before=step.number)
 

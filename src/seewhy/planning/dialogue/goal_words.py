@@ -10,10 +10,10 @@ import clingo
 from seewhy.knowledge.axiom import Condition, substitute, variables_in
 from seewhy.knowledge.ground import complement_of
 from seewhy.knowledge.signature import Signature
+from seewhy.planning.dialogue.speech import Speech
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.goal import Goal
-from seewhy.planning.speech import Speech
 from seewhy.planning.state import State
-from seewhy.planning_domain import PlanningDomain
 from seewhy.wording import join_words
 
 _COMPARED = re.compile(r"([\w\" ]+?)\s*(!=|<=|>=|=|<|>)\s*([\w\" ]+)$")
@@ -35,7 +35,7 @@ def say_goal(
     Examples
     --------
     >>> from seewhy.planning.goal import read_goal
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")
     >>> goal = read_goal("loc(P, kitchen), person(P), P != bob", domain.knowledge)
     >>> say_goal(goal, domain, Speech(domain.words))

@@ -17,8 +17,8 @@ from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.nearest import did_you_mean
 from seewhy.planning.sensing import Sensing, SensingError, read_sensing
+from seewhy.planning.tables import MapTable, PlanningFile, SimulationTable
 from seewhy.planning.words import PlanningWords
-from seewhy.planning_tables import MapTable, PlanningFile, SimulationTable
 from seewhy.toml_file import line_of, read_toml
 
 FILE = "planning.toml"
@@ -85,7 +85,7 @@ def bundled_planning_domains() -> tuple[str, ...]:
     >>> "robot_assistant" in bundled_planning_domains()
     True
     """
-    home = Path(__file__).parent / "domains"
+    home = Path(__file__).parents[1] / "domains"
     return tuple(sorted(own.parent.name for own in home.glob(f"*/{FILE}")))
 
 
@@ -155,7 +155,7 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
 
 def _folder(name: str | Path) -> Path:
     if not Path(name).is_dir() and str(name) in bundled_planning_domains():
-        return Path(__file__).parent / "domains" / str(name)
+        return Path(__file__).parents[1] / "domains" / str(name)
     try:
         return domain_folder(name)
     except DomainError:

@@ -11,21 +11,21 @@ import clingo
 
 from seewhy.errors import QuestionError
 from seewhy.knowledge.axiom import Literal
-from seewhy.knowledge.ground import complement_of, key_of
+from seewhy.knowledge.ground import complement_of, fluent_of, key_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
-from seewhy.planning.action_reason import Against, Failing, Intentions
-from seewhy.planning.asking import Asks, PlanningQuestions, Query
-from seewhy.planning.belief_answers import BeliefAnswers
-from seewhy.planning.belief_reason import has_sentence
 from seewhy.planning.diagnosis import SurpriseKind, diagnose
+from seewhy.planning.dialogue.action_reason import Against, Failing, Intentions
+from seewhy.planning.dialogue.asking import Asks, PlanningQuestions, Query
+from seewhy.planning.dialogue.belief_answers import BeliefAnswers
+from seewhy.planning.dialogue.belief_reason import has_sentence
+from seewhy.planning.dialogue.goal_words import say_goal
+from seewhy.planning.dialogue.instances import Applied
+from seewhy.planning.dialogue.speech import Speech, past, sentences, subjunctive
+from seewhy.planning.dialogue.supposing import known_at, supposed_history
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution import Decision, Outcome, Run, Step, execute
 from seewhy.planning.following import state_after, suppositions
-from seewhy.planning.goal_words import say_goal
-from seewhy.planning.instances import Applied
-from seewhy.planning.speech import Speech, past, sentences, subjunctive
-from seewhy.planning.supposing import known_at, supposed_history
-from seewhy.planning_domain import PlanningDomain
 from seewhy.wording import join_words
 
 
@@ -71,7 +71,7 @@ def answer(domain: PlanningDomain, run: Run, question: str) -> PlanningReply:
     Examples
     --------
     >>> from seewhy.planning.goal import read_goal
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")
     >>> run = Run(read_goal("loc(rob1, kitchen)", domain.knowledge), domain.history)
     >>> print(answer(domain, run, "what is your goal?").text)
@@ -356,7 +356,7 @@ class _Replying:
             return []
         sensed = [clingo.parse_term(key_of(own)) for own in step.sensed]
         against = [own for own in sensed if complement_of(own) in expected.holds]
-        open_before = [own for own in sensed if _fluent(own) in expected.unknown]
+        open_before = [own for own in sensed if fluent_of(own) in expected.unknown]
         found = against or [own for own in open_before if self._in_goal_or_plan(own, before)]
         return [own for own in found if own.positive] or found
 
@@ -462,10 +462,6 @@ def _fits(query: Query, action: clingo.Symbol) -> bool:
         asked in (None, str(own))
         for asked, own in zip(query.arguments, action.arguments, strict=True)
     )
-
-
-def _fluent(literal: clingo.Symbol) -> clingo.Symbol:
-    return clingo.Function(literal.name, literal.arguments)
 
 
 def _count(actions: int) -> str:

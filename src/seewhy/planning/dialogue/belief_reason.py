@@ -17,9 +17,9 @@ from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis import Diagnosis, SurpriseKind, diagnose
-from seewhy.planning.instances import Instances, unified
-from seewhy.planning.speech import Speech
-from seewhy.planning_domain import PlanningDomain
+from seewhy.planning.dialogue.instances import Instances, unified
+from seewhy.planning.dialogue.speech import Speech
+from seewhy.planning.domain import PlanningDomain
 
 
 class Basis(StrEnum):
@@ -84,7 +84,7 @@ class Beliefs:
 
     Examples
     --------
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")
     >>> beliefs = Beliefs(domain, domain.history)
     >>> why = beliefs.why(clingo.parse_term("loc(sally,sallys_office)"), 0)

@@ -8,17 +8,17 @@ from typing import Any
 
 import clingo
 
-from seewhy.knowledge.ground import complement_of
-from seewhy.planning.asking import Query
-from seewhy.planning.belief_reason import Beliefs, tell
-from seewhy.planning.describing import describe_place, say_counted
+from seewhy.knowledge.ground import complement_of, fluent_of
+from seewhy.planning.dialogue.asking import Query
+from seewhy.planning.dialogue.belief_reason import Beliefs, tell
+from seewhy.planning.dialogue.describing import describe_place, say_counted
+from seewhy.planning.dialogue.speech import Speech, past, sentences
+from seewhy.planning.dialogue.supposing import known_at
+from seewhy.planning.dialogue.whereabouts import contents as whats_at
+from seewhy.planning.dialogue.whereabouts import places, whereabouts
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution import Run
 from seewhy.planning.mutex import mutexes
-from seewhy.planning.speech import Speech, past, sentences
-from seewhy.planning.supposing import known_at
-from seewhy.planning.whereabouts import contents as whats_at
-from seewhy.planning.whereabouts import places, whereabouts
-from seewhy.planning_domain import PlanningDomain
 
 
 class BeliefAnswers:
@@ -26,9 +26,9 @@ class BeliefAnswers:
 
     Examples
     --------
-    >>> from seewhy.planning.asking import PlanningQuestions
+    >>> from seewhy.planning.dialogue.asking import PlanningQuestions
     >>> from seewhy.planning.goal import read_goal
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")
     >>> run = Run(read_goal("loc(rob1, kitchen)", domain.knowledge), domain.history)
     >>> query = PlanningQuestions(domain).understand("is the kitchen open?")
@@ -172,7 +172,7 @@ class BeliefAnswers:
                     None)  # fmt: skip
 
     def _not_known(self, literal: clingo.Symbol) -> str:
-        said = self.speech.say(clingo.Function(literal.name, literal.arguments))
+        said = self.speech.say(fluent_of(literal))
         return f"I do not know whether {said}: I have not seen it, and nothing that I know tells"
 
     def _place_of(

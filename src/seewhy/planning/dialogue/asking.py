@@ -14,9 +14,9 @@ from rapidfuzz.distance import DamerauLevenshtein
 
 from seewhy.errors import QuestionError
 from seewhy.knowledge.signature import PredicateKind
-from seewhy.planning.speech import base
-from seewhy.planning.whereabouts import places
-from seewhy.planning_domain import PlanningDomain
+from seewhy.planning.dialogue.speech import base
+from seewhy.planning.dialogue.whereabouts import places
+from seewhy.planning.domain import PlanningDomain
 from seewhy.question_words import words_of
 
 LONGEST_QUESTION = 300
@@ -147,7 +147,7 @@ class PlanningQuestions:
 
     Examples
     --------
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> questions = PlanningQuestions(load_planning_domain("robot_assistant"))
     >>> query = questions.understand("WHY did you go to the kichen at step 2??")
     >>> query.asks.value, str(query.symbol()), query.step

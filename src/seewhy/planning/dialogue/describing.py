@@ -6,9 +6,9 @@ import re
 
 import clingo
 
-from seewhy.planning.belief_reason import Beliefs, has_sentence
-from seewhy.planning.speech import plural
-from seewhy.planning.whereabouts import Place, places
+from seewhy.planning.dialogue.belief_reason import Beliefs, has_sentence
+from seewhy.planning.dialogue.speech import plural
+from seewhy.planning.dialogue.whereabouts import Place, places
 from seewhy.wording import join_words
 
 

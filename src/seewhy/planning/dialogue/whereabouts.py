@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import clingo
 
 from seewhy.knowledge.signature import PredicateKind
+from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.mutex import mutexes
 from seewhy.planning.state import State
-from seewhy.planning_domain import PlanningDomain
 
 _AT = "in|at|on|under|behind|near|inside|beside|on top of|next to"
 
@@ -36,7 +36,7 @@ def places(domain: PlanningDomain) -> list[Place]:
 
     Examples
     --------
-    >>> from seewhy.planning_domain import load_planning_domain
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> for own in places(load_planning_domain("robot_assistant")):
     ...     print(own.predicate, own.preposition, own.single)
     loc in True

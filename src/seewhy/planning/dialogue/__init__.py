@@ -1,0 +1,1 @@
+"""Questions about a run, in words, and answers with their reasons."""
