@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 import shutil
@@ -12,6 +13,7 @@ import pytest
 
 from conftest import Run
 from seewhy.planning.domain import load_planning_domain
+from seewhy.planning.environment import PlanningEnvironment
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
 
 PAPER = "message_status(m1, sarah, delivered), loc(rob1, L), loc(sally, L)"
@@ -198,3 +200,27 @@ def test_a_domain_that_plans_is_not_trained(run: Run, tmp_path: Path) -> None:
         "'seewhy plan robot_assistant', 'seewhy simulate robot_assistant' or 'seewhy check "
         "robot_assistant'\n"
     )
+
+
+def test_an_interrupted_run_is_told_as_far_as_it_came(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done_before = PlanningEnvironment.step
+    steps = itertools.count()
+
+    def step(own: PlanningEnvironment, action: int) -> object:
+        if next(steps) == 1:
+            raise KeyboardInterrupt
+        return done_before(own, action)
+
+    monkeypatch.setattr(PlanningEnvironment, "step", step)
+    page = tmp_path / "run.html"
+    goal = "message_status(m1, sally, delivered)"
+    done = run("simulate", "robot_assistant", "--goal", goal, "--seed", "1", "--out", str(page))
+    assert done.code == 130
+    assert done.out.endswith(
+        "     I move to the kitchen.\n"
+        "The run was interrupted, after 1 action and 1 plan.\n"
+        "In truth it is not reached.\n"
+    )
+    assert page.read_text(encoding="utf-8").count("<svg") == 1

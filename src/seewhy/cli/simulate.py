@@ -44,6 +44,7 @@ def simulate(
     own = load_planning_domain(domain)
     aim = read_goal(goal, own.knowledge)
     last: Simulation | None = None
+    interrupted = False
     try:
         for last in run_simulation(own, aim, seed=seed, most_steps=steps):
             step = last.run.steps[-1]
@@ -51,9 +52,9 @@ def simulate(
                 for number, sentence in enumerate(narrate_step(own.words, step)):
                     say(f"{step.number:3}  {sentence}" if number == 0 else f"     {sentence}")
     except KeyboardInterrupt:
-        remark("interrupted; what was done so far follows")
+        interrupted = True
     if last is None:
-        raise typer.Exit(1)
+        raise KeyboardInterrupt
     run = last.run
     replies = [answer(own, run, question) for question in ask or ()]
     if json:
@@ -67,6 +68,8 @@ def simulate(
         command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
         write_whole(out, run_page(own, last, command=command))
         remark(f"the run with its map is in {out}")
+    if interrupted:
+        raise KeyboardInterrupt
     if not last.achieved:
         raise typer.Exit(1)
 

@@ -31,6 +31,7 @@ from seewhy.knowledge.ground import fluent_of, key_of
 from seewhy.knowledge.history import History, Observation, Occurrence
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Signature
+from seewhy.planning.last_model import last_model
 from seewhy.planning.state import State
 
 # Few surprises explain most histories: raising the bound from below proves that soonest.
@@ -156,11 +157,11 @@ def diagnose(
     control.add("base", [], text)
     control.ground([("base", [])])
     solve: Any = control.configuration.solve
-    best = _last_model(control)
+    best = last_model(control)
     if best is None:
         raise PlanningError(_unexplained(knowledge, history))
     solve.opt_mode, solve.enum_mode, solve.models = "optN", "cautious", 0
-    sure = _last_model(control) or []
+    sure = last_model(control) or []
     fluents = [own.symbol.arguments[1] for own in control.symbolic_atoms.by_signature("fluent", 2)]
     return Diagnosis(
         states=tuple(_states(sure, fluents, last)),
@@ -205,15 +206,6 @@ def history_facts(history: History) -> Iterator[str]:
         yield f"observed({seen.literal}, {seen.step})."
     for done in history.occurrences:
         yield f"{'attempted' if done.attempted else 'happened'}({done.action}, {done.step})."
-
-
-def _last_model(control: clingo.Control) -> list[clingo.Symbol] | None:
-    with control.solve(yield_=True) as solving:
-        # Models on the way to the best, or to what all have in common, are not read.
-        for _ in solving:
-            pass
-        last = solving.last()
-        return None if last is None else list(last.symbols(shown=True))
 
 
 def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) -> Iterator[State]:
@@ -278,7 +270,7 @@ def entries_in_the_way(
     control = clingo.Control(_OPTIONS, logger=lambda *_: None)
     control.add("base", [], "\n".join([*lines, "#show wrong/1."]))
     control.ground([("base", [])])
-    best = _last_model(control)
+    best = last_model(control)
     if best is None:
         return None
     wrong = sorted(own.arguments[0].number for own in best if own.name == "wrong")

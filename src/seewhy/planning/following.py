@@ -12,6 +12,7 @@ from seewhy.knowledge.ground import fluent_of
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.goal import REACHED, Goal, with_goal
+from seewhy.planning.last_model import last_model
 from seewhy.planning.state import State
 
 
@@ -97,12 +98,7 @@ def _solved(
     solve: Any = control.configuration.solve
     if cautious:
         solve.enum_mode, solve.models = "cautious", 0
-    with control.solve(yield_=True) as solving:
-        # Models on the way to the best, or to what all have in common, are not read.
-        for _ in solving:
-            pass
-        last = solving.last()
-        return None if last is None else list(last.symbols(shown=True))
+    return last_model(control)
 
 
 def state_after(

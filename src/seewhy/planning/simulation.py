@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import clingo
 import numpy as np
@@ -67,4 +67,6 @@ def simulate(
     for run in execute(domain, goal, sensed=sensed, act=act, most_steps=most_steps):
         steps = len(run.steps)
         achieved = holds_in(domain.knowledge, goal, worlds[steps - 1])
-        yield Simulation(run, worlds[:steps], happenings[:steps], achieved)
+        # The run goes on in place; what is given away stays as it is now.
+        now = replace(run, steps=list(run.steps))
+        yield Simulation(now, worlds[:steps], happenings[:steps], achieved)
