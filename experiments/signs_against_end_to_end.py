@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 from joblib import Parallel, delayed
+from scipy.stats import ttest_1samp
 
 from seewhy.agent import Agent
 from seewhy.dataset import Dataset
@@ -164,15 +165,18 @@ def pretrain(out: Path, *, drawn: int) -> tuple[Pretrained, Pretrained]:
 
 
 def report(out: Path) -> str:
-    """The table over all rows: means over the seeds, and the difference with its deviation."""
+    """The table over all rows: means over the seeds, and the difference in points.
+
+    With its deviation, and with p of a paired t-test, two-sided.
+    """
     rows = [json.loads(file.read_text()) for file in sorted(out.glob("trial-*.json"))]
     lines = []
     for drawn in sorted({row["drawn"] for row in rows}):
         lines += [
             "",
             f"drawn signs before: {drawn}",
-            "| photographs | SeeWhy | features read separately | end to end | difference |",
-            "|---|---|---|---|---|",
+            "| photographs | SeeWhy | features read separately | end to end | difference | p |",
+            "|---|---|---|---|---|---|",
         ]
         for size in SIZES:
             own = [r for r in rows if r["drawn"] == drawn and r["asked"] == (size or "all")]
@@ -183,8 +187,11 @@ def report(out: Path) -> str:
                 f"{100 * np.mean([r[key] for r in own]):.2f} %"
                 for key in ("consistent", "argmax", "end_to_end")
             ]
-            spread = f"{np.mean(better):+.2f} ± {np.std(better, ddof=1) if len(own) > 1 else 0:.2f}"
-            lines.append(f"| {size or 'all'} ({len(own)}) | {' | '.join(means)} | {spread} |")
+            spread, p = f"{np.mean(better):+.2f}", "–"
+            if len(own) > 1:
+                spread += f" ± {np.std(better, ddof=1):.2f}"
+                p = f"{ttest_1samp(better, 0).pvalue:.2f}"
+            lines.append(f"| {size or 'all'} ({len(own)}) | {' | '.join(means)} | {spread} | {p} |")
     return "\n".join(lines)
 
 
