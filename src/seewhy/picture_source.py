@@ -24,6 +24,15 @@ class Draw(Protocol):
     ) -> tuple[Any, Mapping[str, str], str]: ...
 
 
+class Depict(Protocol):
+    """Makes a picture that shows given feature values: uint8 of shape (height, width, 3).
+
+    The longer side is ``size``. The picture must depend on the arguments only.
+    """
+
+    def __call__(self, features: Mapping[str, str], *, seed: int, size: int) -> Any: ...
+
+
 def load_source(domain: Domain) -> Draw:
     """Return the function ``draw`` of a domain's source.
 
@@ -43,18 +52,47 @@ def load_source(domain: Domain) -> Draw:
     >>> picture.shape
     (32, 32, 3)
     """
+    return load_draw(_named_source(domain), domain.folder)
+
+
+def load_depict(domain: Domain) -> Depict:
+    """Return the function ``depict`` of a domain's source, which shows what it is told.
+
+    Raises
+    ------
+    DomainError
+        If the domain names no source, or it cannot be loaded, or has no such function.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> depict = load_depict(load_domain("robot_assistant"))
+    >>> depict({"desk": "yes", "sally": "yes"}, seed=0, size=32).shape
+    (32, 32, 3)
+    """
+    depict: Depict = _load(_named_source(domain), domain.folder, "depict(features, seed=, size=)")
+    return depict
+
+
+def _named_source(domain: Domain) -> str:
     if domain.source is None:
         raise DomainError(
             f"the domain '{domain.name}' has no source of pictures; put your own pictures beside "
             f"a scenes.csv, or name a module with a function draw as 'source' in "
             f"{domain.folder / 'domain.toml'}"
         )
-    return load_draw(domain.source, domain.folder)
+    return domain.source
+
+
+def load_draw(source: str, folder: Path) -> Draw:
+    """Return the function ``draw`` of a module, or of a file in ``folder``; see load_source."""
+    draw: Draw = _load(source, folder, "draw(seed=, index=, size=)")
+    return draw
 
 
 @lru_cache(maxsize=8)
-def load_draw(source: str, folder: Path) -> Draw:
-    """Return the function ``draw`` of a module, or of a file in ``folder``; see load_source."""
+def _load(source: str, folder: Path, wanted: str) -> Any:
+    """Return a function of a source; ``wanted`` is its name with its arguments."""
     try:
         if source.endswith(".py"):
             spec = importlib.util.spec_from_file_location(
@@ -66,14 +104,13 @@ def load_draw(source: str, folder: Path) -> Draw:
             spec.loader.exec_module(module)
         else:
             module = importlib.import_module(source)
-        draw: Draw = module.draw
+        return getattr(module, wanted.partition("(")[0])
     except Exception as problem:
         raise DomainError(
             f"{folder / 'domain.toml'}: source = '{source}' must be a module that can be imported, "
-            "or a file of this folder, and have a function draw(seed=, index=, size=) "
+            f"or a file of this folder, and have a function {wanted} "
             f"({type(problem).__name__}: {problem})"
         ) from problem
-    return draw
 
 
 def draw_picture(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -22,15 +22,20 @@ def check(
     """Check a domain folder: its files, words, axioms and questions."""
     from seewhy.domain import load_domain
     from seewhy.domain_check import check_domain
-    from seewhy.planning.domain import plans_only
+    from seewhy.planning.domain import plans, plans_only
 
-    if plans_only(domain):
-        _check_planning(domain, json=json)
+    planning = _checked_planning(domain) if plans(domain) else None
+    if planning is not None and plans_only(domain):
+        if json:
+            print_json(planning)
+            return
+        _print_planning(planning)
+        say("nothing is wrong")
         return
     own = load_domain(domain)
     report = check_domain(own, data)
     if json:
-        print_json(report.to_dict())
+        print_json({**report.to_dict(), **({"planning": planning} if planning else {})})
         return
     say(f"{own.title} ({own.name}) in {own.folder}")
     say(f"  features: {', '.join(f'{k} ({len(f.values)})' for k, f in own.features.items())}")
@@ -50,27 +55,32 @@ def check(
             f"decided: {percent(report.decided or 0.0)} of the scenes, "
             f"{percent(report.decided_rightly or 0.0)} of those rightly"
         )
+    if planning is not None:
+        _print_planning(planning)
     say("nothing is wrong")
 
 
-def _check_planning(domain: str, *, json: bool) -> None:
+def _checked_planning(domain: str) -> dict[str, Any]:
     from seewhy.planning.check import check_change
     from seewhy.planning.domain import load_planning_domain
 
     own = load_planning_domain(domain)
     notes = check_change(own)
     kinds = [predicate.kind for predicate in own.knowledge.signature.predicates.values()]
-    counts = {
+    return {
+        "name": own.name,
+        "title": own.title,
+        "folder": str(own.folder),
         "fluents": sum(kind.is_fluent for kind in kinds),
         "actions": sum(kind.is_action for kind in kinds),
         "axioms": len(own.knowledge.axioms),
+        "notes": list(notes),
     }
-    if json:
-        print_json({"name": own.name, **counts, "notes": list(notes)})
-        return
-    say(f"{own.title} ({own.name}) in {own.folder}")
-    for name, count in counts.items():
-        say(f"  {name}: {count}")
-    for note in notes:
+
+
+def _print_planning(found: dict[str, Any]) -> None:
+    say(f"{found['title']} ({found['name']}) in {found['folder']}")
+    for name in ("fluents", "actions", "axioms"):
+        say(f"  {name}: {found[name]}")
+    for note in found["notes"]:
         say(f"  note: {note}")
-    say("nothing is wrong")

@@ -12,6 +12,8 @@ from seewhy.cli.plan import GoalText
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
+    from seewhy.planning.domain import PlanningDomain
+    from seewhy.planning.sight import Sight
     from seewhy.planning.simulation import Simulation
 
 
@@ -19,6 +21,13 @@ def simulate(
     domain: DomainName,
     goal: GoalText,
     seed: Seed = 0,
+    model: Annotated[
+        Path | None,
+        typer.Option(
+            "--model",
+            help="Let the networks of this model see: the robot takes pictures, which are drawn.",
+        ),
+    ] = None,
     steps: Annotated[int, typer.Option("--steps", min=1, help="The most actions to do.")] = 60,
     out: Annotated[
         Path | None, typer.Option("--out", help="Also write the run to this .html file.")
@@ -43,10 +52,11 @@ def simulate(
         raise PlanningError(f"{out}: the run is written as .html; choose a name that ends so")
     own = load_planning_domain(domain)
     aim = read_goal(goal, own.knowledge)
+    sight = None if model is None else _sight(own, model)
     last: Simulation | None = None
     interrupted = False
     try:
-        for last in run_simulation(own, aim, seed=seed, most_steps=steps):
+        for last in run_simulation(own, aim, seed=seed, most_steps=steps, sight=sight):
             step = last.run.steps[-1]
             if not json:
                 for number, sentence in enumerate(narrate_step(own.words, step)):
@@ -66,6 +76,7 @@ def simulate(
             say(f"\n{question}\n{reply.text}")
     if out is not None:
         command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
+        command += "" if model is None else f" --model {model}"
         write_whole(out, run_page(own, last, command=command))
         remark(f"the run with its map is in {out}")
     if interrupted:
@@ -74,8 +85,15 @@ def simulate(
         raise typer.Exit(1)
 
 
+def _sight(domain: PlanningDomain, model: Path) -> Sight:
+    from seewhy.agent import Agent
+    from seewhy.planning.sight import Sight
+
+    return Sight(domain, Agent.load(model))
+
+
 def _to_dict(simulation: Simulation, goal: str, seed: int) -> dict[str, Any]:
-    run = simulation.run
+    run, looks = simulation.run, simulation.looks
     return {
         "goal": goal,
         "seed": seed,
@@ -95,7 +113,8 @@ def _to_dict(simulation: Simulation, goal: str, seed: int) -> dict[str, Any]:
                 "believed": list(map(str, step.believed.positive())),
                 "true": sorted(str(own) for own in world if own.positive),
                 "planning_seconds": round(step.planning_seconds, 4),
+                **({"misread": list(map(str, looks[number].misread))} if looks else {}),
             }
-            for step, world in zip(run.steps, simulation.worlds, strict=True)
+            for number, (step, world) in enumerate(zip(run.steps, simulation.worlds, strict=True))
         ],
     }

@@ -25,6 +25,7 @@ from seewhy.dialogue.recurrent_network import (
 )
 from seewhy.dialogue.recurrent_options import AnswererEvent, AnswerExample, RecurrentOptions
 from seewhy.errors import DatasetError
+from seewhy.one_thread import one_thread
 
 __all__ = ["fit_answerer"]
 
@@ -169,7 +170,7 @@ def _train(
     """A network of so many layers, trained to the end."""
     n, layers = len(asked.answers), description.layers
     epochs = math.ceil(options.epochs * min(10.0, max(1.0, ENOUGH_EXAMPLES / n)))
-    with _seeded(options.seed, layers), _one_thread():
+    with _seeded(options.seed, layers), one_thread():
         network = Network(description)
         optimizer = torch.optim.AdamW(network.parameters(), lr=options.learning_rate)
         for epoch in range(epochs):
@@ -234,18 +235,3 @@ def _seeded(*parts: object) -> Iterator[None]:
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(int.from_bytes(digest[:7], "big"))
         yield
-
-
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    """Run a block on one thread of PyTorch's.
-
-    The steps of a sentence are so small that threads spend longer waiting for each other than
-    computing: several times the whole, when other programs want the cores too.
-    """
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
-        yield
-    finally:
-        torch.set_num_threads(before)

@@ -6,6 +6,9 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
+
+from clingo import ast
 
 from seewhy.knowledge.signature import Location
 
@@ -34,6 +37,31 @@ def substitute(text: str, binding: Mapping[str, str]) -> str:
     'num_blocks(scene, 2+1)'
     """
     return _VARIABLE.sub(lambda match: binding.get(match.group(), match.group()), text)
+
+
+@lru_cache(maxsize=4096)
+def predicates_in(text: str) -> frozenset[str]:
+    """Return the predicates that a condition speaks of, those inside aggregates included.
+
+    Examples
+    --------
+    >>> sorted(predicates_in("#count { X : on(X, Y), not loose(X) } > 2"))
+    ['loose', 'on']
+    """
+    found: list[ast.AST] = []
+    ast.parse_string(f":- {text}.", found.append)
+    names: set[str] = set()
+
+    class Collect(ast.Transformer):
+        def visit_SymbolicAtom(self, atom: ast.AST) -> ast.AST:  # noqa: N802
+            symbol = atom.symbol
+            while symbol.ast_type is ast.ASTType.UnaryOperation:
+                symbol = symbol.argument
+            names.add(symbol.name)
+            return atom
+
+    Collect().visit(found[1])
+    return frozenset(names)
 
 
 @dataclass(frozen=True)
@@ -170,3 +198,9 @@ class Axiom:
     def ranging_variables(self) -> tuple[str, ...]:
         """The variables of head and action, which range over the sorts of their places."""
         return variables_in(f"{self.action or ''} {self.head}")
+
+    @property
+    def predicates(self) -> frozenset[str]:
+        """The predicates that it speaks of, sorts that are used as such included."""
+        named = {self.head.predicate, *([self.action.predicate] if self.action else [])}
+        return frozenset(named.union(*(predicates_in(own.text) for own in self.body)))

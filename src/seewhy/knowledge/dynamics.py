@@ -9,11 +9,17 @@ once: ``at(T, T)`` and ``at(T, always)`` join the two.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
 
 from clingo import ast
 
-from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, variables_in
+from seewhy.knowledge.axiom import (
+    Axiom,
+    AxiomKind,
+    Condition,
+    Literal,
+    predicates_in,
+    variables_in,
+)
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import axiom_rules, variable_tuple
 from seewhy.knowledge.signature import PredicateKind, Signature
@@ -173,25 +179,6 @@ def _timed(text: str, signature: Signature, step: str) -> str:
     ast.parse_string(f":- {text}.", found.append)
     (element,) = _AtStep(signature, step).visit(found[1]).body
     return str(element)
-
-
-@lru_cache(maxsize=4096)
-def predicates_in(text: str) -> frozenset[str]:
-    """Return the predicates that a condition speaks of, those inside aggregates included."""
-    found: list[ast.AST] = []
-    ast.parse_string(f":- {text}.", found.append)
-    names: set[str] = set()
-
-    class Collect(ast.Transformer):
-        def visit_SymbolicAtom(self, atom: ast.AST) -> ast.AST:  # noqa: N802
-            symbol = atom.symbol
-            while symbol.ast_type is ast.ASTType.UnaryOperation:
-                symbol = symbol.argument
-            names.add(symbol.name)
-            return atom
-
-    Collect().visit(found[1])
-    return frozenset(names)
 
 
 class _AtStep(ast.Transformer):

@@ -48,6 +48,30 @@ class Knowledge:
             self, axioms=tuple(own for own in self.axioms if not changes(own.head.predicate))
         )
 
+    def without_sort(self, sort: str) -> Knowledge:
+        """What is left without a sort, the predicates of it, and the axioms about these.
+
+        Examples
+        --------
+        >>> known = read_knowledge('''
+        ... #sort view. #sort place = {hall}. #static dark(view). #static large(place).
+        ... -dark(V) if not dark(V). large(hall).
+        ... ''')
+        >>> [str(own) for own in known.without_sort("view").axioms]
+        ['large(hall).']
+        """
+        predicates = self.signature.predicates
+        gone = {sort, *(name for name, own in predicates.items() if sort in own.sorts)}
+        signature = Signature(
+            {name: own for name, own in self.signature.sorts.items() if name != sort},
+            {name: own for name, own in predicates.items() if name not in gone},
+        )
+        return Knowledge(
+            signature,
+            tuple(own for own in self.axioms if not gone.intersection(own.predicates)),
+            self.file,
+        )
+
 
 def read_knowledge_file(path: Path | str) -> Knowledge:
     """Read a ``.al`` file.

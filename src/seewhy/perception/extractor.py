@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from copy import deepcopy
 from dataclasses import asdict
 from pathlib import Path
@@ -14,6 +15,7 @@ import torch
 from pydantic import BaseModel, ConfigDict
 
 from seewhy.errors import DatasetError, ModelError
+from seewhy.one_thread import one_thread
 from seewhy.perception.events import FeatureRecord, Progress
 from seewhy.perception.joint_training import train_jointly
 from seewhy.perception.labels import labelled
@@ -31,6 +33,9 @@ __all__ = ["FeatureExtractor", "Seen", "fit_extractor"]
 DESCRIPTION = "perception.json"
 WEIGHTS = "perception.safetensors"
 FORMAT = 2
+
+FEW = 16
+"""So few pictures are seen on one thread: for more, several are worth their waiting."""
 
 Pictures = npt.NDArray[np.uint8]
 
@@ -133,7 +138,8 @@ class FeatureExtractor:
         """
         batch = _checked(pictures[None] if pictures.ndim == 3 else pictures, size=self.size)
         seen = Seen({}, {})
-        with torch.inference_mode():
+        threads = one_thread() if len(batch) <= FEW else nullcontext()
+        with threads, torch.inference_mode():
             for name, network in self.networks.items():
                 # No picture at all is one empty batch.
                 parts = [

@@ -19,6 +19,7 @@ import numpy.typing as npt
 import torch
 
 from seewhy.errors import SeeWhyError
+from seewhy.one_thread import one_thread
 from seewhy.perception.events import FeatureRecord, Progress, TrainingEvent
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
@@ -87,12 +88,8 @@ def train_networks(
 def _on_one_thread(
     pictures: Pictures, arguments: Mapping[str, Any], on_progress: Progress | None
 ) -> Trained:
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
+    with one_thread():
         return train_network(pictures, on_progress=on_progress, **arguments)
-    finally:
-        torch.set_num_threads(before)
 
 
 def _in_processes(

@@ -16,14 +16,13 @@ from typing import Any
 import clingo
 
 from seewhy.errors import PlanningError
-from seewhy.knowledge.axiom import Axiom, AxiomKind
+from seewhy.knowledge.axiom import Axiom, AxiomKind, predicates_in
 from seewhy.knowledge.dynamics import (
     body_at,
     constraints,
     gives_way,
     instance,
     of_kind,
-    predicates_in,
     rule,
     transition_rules,
 )

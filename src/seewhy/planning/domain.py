@@ -6,10 +6,12 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import clingo
 
 from seewhy.domain import domain_folder
+from seewhy.domain_tables import DomainFile, FeatureTable
 from seewhy.errors import DomainError
 from seewhy.knowledge.dynamics import fixed_rules
 from seewhy.knowledge.history import History, read_history_file
@@ -42,7 +44,12 @@ class PlanningDomain:
     horizon : int
         The greatest number of actions that planning tries.
     sensing, simulation
-        What the robot sees, and what may happen, in simulation.
+        What the robot senses, and what may happen, in simulation.
+    shows : mapping of str to Sensing
+        For features of the folder's domain.toml the fluent whose truth they are, in a picture that
+        the robot takes.
+    sensors_err : bool
+        Whether what is sensed may be wrong.
     map : MapTable or None
         How to draw where things are.
     folder : Path
@@ -62,9 +69,11 @@ class PlanningDomain:
     robot: str | None
     horizon: int
     sensing: tuple[Sensing, ...]
+    shows: Mapping[str, Sensing]
     simulation: SimulationTable
     map: MapTable | None
     folder: Path
+    sensors_err: bool
 
     def statics(self, predicate: str) -> list[clingo.Symbol]:
         """The literals about a static that follow from the knowledge, sorted."""
@@ -89,19 +98,33 @@ def bundled_planning_domains() -> tuple[str, ...]:
     return tuple(sorted(own.parent.name for own in home.glob(f"*/{FILE}")))
 
 
+def plans(name: str | Path) -> bool:
+    """Whether a folder, or a bundled domain of that name, has planning.toml.
+
+    Examples
+    --------
+    >>> plans("robot_assistant"), plans("traffic_signs")
+    (True, False)
+    """
+    return _has(name, FILE)
+
+
 def plans_only(name: str | Path) -> bool:
     """Whether a folder, or a bundled domain of that name, has planning.toml and no domain.toml.
 
     Examples
     --------
-    >>> plans_only("robot_assistant"), plans_only("traffic_signs")
+    >>> plans_only("tower_building"), plans_only("robot_assistant")
     (True, False)
     """
+    return plans(name) and not _has(name, "domain.toml")
+
+
+def _has(name: str | Path, file: str) -> bool:
     try:
-        folder = _folder(name)
+        return (_folder(name) / file).is_file()
     except DomainError:
         return False
-    return (folder / FILE).is_file() and not (folder / "domain.toml").is_file()
 
 
 def load_planning_domain(name: str | Path) -> PlanningDomain:
@@ -121,8 +144,14 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         )
     table = read_toml(path, PlanningFile)
     knowledge = read_knowledge_file(folder / "knowledge.al")
+    pictures = folder / "domain.toml"
+    seen = read_toml(pictures, DomainFile) if pictures.is_file() else None
+    if seen is not None:
+        # The picture is nothing that there is in the world.
+        knowledge = knowledge.without_sort(seen.domain.scene)
     source = path.read_text(encoding="utf-8-sig")
-    for keys, problem in _problems(table, knowledge):
+    features = {} if seen is None else seen.features
+    for keys, problem in (*_problems(table, knowledge), *_picture_problems(table, features)):
         raise DomainError(f"{path}:{line_of(source, keys)}: {problem}")
     sensing = []
     for number, own in enumerate(table.sensing):
@@ -131,6 +160,14 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         except SensingError as problem:
             line = line_of(source, ("sensing", str(number), problem.part))
             raise DomainError(f"{path}:{line}: {problem}") from None
+    shows = {}
+    for feature, literal in (table.pictures.shows if table.pictures else {}).items():
+        where = table.pictures.where if table.pictures else ""
+        try:
+            shows[feature] = read_sensing(literal, where, knowledge)
+        except SensingError as problem:
+            keys = ("shows", feature) if problem.part == "literal" else ("where",)
+            raise DomainError(f"{path}:{line_of(source, ('pictures', *keys))}: {problem}") from None
     past = folder / "history.al"
     return PlanningDomain(
         name=table.planning.name,
@@ -147,9 +184,11 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         robot=table.planning.robot,
         horizon=table.planning.horizon,
         sensing=tuple(sensing),
+        shows=MappingProxyType(shows),
         simulation=table.simulation,
         map=table.map,
         folder=folder,
+        sensors_err=any(own.error for own in sensing),
     )
 
 
@@ -212,6 +251,24 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
                     ("simulation", key, name),
                     f"'{name}' is no {wanted.value}; {did_you_mean(name, names)}",
                 )
+
+
+def _picture_problems(
+    table: PlanningFile, features: Mapping[str, FeatureTable]
+) -> Iterator[tuple[tuple[str, ...], str]]:
+    """What planning.toml says of features that domain.toml does not have."""
+    for key in table.pictures.shows if table.pictures else ():
+        here = ("pictures", "shows", key)
+        if not features:
+            yield here, "the folder has no domain.toml, which would name features of pictures"
+        elif key not in features:
+            yield here, f"'{key}' is no feature of domain.toml; {did_you_mean(key, features)}"
+        elif {*features[key].values} != {"yes", "no"}:
+            yield (
+                here,
+                f"the feature '{key}' has the values {', '.join(features[key].values)}; only one "
+                "of yes and no says whether a fluent holds",
+            )
 
 
 def _map_problems(table: MapTable, knowledge: Knowledge) -> Iterator[tuple[tuple[str, ...], str]]:

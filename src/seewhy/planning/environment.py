@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import clingo
 import gymnasium
@@ -19,6 +19,9 @@ from seewhy.planning.goal import Goal
 from seewhy.planning.reached import holds_in
 from seewhy.planning.sensing import Sensors
 from seewhy.planning.world import Transitions, World
+
+if TYPE_CHECKING:
+    from seewhy.planning.sight import Look, Sight
 
 NOT_SENSED, SEEN_FALSE, SEEN_TRUE = 0, 1, 2
 
@@ -68,7 +71,12 @@ class PlanningEnvironment(gymnasium.Env[NDArray[np.int8], np.int64]):
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012
 
     def __init__(
-        self, domain: PlanningDomain, *, goal: Goal | None = None, steps: int = 100
+        self,
+        domain: PlanningDomain,
+        *,
+        goal: Goal | None = None,
+        steps: int = 100,
+        sight: Sight | None = None,
     ) -> None:
         self.domain = domain
         self.goal = goal
@@ -83,6 +91,8 @@ class PlanningEnvironment(gymnasium.Env[NDArray[np.int8], np.int64]):
             np.full(len(self.fluents), 3), dtype=np.int8
         )
         self.state: World = frozenset()
+        self.sight = sight
+        self.look: Look | None = None
         self.done = 0
 
     def reset(
@@ -149,6 +159,14 @@ class PlanningEnvironment(gymnasium.Env[NDArray[np.int8], np.int64]):
                 holds = not holds
                 misread.append(fluent)
             observation[self._places[fluent]] = SEEN_TRUE if holds else SEEN_FALSE
+        if self.sight is not None:
+            # A stream of its own, so that the world's course does not depend on who looks at it.
+            (stream,) = self.np_random.spawn(1)
+            self.look = self.sight.look(self.state, seed=int(stream.integers(2**31)))
+            for fluent, holds in self.look.read.items():
+                observation[self._places[fluent]] = SEEN_TRUE if holds else SEEN_FALSE
+            misread = [own for own in misread if own not in self.look.read]
+            misread += self.look.misread
         return observation, tuple(misread)
 
     def _random_events(self) -> Iterator[clingo.Symbol]:

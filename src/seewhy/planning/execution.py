@@ -92,13 +92,15 @@ class Step:
 class Run:
     """A run of the robot: its goal, its history and its steps, as far as they have come.
 
-    ``outcome`` is None while it goes on (and where it was interrupted).
+    ``outcome`` is None while it goes on (and where it was interrupted); ``sensors_err`` says that
+    what was sensed may be wrong.
     """
 
     goal: Goal
     history: History
     steps: list[Step] = field(default_factory=list)
     outcome: Outcome | None = None
+    sensors_err: bool = False
 
     @property
     def actions(self) -> list[clingo.Symbol]:
@@ -137,13 +139,12 @@ def execute(
     most_steps : int
         The most actions to do.
     """
-    errors = any(own.error for own in domain.sensing)
     history = domain.history.with_observations(sensed, step=domain.history.last_step)
-    run = Run(goal, history)
+    run = Run(goal, history, sensors_err=domain.sensors_err)
     robot = _Robot(domain, goal)
     known: tuple[Surprise, ...] = ()
     while run.outcome is None:
-        diagnosis = diagnose(domain.knowledge, run.history, sensors_err=errors)
+        diagnosis = diagnose(domain.knowledge, run.history, sensors_err=domain.sensors_err)
         new = tuple(own for own in diagnosis.surprises if own not in known)
         known = diagnosis.surprises
         step = robot.decide(run.history, diagnosis.now, sensed, new)

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import clingo
 
-from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal
-from seewhy.knowledge.dynamics import constraints, fixed_rules, of_kind, predicates_in, rule
+from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, predicates_in
+from seewhy.knowledge.dynamics import constraints, fixed_rules, of_kind, rule
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import held
 from seewhy.knowledge.signature import Signature

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from seewhy.knowledge.axiom import Axiom, AxiomKind
-from seewhy.knowledge.dynamics import predicates_in
+from seewhy.knowledge.axiom import Axiom, AxiomKind, predicates_in
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.goal import REACHED

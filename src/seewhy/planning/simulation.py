@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import clingo
 import numpy as np
@@ -15,6 +16,9 @@ from seewhy.planning.execution import Run, execute
 from seewhy.planning.goal import Goal
 from seewhy.planning.reached import holds_in
 from seewhy.planning.world import World
+
+if TYPE_CHECKING:
+    from seewhy.planning.sight import Look, Sight
 
 
 @dataclass
@@ -28,6 +32,8 @@ class Simulation:
         The true state at each step of the run.
     happenings : list of Happening
         What really happened after each step that did something.
+    looks : list of Look
+        The picture taken at each step; empty where no networks see.
     achieved : bool
         Whether the goal truly holds at the end.
     """
@@ -35,13 +41,22 @@ class Simulation:
     run: Run
     worlds: list[World] = field(default_factory=list)
     happenings: list[Happening] = field(default_factory=list)
+    looks: list[Look] = field(default_factory=list)
     achieved: bool = False
 
 
 def simulate(
-    domain: PlanningDomain, goal: Goal, *, seed: int = 0, most_steps: int = 60
+    domain: PlanningDomain,
+    goal: Goal,
+    *,
+    seed: int = 0,
+    most_steps: int = 60,
+    sight: Sight | None = None,
 ) -> Iterator[Simulation]:
     """Let the robot pursue a goal in a random world; yields the simulation after each step.
+
+    With ``sight``, it takes a picture at every step, and sees what the networks read. The world's
+    own course is the same with the same seed, as long as the robot does the same.
 
     Examples
     --------
@@ -53,20 +68,30 @@ def simulate(
     >>> last.run.outcome.value, [str(action) for action in last.run.actions]
     ('achieved', ['move(rob1,kitchen)'])
     """
-    environment = PlanningEnvironment(domain, goal=goal, steps=most_steps + 1)
+    environment = PlanningEnvironment(domain, goal=goal, steps=most_steps + 1, sight=sight)
     observation, _ = environment.reset(seed=seed)
     worlds, happenings = [environment.state], list[Happening]()
+    looks = [environment.look] if environment.look is not None else []
 
     def act(action: clingo.Symbol) -> list[Literal]:
         seen, _, _, _, info = environment.step(environment.number(action))
         worlds.append(environment.state)
         happenings.append(info["happening"])
+        if environment.look is not None:
+            looks.append(environment.look)
         return environment.read(np.asarray(seen))
 
     sensed = environment.read(observation)
-    for run in execute(domain, goal, sensed=sensed, act=act, most_steps=most_steps):
+    runs = execute(
+        domain if sight is None else replace(domain, sensors_err=True),
+        goal,
+        sensed=sensed,
+        act=act,
+        most_steps=most_steps,
+    )
+    for run in runs:
         steps = len(run.steps)
         achieved = holds_in(domain.knowledge, goal, worlds[steps - 1])
         # The run goes on in place; what is given away stays as it is now.
         now = replace(run, steps=list(run.steps))
-        yield Simulation(now, worlds[:steps], happenings[:steps], achieved)
+        yield Simulation(now, worlds[:steps], happenings[:steps], looks[:steps], achieved)

@@ -56,6 +56,17 @@ class SensingTable(_Table):
     error: Probability = 0.0
 
 
+class PicturesTable(_Table):
+    """``[pictures]``: what the pictures that the robot takes say, where networks see.
+
+    ``shows`` gives, for features of domain.toml that have the values yes and no, the fluent whose
+    truth each is, where the condition ``where`` holds.
+    """
+
+    where: str
+    shows: dict[str, str] = Field(min_length=1)
+
+
 class SimulationTable(_Table):
     """``[simulation]``: how often what happens, for the simulated world.
 
@@ -96,5 +107,6 @@ class PlanningFile(_Table):
     fluents: dict[str, FluentTable] = {}
     actions: dict[str, ActionTable] = {}
     sensing: tuple[SensingTable, ...] = ()
+    pictures: PicturesTable | None = None
     simulation: SimulationTable = SimulationTable()
     map: MapTable | None = None

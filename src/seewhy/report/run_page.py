@@ -9,12 +9,18 @@ from typing import Any
 import clingo
 from jinja2 import Environment
 
+from seewhy.knowledge.ground import complement_of
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.narration import narrate_end, narrate_step
 from seewhy.planning.simulation import Simulation
 from seewhy.planning.state import State
+from seewhy.planning.words import PlanningWords
 from seewhy.planning.world import World
+from seewhy.report.card import embedded
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
+
+_PICTURE = 192
+"""Side of the robot's pictures on the page, in pixels."""
 
 
 def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) -> str:
@@ -39,6 +45,7 @@ def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) ->
                 "unseen": unseen,
                 "wrong": [words.say(own) for own in _wrong(step.believed, world)],
                 "map": drawn.svg(number) if drawn else "",
+                "picture": _picture(words, simulation, number),
             }
         )
     template = resources.files("seewhy.report").joinpath("run.html").read_text(encoding="utf-8")
@@ -53,6 +60,19 @@ def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) ->
         version=version("seewhy"),
         command=command,
     )
+
+
+def _picture(words: PlanningWords, simulation: Simulation, number: int) -> dict[str, Any] | None:
+    """The picture taken at a step: what was read from it, and what of that is not so."""
+    if not simulation.looks:
+        return None
+    look = simulation.looks[number]
+    as_read = {own: own if holds else complement_of(own) for own, holds in look.read.items()}
+    return {
+        "data": embedded(look.picture, size=_PICTURE),
+        "read": [words.say(as_read[own]) for own, holds in look.read.items() if holds],
+        "misread": [words.say(as_read[own]) for own in look.misread],
+    }
 
 
 def _wrong(believed: State, world: World) -> list[clingo.Symbol]:

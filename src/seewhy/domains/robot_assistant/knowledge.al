@@ -1,5 +1,6 @@
 % What a robot knows that brings messages to people in an office building.
 
+#sort view.
 #sort robot = {rob1}.
 #sort person = {bob, john, sarah, sally}.
 #sort agent = robot + person.
@@ -14,6 +15,22 @@
 #static work_place(person, place).
 #static usual(object, place).
 #static printer(place).
+
+% What a picture of a room shows
+#static desk(view).
+#static chair(view).
+#static computer(view).
+#static cup(view).
+#static small_box(view).
+#static large_box(view).
+#static sofa(view).
+#static books(view).
+#static plant(view).
+#static bob(view).
+#static john(view).
+#static sarah(view).
+#static sally(view).
+#static occupied(view).
 
 #fluent basic loc(agent, place).
 #fluent basic present(object, place).
@@ -125,3 +142,16 @@ usual(plant, kitchen).
 unusual(O, L) if present(O, L), not usual(O, L).
 %% a place is cluttered where three or more objects are that are not usually there
 cluttered(L) if place(L), #count { O : unusual(O, L) } >= 3.
+
+% What a picture says
+
+%% a room with Bob in it is occupied
+occupied(V) if bob(V).
+%% a room with John in it is occupied
+occupied(V) if john(V).
+%% a room with Sarah in it is occupied
+occupied(V) if sarah(V).
+%% a room with Sally in it is occupied
+occupied(V) if sally(V).
+%% a room without any of the people is empty
+-occupied(V) if -bob(V), -john(V), -sarah(V), -sally(V).

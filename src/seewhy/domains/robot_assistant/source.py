@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from seewhy.domains.robot_assistant.rendering import Built, render, visible_pixe
 from seewhy.domains.robot_assistant.room import OBJECTS, furnished
 from seewhy.domains.robot_assistant.view import random_decor, random_view
 
-__all__ = ["OBJECTS", "PEOPLE", "draw", "photograph"]
+__all__ = ["OBJECTS", "PEOPLE", "depict", "draw", "photograph"]
 
 _CHECKED = 48  # Side of the pictures in which is counted what can be seen, in pixels.
 _NEEDED = {
@@ -81,6 +81,24 @@ def photograph(
         part = max(_LEAST, part * _MODESTY)
 
 
+def depict(features: Mapping[str, str], *, seed: int, size: int = 96) -> NDArray[np.uint8]:
+    """A picture of a room that holds what `features` has as ``"yes"``, and nothing else.
+
+    It depends on the arguments only.
+
+    Examples
+    --------
+    >>> depict({"sofa": "yes", "bob": "no"}, seed=1).shape
+    (96, 96, 3)
+    """
+    return photograph(
+        [name for name in OBJECTS if features.get(name) == "yes"],
+        [name for name in PEOPLE if features.get(name) == "yes"],
+        rng=np.random.default_rng(seed),
+        size=size,
+    )
+
+
 def draw(*, seed: int, index: int, size: int = 96) -> tuple[NDArray[np.uint8], dict[str, str], str]:
     """Draws picture number `index` of the set that `seed` stands for.
 
@@ -94,13 +112,13 @@ def draw(*, seed: int, index: int, size: int = 96) -> tuple[NDArray[np.uint8], d
     features : dict of str to str
         For each object and each person ``"yes"`` or ``"no"``.
     label : str
-        ``"room"``: there is nothing to classify.
+        ``"occupied"`` if somebody is in the room, else ``"empty"``.
 
     Examples
     --------
     >>> picture, features, label = draw(seed=0, index=0)
     >>> picture.shape, label, len(features)
-    ((96, 96, 3), 'room', 13)
+    ((96, 96, 3), 'occupied', 13)
     """
     rng = np.random.default_rng([seed, index])
     names = (*OBJECTS, *PEOPLE)
@@ -111,4 +129,5 @@ def draw(*, seed: int, index: int, size: int = 96) -> tuple[NDArray[np.uint8], d
         rng=rng,
         size=size,
     )
-    return picture, {name: "yes" if present[name] else "no" for name in names}, "room"
+    label = "occupied" if any(present[name] for name in PEOPLE) else "empty"
+    return picture, {name: "yes" if present[name] else "no" for name in names}, label

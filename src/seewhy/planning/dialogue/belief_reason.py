@@ -261,8 +261,8 @@ class Beliefs:
         return self.domain.knowledge.signature.kind(literal.name)
 
     def _diagnosed(self, history: History) -> Diagnosis:
-        errors = any(own.error for own in self.domain.sensing)
         last = max(history.last_step, self.history.last_step)
+        errors = self.domain.sensors_err
         return diagnose(self.domain.knowledge, history, last=last, sensors_err=errors)
 
 

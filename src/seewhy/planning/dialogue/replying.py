@@ -77,6 +77,7 @@ def answer(domain: PlanningDomain, run: Run, question: str) -> PlanningReply:
     >>> print(answer(domain, run, "what is your goal?").text)
     My goal is that I am in the kitchen.
     """
+    domain = replace(domain, sensors_err=domain.sensors_err or run.sensors_err)
     query = PlanningQuestions(domain).understand(question)
     return _Replying(domain, run).reply(query)
 
@@ -246,7 +247,9 @@ class _Replying:
         history = known_at(self.run.history, query.step)
         supposed = f"if {subjunctive(self.speech.say(literal))}"
         reasons: dict[str, Any] = {"literal": str(literal)}
-        supposing = supposed_history(self.domain.knowledge, history, literal)
+        supposing = supposed_history(
+            self.domain.knowledge, history, literal, sensors_err=self.domain.sensors_err
+        )
         if supposing is None:
             return sentences([f"{self.speech.say(literal)}: nothing that I know of could bring "
                                "that about"]), reasons  # fmt: skip
@@ -452,7 +455,7 @@ class _Replying:
         return found
 
     def _failures(self) -> set[tuple[int, clingo.Symbol]]:
-        errors = any(own.error for own in self.domain.sensing)
+        errors = self.domain.sensors_err
         found = diagnose(self.domain.knowledge, self.run.history, sensors_err=errors)
         return {(own.step, own.what) for own in found.surprises if own.kind is SurpriseKind.FAILURE}
 

@@ -36,11 +36,12 @@ def known_at(history: History, step: int | None) -> History:
 
 
 def supposed_history(
-    knowledge: Knowledge, history: History, literal: clingo.Symbol
+    knowledge: Knowledge, history: History, literal: clingo.Symbol, *, sensors_err: bool = False
 ) -> History | None:
     """Return the history with a literal seen at its end, without what contradicts that there.
 
-    None where nothing that may be assumed explains it.
+    None where nothing that may be assumed explains it; with ``sensors_err``, also where it would
+    sooner be taken to be seen wrongly.
 
     Examples
     --------
@@ -53,6 +54,14 @@ def supposed_history(
     observed locked at 0.
     observed dark(hall) at 0.
     """
+
+    def explained(whole: History) -> bool:
+        try:
+            now = diagnose(knowledge, whole, sensors_err=sensors_err).now
+        except PlanningError:
+            return False
+        return not sensors_err or literal in now.holds
+
     step = history.last_step
     supposed = Observation(literal_of(str(literal)), step)
     before = [own for own in history.observations if own.step < step]
@@ -62,14 +71,14 @@ def supposed_history(
         if own.step == step and not _excludes(own.literal, literal, knowledge)
     ]
     whole = replace(history, observations=(*before, *present, supposed))
-    if _explained(knowledge, whole):
+    if explained(whole):
         return whole
     kept = replace(history, observations=(*before, supposed))
-    if not _explained(knowledge, kept):
+    if not explained(kept):
         return None
     for own in present:
         more = replace(kept, observations=(*kept.observations, own))
-        kept = more if _explained(knowledge, more) else kept
+        kept = more if explained(more) else kept
     return kept
 
 
@@ -89,11 +98,3 @@ def _excludes(seen: Literal, literal: clingo.Symbol, knowledge: Knowledge) -> bo
         )
         for own in mutexes(knowledge)
     )
-
-
-def _explained(knowledge: Knowledge, history: History) -> bool:
-    try:
-        diagnose(knowledge, history)
-    except PlanningError:
-        return False
-    return True
