@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 import torch
 
-from seewhy.dialogue.recurrent import _improves, _one_thread, fit_answerer
+from seewhy.dialogue.recurrent import _improves, fit_answerer
 from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
 from seewhy.dialogue.recurrent_options import AnswererEvent, AnswerExample, RecurrentOptions
 from seewhy.errors import DatasetError, DomainError, ModelError
+from seewhy.one_thread import one_thread
 
 FEATURES = {"num_blocks": ["1", "2", "3", "4", "5"], "lean": ["yes", "no"], "base": ["wide", "no"]}
 QUESTIONS = {
@@ -242,7 +243,7 @@ def test_what_does_not_fit_is_refused(answerer: RecurrentAnswerer) -> None:
 
 def test_an_answer_takes_milliseconds(answerer: RecurrentAnswerer) -> None:
     spent = []
-    with _one_thread():  # processor time, so that what else the machine does is not counted
+    with one_thread():  # processor time, so that what else the machine does is not counted
         for _ in range(20):
             start = time.process_time()
             answerer.answer(QUESTIONS["why"].split(), ("3", "yes", "wide"), "steady")
