@@ -25,12 +25,20 @@ TOML = '[planning]\nname = "rooms"\ntitle = "Rooms"\nrobot = "rob1"\n'
 IN_HALL = "observed at(hall) at 0.\n"
 
 
+WORDS = (
+    '[things]\nrob1 = "the robot"\nhall = "the hall"\n'
+    '[fluents.at]\nsay = "the robot is in {0}"\n'
+    '[actions.move]\ndo = "move to {1}"\ndid = "moved to {1}"\n'
+    '[actions.shut]\ndid = "somebody closed {0}"\n'
+)
+
+
 def written(
-    folder: Path, text: str, *, history: str = IN_HALL, header: str = HEADER
+    folder: Path, text: str, *, history: str = IN_HALL, header: str = HEADER, words: str = ""
 ) -> PlanningDomain:
     (folder / "knowledge.al").write_text(header + text)
     (folder / "history.al").write_text(history)
-    (folder / "planning.toml").write_text(TOML)
+    (folder / "planning.toml").write_text(TOML + words)
     return load_planning_domain(folder)
 
 
@@ -197,3 +205,36 @@ def test_what_follows_is_noted_where_it_is_left_open(tmp_path: Path) -> None:
     (note,) = notes(tmp_path, open_ended)
     assert note in {said.format(f"at({place})") for place in ("hall", "kitchen", "attic")}
     assert notes(tmp_path, text) == []
+
+
+# Notes in the words of planning.toml
+
+
+def test_what_is_never_possible_is_said_in_words(tmp_path: Path) -> None:
+    cut_off = HEADER.replace("next_to(kitchen, attic). ", "")
+    assert check_change(written(tmp_path, "", header=cut_off, words=WORDS)) == (
+        "it is never possible to move to attic: move(rob1, attic)",
+    )
+    nowhere = HEADER.replace("if at(K), not next_to(K, L)", "if not next_to(hall, attic)")
+    nowhere = nowhere.replace("#action exogenous", "#fluent basic lit. #action exogenous")
+    nowhere = nowhere.replace("if not next_to(hall, attic)", "if not lit") + "default -lit."
+    assert check_change(written(tmp_path, "", header=nowhere, words=WORDS)) == (
+        "it is never possible to move to any place: move(rob1, _)",
+    )
+
+
+def test_what_is_left_open_is_said_in_words(tmp_path: Path) -> None:
+    text = (
+        "#fluent basic rung. #fluent basic lit(place). #action exogenous ring. ring causes rung.\n"
+        "lit(hall) if rung, not lit(attic).\nlit(attic) if rung, not lit(hall)."
+    )
+    (note,) = check_change(written(tmp_path, text))
+    assert "after 'ring' it is left open in some state whether 'lit(" in note
+    words = '[fluents.lit]\nsay = "there is light in {0}"\n[actions.ring]\ndid = "the bell rang"\n'
+    (note,) = check_change(written(tmp_path, text, words=WORDS + words))
+    said = (
+        "after the bell rang ('ring') it is left open in some state whether there is light in {}; "
+    )
+    assert said.format("attic ('lit(attic)')") in note or (
+        said.format("the hall ('lit(hall)')") in note
+    )

@@ -417,13 +417,14 @@ def least_actions(knowledge: Knowledge, goal: str, start: State, horizon: int) -
 @given(
     known=WORLDS,
     goal=bodies(ANY, 1),
+    where=st.sampled_from(("observed at(a) at 0. ", "observed -at(b) at 0. ", "")),
     seen=st.lists(st.sampled_from(("p", "q", "r")), unique=True),
     signs=st.tuples(*[st.sampled_from(("", "-"))] * 3),
 )
 def test_plans_are_as_short_as_can_be_in_random_worlds(
-    known: Knowledge, goal: str, seen: list[str], signs: tuple[str, str, str]
+    known: Knowledge, goal: str, where: str, seen: list[str], signs: tuple[str, str, str]
 ) -> None:
-    past = "observed at(a) at 0. " + " ".join(
+    past = where + " ".join(
         f"observed {sign}{own} at 0." for own, sign in zip(seen, signs, strict=False)
     )
     try:
@@ -436,6 +437,15 @@ def test_plans_are_as_short_as_can_be_in_random_worlds(
     for before, action, after in zip(found.states, found.actions, found.states[1:], strict=False):
         # What stays unknown may be either way.
         assert any(after.holds <= own for own in following(known, before.holds, action))
+
+
+def test_the_states_of_a_plan_tell_what_no_way_to_the_goal_asks_about() -> None:
+    known = read_knowledge(WORLD + "d if at(a). impossible go(a) if at(a), d.")
+    start = diagnose(known, history("observed at(a) at 0.", known)).now
+    before, after = plan(known, read_goal("at(b)", known), start=start).states
+    d = clingo.Function("d")
+    assert d in before.holds
+    assert d not in after.holds
 
 
 def test_what_an_axiom_touches_but_nothing_makes_false_stays_true() -> None:

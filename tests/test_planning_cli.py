@@ -173,6 +173,56 @@ def test_a_run_can_be_asked_about(run: Run) -> None:
     assert "what would you do if I sang" in refused.err
 
 
+CHAT = """\
+where are you?
+
+what is the meaning of life?
+why did you not move to Bob's office at step 0?
+where were you at step 9?
+quit
+what is your goal?
+"""
+
+
+def test_a_run_can_be_talked_about(run: Run) -> None:
+    goal = "message_status(m1, sally, delivered)"
+    talk = ("simulate", "robot_assistant", "--goal", goal, "--seed", "1", "--chat")
+    told = run(*talk, stdin=CHAT)
+    assert told.code == 0
+    assert told.out.split("In truth it is reached.\n")[1] == (
+        "I am in Sally's office. I saw at step 3 that I was in Sally's office.\n"
+        "The plan would have been longer: 5 actions (move to Bob's office, move to the library, "
+        "move to the kitchen, move to Sally's office and deliver the first message to Sally) "
+        "instead of 3.\n"
+    )
+    not_understood, no_such_step = told.err.splitlines()
+    assert not_understood.startswith("seewhy: 'what is the meaning of life?' is not understood; ")
+    assert not_understood.count(" · ") == 2
+    assert no_such_step == (
+        "seewhy: there is no step 9 yet: the run has come to step 3; ask about step 0 to 3"
+    )
+
+
+def test_a_talk_about_a_run_in_json_is_a_line_each(run: Run) -> None:
+    goal = "message_status(m1, sally, delivered)"
+    talk = ("simulate", "robot_assistant", "--goal", goal, "--seed", "1", "--chat", "--json")
+    lines = [json.loads(line) for line in run(*talk, stdin=CHAT).out.splitlines()]
+    assert (lines[0]["outcome"], lines[0]["achieved"]) == ("achieved", True)
+    assert lines[1]["query"]["asks"] == "where"
+    assert len(lines[2]["nearest"]) == 3
+    assert lines[3]["reasons"]["against"] == "the plan would have been longer"
+    assert lines[4]["error"].startswith("there is no step 9 yet")
+    assert len(lines) == 5
+
+
+def test_a_talk_ends_with_its_input(run: Run) -> None:
+    talk = ("simulate", "tower_building", "--goal", "holding(rob1, b1)", "--chat")
+    asked = run(*talk, stdin="what do you hold")
+    assert asked.code == 0
+    assert run(*talk).out == asked.out
+    assert asked.err.startswith("seewhy: 'what do you hold' is not understood; ask for instance: ")
+
+
 def test_a_domain_that_plans_is_checked(run: Run, tmp_path: Path) -> None:
     done = run("check", "tower_building")
     assert done.out.splitlines()[1:] == [
@@ -192,7 +242,8 @@ def test_a_domain_that_plans_is_checked(run: Run, tmp_path: Path) -> None:
     (folder / "knowledge.al").write_text(
         text.replace("library, bathroom}", "library, bathroom, attic}")
     )
-    assert "  note: never possible: move(rob1, attic)\n" in run("check", str(folder)).out
+    said = "  note: it is never possible to move to attic: move(rob1, attic)\n"
+    assert said in run("check", str(folder)).out
     found = json.loads(run("check", str(folder), "--json").out)
     assert (len(found["axioms"]), found["planning"]["fluents"]) == (0, 7)
 

@@ -211,8 +211,8 @@ DELIVERED = {
         "If the kitchen were closed, I would do nothing: the goal is reached."
     ),
     "what would you do if the kitchen were closed at step 0?": (
-        "If the kitchen were closed, I would move to John's office and deliver the first "
-        "message to Sally, hoping that Sally is in John's office. No plan would be sure."
+        "If the kitchen were closed, I would move to Bob's office and deliver the first "
+        "message to Sally, hoping that Sally is in Bob's office. No plan would be sure."
     ),
     "what would you do if Sally were in the library at step 1?": (
         "If Sally were in the library, I would move to the library and deliver the first "

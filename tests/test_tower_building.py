@@ -197,8 +197,8 @@ def test_a_box_that_feels_heavy_is_other_than_usual() -> None:
 
 def test_nothing_is_put_on_the_ball_or_the_roof() -> None:
     assert check_change(DOMAIN) == (
-        "never possible: put(rob1, _, b5)",
-        "never possible: put(rob1, _, b6)",
+        "it is never possible to put any box on the ball: put(rob1, _, b5)",
+        "it is never possible to put any box on the roof: put(rob1, _, b6)",
     )
 
 

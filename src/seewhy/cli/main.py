@@ -21,6 +21,7 @@ from seewhy.cli import (
     new,
     plan,
     simulate,
+    trace,
     train,
 )
 from seewhy.cli.screen import complain
@@ -44,6 +45,7 @@ app.command("learn")(learn.learn)
 app.command("axioms")(axioms.axioms)
 app.command("ask")(ask.ask)
 app.command("chat")(chat.chat)
+app.command("trace")(trace.trace)
 app.command("new")(new.new)
 app.command("check")(check.check)
 app.command("plan")(plan.plan)

@@ -46,9 +46,10 @@ def complain(text: str) -> None:
     notes().print(f"seewhy: {' '.join(text.splitlines())}", markup=False, style="red")
 
 
-def print_json(value: Any) -> None:
-    """Print a result for a program."""
-    sys.stdout.write(json.dumps(value, indent=2, ensure_ascii=False) + "\n")
+def print_json(value: Any, *, lines: bool = True) -> None:
+    """Print a result for a program, over several lines or, for one that reads by lines, on one."""
+    sys.stdout.write(json.dumps(value, indent=2 if lines else None, ensure_ascii=False) + "\n")
+    sys.stdout.flush()
 
 
 def percent(share: float) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from seewhy.cli.conversation import converse
 from seewhy.cli.options import DomainName, Json, Seed
 from seewhy.cli.plan import GoalText
 from seewhy.cli.screen import print_json, remark, say
@@ -36,12 +37,19 @@ def simulate(
         list[str] | None,
         typer.Option("--ask", help="A question about the run; may be given several times."),
     ] = None,
+    chat: Annotated[
+        bool,
+        typer.Option("--chat", help="Afterwards answer questions about the run from the input."),
+    ] = False,
     json: Json = False,
 ) -> None:
-    """Simulate a robot that plans, acts, is surprised, and plans anew."""
+    """Simulate a robot that plans, acts, is surprised, and plans anew.
+
+    With --chat and --json the run is one line of JSON, and so is every answer.
+    """
     from seewhy.errors import PlanningError
     from seewhy.files import write_whole
-    from seewhy.planning.dialogue.replying import answer
+    from seewhy.planning.dialogue.replying import RunAnswers
     from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.goal import read_goal
     from seewhy.planning.narration import narrate_end, narrate_step
@@ -66,9 +74,11 @@ def simulate(
     if last is None:
         raise KeyboardInterrupt
     run = last.run
-    replies = [answer(own, run, question) for question in ask or ()]
+    answers = RunAnswers(own, run)
+    replies = [answers.answer(question) for question in ask or ()]
     if json:
-        print_json({**_to_dict(last, goal, seed), "replies": [own.to_dict() for own in replies]})
+        told = {**_to_dict(last, goal, seed), "replies": [own.to_dict() for own in replies]}
+        print_json(told, lines=not chat)
     else:
         say(narrate_end(run))
         say(f"In truth it {'is' if last.achieved else 'is not'} reached.")
@@ -79,6 +89,10 @@ def simulate(
         command += "" if model is None else f" --model {model}"
         write_whole(out, run_page(own, last, command=command))
         remark(f"the run with its map is in {out}")
+    if chat:
+        greeting = [f"  {question}" for question in answers.questions.examples()]
+        greeting = ["Ask about the run, for instance:", *greeting, "An empty line ends."]
+        converse(answers.answer, greeting=greeting, json=json)
     if interrupted:
         raise KeyboardInterrupt
     if not last.achieved:

@@ -42,7 +42,7 @@ def check_change(domain: PlanningDomain) -> tuple[str, ...]:
     >>> check_change(load_planning_domain("robot_assistant"))
     ()
     """
-    check = _Check(domain.knowledge)
+    check = _Check(domain)
     check.states()
     check.actions()
     check.effects()
@@ -51,11 +51,11 @@ def check_change(domain: PlanningDomain) -> tuple[str, ...]:
         *check.defaults(),
         *check.needless_laws(),
         *check.several_outcomes(),
-        *never_possible(domain.knowledge, start),
+        *(_said_never(own, domain) for own in never_possible(domain.knowledge, start)),
     )
 
 
-def never_possible(knowledge: Knowledge, start: State) -> Iterator[str]:
+def never_possible(knowledge: Knowledge, start: State) -> Iterator[Literal]:
     """Yield the actions that can never be done from a state on, also not after what may happen.
 
     An argument with which an action is never possible is named; ``_`` stands for any other.
@@ -72,8 +72,8 @@ def never_possible(knowledge: Knowledge, start: State) -> Iterator[str]:
     ... next_to(hall, hall).
     ... ''')
     >>> start = diagnose(known, read_history("observed at(hall) at 0.", known.signature)).now
-    >>> list(never_possible(known, start))
-    ['never possible: move(rob1, attic)']
+    >>> [str(own) for own in never_possible(known, start)]
+    ['move(rob1, attic)']
     """
     signature = knowledge.signature
     can = reachable(_all_done(knowledge), start).can
@@ -84,21 +84,22 @@ def never_possible(knowledge: Knowledge, start: State) -> Iterator[str]:
         members = [signature.members(sort) for sort in predicate.sorts]
         usual = [own[0] if len(own) == 1 else "_" for own in members]
         if not done:
-            yield f"never possible: {Literal(predicate.name, tuple(usual))}"
+            yield Literal(predicate.name, tuple(usual))
             continue
         for place, every in enumerate(members):
             seen = {str(arguments[place]) for arguments in done}
             for member in every:
                 if str(clingo.parse_term(member)) not in seen:
                     terms = [*usual[:place], member, *usual[place + 1 :]]
-                    yield f"never possible: {Literal(predicate.name, tuple(terms))}"
+                    yield Literal(predicate.name, tuple(terms))
 
 
 class _Check:
-    """One knowledge, and what is asked about all of its states."""
+    """The knowledge of a domain, and what is asked about all of its states."""
 
-    def __init__(self, knowledge: Knowledge) -> None:
-        self.knowledge = knowledge
+    def __init__(self, domain: PlanningDomain) -> None:
+        self.words = domain.words
+        self.knowledge = knowledge = domain.knowledge
         signature = knowledge.signature
         always = list(constraints(knowledge))
         self.usual = [own for own in always if gives_way(own, signature)]
@@ -186,13 +187,23 @@ class _Check:
         if found is None:
             return
         axiom = _undecided(found, self.knowledge)
-        fluent = _shown(min(found.differing))
-        after = f"after '{_shown(found.action)}'" if found.action else "where nothing is done"
         yield (
-            f"{axiom.location if axiom else self.knowledge.file}: {after} it is left open in some "
-            f"state whether '{fluent}' holds"
+            f"{axiom.location if axiom else self.knowledge.file}: {self._after(found.action)} it "
+            f"is left open in some state whether {self._whether(min(found.differing))}"
             + (f"; '{axiom}' asks with 'not' for what its own conclusion decides" if axiom else "")
         )
+
+    def _after(self, action: clingo.Symbol | None) -> str:
+        if action is None:
+            return "where nothing is done"
+        if action.name not in self.words.actions:
+            return f"after '{_shown(action)}'"
+        return f"after {self.words.happened(action)} ('{_shown(action)}')"
+
+    def _whether(self, fluent: clingo.Symbol) -> str:
+        if fluent.name not in self.words.fluents:
+            return f"'{_shown(fluent)}' holds"
+        return f"{self.words.say(fluent)} ('{_shown(fluent)}')"
 
     def _against(self, law: Axiom) -> str:
         assert law.action is not None
@@ -214,6 +225,19 @@ class _Check:
                 one, other = (own[0] for own in concluding.values())
                 return f"wherever it applies, {_line(one)} and {_line(other)} bring about opposites"
         return "wherever it applies, no state can follow"
+
+
+def _said_never(action: Literal, domain: PlanningDomain) -> str:
+    """An action that is never possible, in the words of the domain where it has some."""
+    if action.predicate not in domain.words.actions:
+        return f"never possible: {action}"
+    sorts = domain.knowledge.signature.predicates[action.predicate].sorts
+    arguments = [
+        clingo.Function(f"any_{sort}") if own == "_" else clingo.parse_term(own)
+        for own, sort in zip(action.arguments, sorts, strict=True)
+    ]
+    said = domain.words.do(clingo.Function(action.predicate, arguments))
+    return f"it is never possible to {said}: {action}"
 
 
 def _start(domain: PlanningDomain) -> State:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 import time
+from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import cache
 from typing import Any
 
 import clingo
@@ -207,13 +209,10 @@ class _Robot:
         begun = time.perf_counter()
         self.doubted_before, start = None, now
         found = self._plan(start)
-        for before in self._ages(last_seen):
-            if found.found:
-                break
-            # What was seen longest ago is doubted first.
-            self.doubted_before = before
-            start = self.doubt.applied(now, last_seen, before=before)
-            found = self._plan(start)
+        if not found.found:
+            least = self._least_doubt(now, last_seen)
+            if least is not None:
+                self.doubted_before, start, found = least
         supposed: tuple[clingo.Symbol, ...] = ()
         if found.found:
             supposed = suppositions(knowledge, goal, found.actions, start=start)
@@ -250,15 +249,38 @@ class _Robot:
                     shortest = found
         return shortest
 
-    def _ages(self, last_seen: Mapping[clingo.Symbol, int]) -> list[int]:
+    def _least_doubt(
+        self, now: State, last_seen: Mapping[clingo.Symbol, int]
+    ) -> tuple[int, State, Plan] | None:
+        """The step before which things are doubted, if that leaves a plan; the least doubt.
+
+        What was seen longest ago is doubted first. Doubting more leaves all plans that doubting
+        less does: where none is left by doubting everything, none is left at all.
+        """
+
+        @cache
+        def doubting(before: int) -> tuple[State, Plan]:
+            start = self.doubt.applied(now, last_seen, before=before)
+            return start, self._plan(start)
+
+        def leaves_a_plan(before: int) -> bool:
+            return doubting(before)[1].found
+
         steps = {own for fluent, own in last_seen.items() if fluent in self.doubt.fluents}
-        return sorted({0, *steps})
+        ages = sorted({0, *steps})
+        if not leaves_a_plan(ages[-1]):
+            return None
+        least = ages[bisect_left(ages, True, key=leaves_a_plan)]
+        return (least, *doubting(least))
 
     def _in_the_way(
         self, now: State, last_seen: Mapping[clingo.Symbol, int]
     ) -> tuple[clingo.Symbol, ...]:
         """What is seen now that, were it otherwise, would leave a plan; the unusual first."""
         latest = max(last_seen.values(), default=0)
+        before = {own: step for own, step in last_seen.items() if step < latest}
+        if not self._plan(self.doubt.applied(now, before, before=latest)).found:
+            return ()  # not even if all of it were otherwise
         found = []
         for fluent in sorted(own for own, step in last_seen.items() if step == latest):
             less = {own: step for own, step in last_seen.items() if own != fluent}

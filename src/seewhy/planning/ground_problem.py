@@ -14,12 +14,14 @@ import clingo
 
 from seewhy.errors import PlanningError
 from seewhy.knowledge.axiom import Axiom, AxiomKind
-from seewhy.knowledge.dynamics import constraints
+from seewhy.knowledge.dynamics import constraints, gives_way
 from seewhy.knowledge.ground import fluent_of
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.goal import REACHED
+from seewhy.planning.mutex import mutexes
 from seewhy.planning.reachability import asks_more, instances
+from seewhy.planning.relevance import fluents_in
 from seewhy.planning.state import State
 
 Literals = frozenset[int]
@@ -55,6 +57,9 @@ class GroundProblem:
     derivations : the defined fluents with their conditions, those first on which others depend
     goals : one of these sets of literals must hold
     groups : sets of fluents of which exactly one holds
+    open : the fluents that are unknown at first
+    exclusive : sets of fluents, open ones among them, of which at most one holds
+    untold : the defined fluents that may change and that no way to the goal asks about
     """
 
     fluents: tuple[clingo.Symbol, ...]
@@ -63,12 +68,19 @@ class GroundProblem:
     derivations: tuple[tuple[tuple[int, Literals], ...], ...]
     goals: tuple[Literals, ...]
     groups: tuple[frozenset[int], ...]
+    open: frozenset[int] = frozenset()
+    exclusive: tuple[frozenset[int], ...] = ()
+    untold: frozenset[clingo.Symbol] = frozenset()
 
 
-def ground_problem(knowledge: Knowledge, start: State) -> GroundProblem:
+def ground_problem(
+    knowledge: Knowledge, start: State, *, whole: Knowledge | None = None
+) -> GroundProblem:
     """Return what can be done from a state towards the goal that the knowledge has.
 
-    Give it the relevant part of the knowledge (:func:`seewhy.planning.relevance.relevant`).
+    Give it the relevant part of the knowledge (:func:`seewhy.planning.relevance.relevant`). With
+    the ``whole`` of it, what matters may be unknown at the start, where nothing but that some
+    fluents exclude one another is said about it.
 
     Raises
     ------
@@ -76,12 +88,14 @@ def ground_problem(knowledge: Knowledge, start: State) -> GroundProblem:
         If an axiom counts fluents, if what it says leaves open what happens, or if something
         that matters is unknown at the start.
     """
-    return _Compilation(knowledge, start).problem()
+    return _Compilation(knowledge, start, whole).problem()
 
 
 class _Compilation:
-    def __init__(self, knowledge: Knowledge, start: State) -> None:
+    def __init__(self, knowledge: Knowledge, start: State, whole: Knowledge | None) -> None:
         self.knowledge = knowledge
+        self.whole = whole
+        self.believed = {own.name for own in start.holds}
         for axiom in knowledge.axioms:
             if axiom.kind is not AxiomKind.DEFAULT and asks_more(axiom, knowledge.signature):
                 raise _refusal(axiom, "asks about several fluents at once, in a count or with '_'")
@@ -177,8 +191,8 @@ class _Compilation:
                 continue
             elif signature.kind(head.name) is PredicateKind.FLUENT_DEFINED:
                 self.derived.append((self._literal(head), body))
-            else:
-                axiom = self.axioms[identifier.name]
+            elif not gives_way(axiom := self.axioms[identifier.name], signature):
+                # One that gives way speaks of the start, which says what is known of its fluents.
                 self._check_determined(axiom, body)
                 if self._literal(head) not in body:
                     self.constraints.append((axiom, self._literal(head), body))
@@ -353,7 +367,7 @@ class _Compilation:
             for own_group in {self.group[number] for number in asked if number in self.group}:
                 asked |= own_group
         open_ = sorted(self.fluents[own - 1] for own in asked & self.unknown)
-        if open_:
+        if open_ and (self.whole is None or self._said_more({own.name for own in open_})):
             raise PlanningError(
                 f"whether '{open_[0]}' holds at the start is unknown, and it matters to the goal; "
                 "observe it, or add a default to the knowledge"
@@ -387,6 +401,43 @@ class _Compilation:
                     key=sorted,
                 )
             ),
+            open=renamed(asked & self.unknown),
+            exclusive=tuple(
+                sorted((renamed(own & asked) for own in groups if own & self.unknown), key=sorted)
+            ),
+            untold=frozenset(self.fluents[own - 1] for own, _ in self.derived if own not in asked),
+        )
+
+    def _said_more(self, names: set[str]) -> bool:
+        """Whether the knowledge says more of unknown fluents than that they exclude others.
+
+        Then not all that is unknown may be chosen freely, or what follows from it matters.
+        """
+        assert self.whole is not None
+        signature = self.whole.signature
+        excluded = {own.axiom.identifier for own in mutexes(self.whole)}
+        said = [
+            own
+            for own in constraints(self.whole)
+            if own.identifier not in excluded
+            and own.head.predicate != REACHED
+            and not gives_way(own, signature)
+        ]
+        following = set(names)
+        size = -1
+        while size != len(following):
+            size = len(following)
+            following |= {
+                own.head.predicate
+                for own in said
+                if signature.kind(own.head.predicate) is PredicateKind.FLUENT_DEFINED
+                and following & fluents_in(own, self.whole)
+            }
+        matter = self.believed | set(self.knowledge.signature.predicates)
+        return bool((following - names) & matter) or any(
+            following & {own.head.predicate, *fluents_in(own, self.whole)}
+            for own in said
+            if signature.kind(own.head.predicate) is not PredicateKind.FLUENT_DEFINED
         )
 
     def _strata(

@@ -1,9 +1,10 @@
 """Shortest plans.
 
-Where everything that matters is known and follows from the actions, the states of the problem
-without variables are searched forwards (:mod:`seewhy.planning.search`). The rest is left to answer
-sets, by incremental multi-shot solving: one step more until the goal is reached, from the least
-number of actions that the search leaves possible. Either way no plan is shorter.
+Where what matters follows from the actions, the states of the problem without variables are
+searched forwards (:mod:`seewhy.planning.search`; :mod:`seewhy.planning.open_search` where some of
+it is unknown). The rest is left to answer sets, by incremental multi-shot solving: one step more
+until the goal is reached, from the least number of actions that the search leaves possible. Either
+way no plan is shorter.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from seewhy.knowledge.language import Knowledge
 from seewhy.planning.goal import REACHED, Goal, with_goal
 from seewhy.planning.ground_problem import GroundProblem, ground_problem
 from seewhy.planning.mutex import mutexes
+from seewhy.planning.open_search import search_open
 from seewhy.planning.reachability import Reachability, reachable, simplified
 from seewhy.planning.relevance import relevant
 from seewhy.planning.search import search
@@ -41,6 +43,8 @@ from seewhy.planning.state import State, facts
 HORIZON = 50
 _EXPANSIONS = 20_000
 """The states that are looked at before answer sets take over: a second or two."""
+_OPEN_EXPANSIONS = 2_000
+"""The same where not all is known, and no bound says which states are near to the goal."""
 _STEP_RULES = """
 #program state(t).
 at(t, t). at(t, always).
@@ -150,7 +154,7 @@ def plan(
     until = None if seconds is None else begun + seconds
     aimed = with_goal(knowledge, goal)
     try:
-        problem = ground_problem(relevant(aimed), start)
+        problem = ground_problem(relevant(aimed), start, whole=aimed)
     except PlanningError:
         found = _by_answer_sets(aimed, start, horizon=horizon, until=until)
     else:
@@ -162,7 +166,10 @@ def _forwards(
     knowledge: Knowledge, start: State, problem: GroundProblem, *, horizon: int, until: float | None
 ) -> Plan:
     """Search the states of a ground problem; what it does not settle soon, answer sets do."""
-    found = search(problem, horizon=horizon, expansions=_EXPANSIONS, until=until)
+    if problem.open:
+        found = search_open(problem, horizon=horizon, expansions=_OPEN_EXPANSIONS, until=until)
+    else:
+        found = search(problem, horizon=horizon, expansions=_EXPANSIONS, until=until)
     if found.operators is None:
         if found.exhausted:
             return Plan(PlanStatus.UNREACHABLE, horizon=horizon)
@@ -171,21 +178,22 @@ def _forwards(
         return _by_answer_sets(knowledge, start, horizon=horizon, until=until, least=found.bound)
     status = PlanStatus.FOUND if found.operators else PlanStatus.ALREADY_TRUE
     actions = tuple(own.action for own in found.operators)
-    if len(relevant(knowledge, consequences=True).axioms) > len(relevant(knowledge).axioms):
+    more = len(relevant(knowledge, consequences=True).axioms) > len(relevant(knowledge).axioms)
+    if more or problem.untold:
         # What else follows in the states on the way, the problem does not say.
         followed = _Search(knowledge, start, reachable(knowledge, start)).follow(actions)
         return Plan(status, *followed, horizon=horizon)
     numbered = list(enumerate(problem.fluents, start=1))
     told = {own: complement_of(own) for own in problem.fluents}
     constant = start.holds.difference(told, told.values())
-    states = tuple(
-        State(
-            constant.union(own if number in true else told[own] for number, own in numbered),
-            start.unknown,
+    states = []
+    for true, open_ in itertools.zip_longest(found.states, found.open, fillvalue=frozenset[int]()):
+        holds = constant.union(
+            own if number in true else told[own] for number, own in numbered if number not in open_
         )
-        for true in found.states
-    )
-    return Plan(status, actions, states, horizon=horizon)
+        settled = {own for number, own in numbered if number not in open_}
+        states.append(State(holds, start.unknown - settled if problem.open else start.unknown))
+    return Plan(status, actions, tuple(states), horizon=horizon)
 
 
 def _by_answer_sets(

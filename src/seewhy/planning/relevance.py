@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 from seewhy.knowledge.axiom import Axiom, AxiomKind, predicates_in
@@ -42,7 +41,7 @@ def relevant(knowledge: Knowledge, *, consequences: bool = False) -> Knowledge:
     while size != len(asked) + len(touched) + len(done):
         size = len(asked) + len(touched) + len(done)
         for axiom in change:
-            body = set(_fluents(axiom, knowledge))
+            body = fluents_in(axiom, knowledge)
             head = axiom.head.predicate
             action = axiom.action.predicate if axiom.action else ""
             if axiom.kind is AxiomKind.STATE_CONSTRAINT:
@@ -81,10 +80,11 @@ def relevant(knowledge: Knowledge, *, consequences: bool = False) -> Knowledge:
     )
 
 
-def _fluents(axiom: Axiom, knowledge: Knowledge) -> Iterator[str]:
-    """The fluents that an axiom's conditions speak of."""
+def fluents_in(axiom: Axiom, knowledge: Knowledge) -> set[str]:
+    """Return the fluents that an axiom's conditions speak of."""
+    names: set[str] = set()
     for condition in axiom.body:
-        names = (
+        names |= (
             {condition.literal.predicate} if condition.literal else predicates_in(condition.text)
         )
-        yield from (name for name in names if knowledge.signature.kind(name).is_fluent)
+    return {name for name in names if knowledge.signature.kind(name).is_fluent}

@@ -26,24 +26,26 @@ class SearchResult:
         No plan is shorter.
     exhausted : bool
         Whether everything that can be reached was looked at.
+    open : the fluents of which it does not matter, in each state, whether they hold
     """
 
     operators: tuple[Operator, ...] | None
     states: tuple[frozenset[int], ...]
     bound: int
     exhausted: bool
+    open: tuple[frozenset[int], ...] = ()
 
 
-class _Move:
+class Move:
     """An operator over states as bits."""
 
     __slots__ = ("adds", "false", "number", "removes", "true", "whens")
 
     def __init__(self, number: int, operator: Operator) -> None:
         self.number = number
-        self.true, self.false = _bits(operator.condition)
-        self.adds, self.removes = _bits(head for body, head in operator.effects if not body)
-        self.whens = [(*_bits(body), *_bits([head])) for body, head in operator.effects if body]
+        self.true, self.false = bits(operator.condition)
+        self.adds, self.removes = bits(head for body, head in operator.effects if not body)
+        self.whens = [(*bits(body), *bits([head])) for body, head in operator.effects if body]
 
     def after(self, state: int) -> int:
         adds, removes = self.adds, self.removes
@@ -52,6 +54,33 @@ class _Move:
                 adds |= add
                 removes |= remove
         return state & ~removes | adds
+
+
+class Closure:
+    """States with their defined fluents as they follow from the others."""
+
+    def __init__(self, problem: GroundProblem) -> None:
+        self.strata = [
+            [(*bits(body), 1 << head - 1) for head, body in own] for own in problem.derivations
+        ]
+        self.derived = 0
+        for stratum in self.strata:
+            for _, _, head in stratum:
+                self.derived |= head
+
+    def __call__(self, state: int) -> int:
+        """Return the state with its defined fluents worked out anew."""
+        if not self.strata:
+            return state
+        state &= ~self.derived
+        for stratum in self.strata:
+            before = -1
+            while before != state:
+                before = state
+                for true, false, head in stratum:
+                    if state & true == true and not state & false:
+                        state |= head
+        return state
 
 
 def search(
@@ -73,26 +102,20 @@ class _Search:
     def __init__(self, problem: GroundProblem) -> None:
         self.problem = problem
         self.bounds = [LowerBound(problem, goal) for goal in problem.goals]
-        self.goals = [_bits(goal) for goal in problem.goals]
-        moves = [_Move(number, own) for number, own in enumerate(problem.operators)]
-        self.strata = [
-            [(*_bits(body), 1 << head - 1) for head, body in own] for own in problem.derivations
-        ]
-        self.derived = 0
-        for stratum in self.strata:
-            for _, _, head in stratum:
-                self.derived |= head
+        self.goals = [bits(goal) for goal in problem.goals]
+        moves = [Move(number, own) for number, own in enumerate(problem.operators)]
+        self.closed = Closure(problem)
         # Most operators ask for one value of the same group: only those of it are looked at.
-        groups = [_bits(own)[0] for own in problem.groups]
+        groups = [bits(own)[0] for own in problem.groups]
         self.group = max(
             groups, key=lambda own: sum(bool(move.true & own) for move in moves), default=0
         )
-        self.moves: dict[int, list[_Move]] = {}
+        self.moves: dict[int, list[Move]] = {}
         for move in moves:
             self.moves.setdefault(move.true & self.group, []).append(move)
 
     def run(self, horizon: int, expansions: int, until: float | None) -> SearchResult:
-        begin = self._closed(_bits(self.problem.start)[0])
+        begin = self.closed(bits(self.problem.start)[0])
         least = self._bound(begin)
         best = {begin: 0}
         came: dict[int, tuple[int, int]] = {}
@@ -115,7 +138,7 @@ class _Search:
                 return SearchResult(None, (), total, exhausted=False)
             left -= 1
             for move in self._possible(state):
-                after = self._closed(move.after(state))
+                after = self.closed(move.after(state))
                 if done + 1 < best.get(after, FAR):
                     best[after] = done + 1
                     came[after] = (state, move.number)
@@ -124,7 +147,7 @@ class _Search:
                         heapq.heappush(waiting, (done + 1 + ahead, ahead, -next(counter), after))
         return SearchResult(None, (), FAR, exhausted=True)
 
-    def _possible(self, state: int) -> Iterator[_Move]:
+    def _possible(self, state: int) -> Iterator[Move]:
         value = state & self.group
         for moves in (self.moves.get(value, ()), self.moves.get(0, ()) if value else ()):
             for move in moves:
@@ -133,20 +156,6 @@ class _Search:
 
     def _bound(self, state: int) -> int:
         return min((bound(state) for bound in self.bounds), default=FAR)
-
-    def _closed(self, state: int) -> int:
-        """The state with its defined fluents as they follow."""
-        if not self.strata:
-            return state
-        state &= ~self.derived
-        for stratum in self.strata:
-            before = -1
-            while before != state:
-                before = state
-                for true, false, head in stratum:
-                    if state & true == true and not state & false:
-                        state |= head
-        return state
 
     def _result(self, state: int, came: dict[int, tuple[int, int]]) -> SearchResult:
         states, operators = [state], []
@@ -165,7 +174,7 @@ class _Search:
         return frozenset(n for n in range(1, len(self.problem.fluents) + 1) if state >> n - 1 & 1)
 
 
-def _bits(literals: Iterable[int] | Literals) -> tuple[int, int]:
+def bits(literals: Iterable[int] | Literals) -> tuple[int, int]:
     """The literals as two sets of bits: what is true, and what is false."""
     true = false = 0
     for own in literals:

@@ -62,6 +62,13 @@ class PlanningWords:
         table = self.actions.get(action.name)
         return _plain(action, self) if table is None else self._filled(table.did, action.arguments)
 
+    def happened(self, action: clingo.Symbol) -> str:
+        """What was done or happened as a clause: "the robot moved to the kitchen"."""
+        table = self.actions.get(action.name)
+        if table is None or table.do is None:
+            return self.did(action)
+        return f"{self.name(self.robot) if self.robot else 'the robot'} {self.did(action)}"
+
     def surprise(self, surprise: Surprise) -> str:
         """What a diagnosis assumes, as a clause: "Sally was not in the kitchen at first"."""
         what, step = surprise.what, surprise.step

@@ -228,6 +228,13 @@ class PlanningQuestions:
             raise self._refusal(f"'{said}' can be read in several ways", marked, nearest)
         raise self._refusal(f"'{said}' is not understood", marked)
 
+    def examples(self) -> list[str]:
+        """Return a question of each kind, for whoever does not know what can be asked."""
+        first: dict[Asks, str] = {}
+        for template in self.templates:
+            first.setdefault(template.asks, f"{self._filled(template, {})}?")
+        return list(first.values())
+
     def _fillings(
         self, template: _Template, marked: Sequence[str | _Thing]
     ) -> Iterator[tuple[tuple[int, _Thing], ...]]:
@@ -271,13 +278,20 @@ class PlanningQuestions:
         )
 
     def _filled(self, template: _Template, things: dict[int, _Thing]) -> str:
+        things = dict(things)
+
         def named(slot: re.Match[str]) -> str:
             number = int(slot.group(1))
             own = things.get(number)
             if own is None:
                 members = self.domain.knowledge.signature.members(template.sorts[number])
-                others = [term for term in members if term != self.domain.robot] or list(members)
-                return self.domain.words.name(others[0] if others else template.sorts[number])
+                # Nobody asks whether a thing is on itself.
+                named_too = {self.domain.robot, *(thing.term for thing in things.values())}
+                others = [term for term in members if term not in named_too] or list(members)
+                if not others:
+                    return self.domain.words.name(template.sorts[number])
+                things[number] = _Thing(others[0], self._sorts[others[0]])
+                return self.domain.words.name(others[0])
             if own.term == self.domain.robot:
                 return "your location" if own.located else "you"
             name = self.domain.words.name(own.term)

@@ -77,22 +77,44 @@ def answer(domain: PlanningDomain, run: Run, question: str) -> PlanningReply:
     >>> print(answer(domain, run, "what is your goal?").text)
     My goal is that I am in the kitchen.
     """
-    domain = replace(domain, sensors_err=domain.sensors_err or run.sensors_err)
-    query = PlanningQuestions(domain).understand(question)
-    return _Replying(domain, run).reply(query)
+    return RunAnswers(domain, run).answer(question)
 
 
-class _Replying:
-    """The answers about one run."""
+class RunAnswers:
+    """The answers about one run; for many questions, where :func:`answer` is for one.
+
+    Examples
+    --------
+    >>> from seewhy.planning.goal import read_goal
+    >>> from seewhy.planning.domain import load_planning_domain
+    >>> domain = load_planning_domain("robot_assistant")
+    >>> run = Run(read_goal("loc(rob1, kitchen)", domain.knowledge), domain.history)
+    >>> answers = RunAnswers(domain, run)
+    >>> [answers.answer(own).query.asks.value for own in ("where are you?", "what is your plan?")]
+    ['where', 'plan']
+    """
 
     def __init__(self, domain: PlanningDomain, run: Run) -> None:
+        domain = replace(domain, sensors_err=domain.sensors_err or run.sensors_err)
         self.domain = domain
         self.run = run
+        self.questions = PlanningQuestions(domain)
         self.speech = Speech(domain.words)
         self.intentions = Intentions(domain, run)
         self.beliefs = BeliefAnswers(domain, run)
 
+    def answer(self, question: str) -> PlanningReply:
+        """Answer a question in words.
+
+        Raises
+        ------
+        QuestionError
+            As :func:`answer`.
+        """
+        return self.reply(self.questions.understand(question))
+
     def reply(self, query: Query) -> PlanningReply:
+        """Answer a question that was understood."""
         last = self.run.history.last_step
         if query.step is not None and query.step > last:
             raise QuestionError(
