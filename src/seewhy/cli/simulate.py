@@ -9,6 +9,7 @@ import typer
 
 from seewhy.cli.options import DomainName, Json, Seed
 from seewhy.cli.plan import GoalText
+from seewhy.cli.robot import Learned, Without, robot_options, with_knowledge_of_robot
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -27,11 +28,21 @@ def simulate(
         list[str] | None,
         typer.Option("--ask", help="A question about the run; may be given several times."),
     ] = None,
+    record: Annotated[
+        Path | None,
+        typer.Option("--record", help="Also write what was seen and done to this .al file."),
+    ] = None,
+    learned: Learned = None,
+    without: Without = None,
     json: Json = False,
 ) -> None:
-    """Simulate a robot that plans, acts, is surprised, and plans anew."""
+    """Simulate a robot that plans, acts, is surprised, and plans anew.
+
+    The world follows knowledge.al, whatever the robot knows of it.
+    """
     from seewhy.errors import PlanningError
     from seewhy.files import write_whole
+    from seewhy.knowledge.history import history_text
     from seewhy.planning.dialogue.replying import answer
     from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.goal import read_goal
@@ -41,12 +52,15 @@ def simulate(
 
     if out is not None and out.suffix.lower() != ".html":
         raise PlanningError(f"{out}: the run is written as .html; choose a name that ends so")
-    own = load_planning_domain(domain)
+    if record is not None and record.suffix != ".al":
+        raise PlanningError(f"{record}: a record is written as .al; choose a name that ends so")
+    world = load_planning_domain(domain)
+    own = with_knowledge_of_robot(world, learned=learned, without=without)
     aim = read_goal(goal, own.knowledge)
     last: Simulation | None = None
     interrupted = False
     try:
-        for last in run_simulation(own, aim, seed=seed, most_steps=steps):
+        for last in run_simulation(own, aim, seed=seed, most_steps=steps, world=world):
             step = last.run.steps[-1]
             if not json:
                 for number, sentence in enumerate(narrate_step(own.words, step)):
@@ -64,8 +78,12 @@ def simulate(
         say(f"In truth it {'is' if last.achieved else 'is not'} reached.")
         for question, reply in zip(ask or (), replies, strict=True):
             say(f"\n{question}\n{reply.text}")
+    command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
+    command += robot_options(learned=learned, without=without)
+    if record is not None:
+        write_whole(record, history_text(run.history, title=command))
+        remark(f"what was seen and done is in {record}")
     if out is not None:
-        command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
         write_whole(out, run_page(own, last, command=command))
         remark(f"the run with its map is in {out}")
     if interrupted:

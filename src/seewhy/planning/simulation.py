@@ -39,9 +39,17 @@ class Simulation:
 
 
 def simulate(
-    domain: PlanningDomain, goal: Goal, *, seed: int = 0, most_steps: int = 60
+    domain: PlanningDomain,
+    goal: Goal,
+    *,
+    seed: int = 0,
+    most_steps: int = 60,
+    world: PlanningDomain | None = None,
 ) -> Iterator[Simulation]:
     """Let the robot pursue a goal in a random world; yields the simulation after each step.
+
+    The world follows the knowledge of ``world``; the robot's own, where that is not given. So a
+    robot may know less than is so, or have learned it.
 
     Examples
     --------
@@ -53,7 +61,8 @@ def simulate(
     >>> last.run.outcome.value, [str(action) for action in last.run.actions]
     ('achieved', ['move(rob1,kitchen)'])
     """
-    environment = PlanningEnvironment(domain, goal=goal, steps=most_steps + 1)
+    truth = domain if world is None else world
+    environment = PlanningEnvironment(truth, goal=goal, steps=most_steps + 1)
     observation, _ = environment.reset(seed=seed)
     worlds, happenings = [environment.state], list[Happening]()
 
@@ -66,7 +75,7 @@ def simulate(
     sensed = environment.read(observation)
     for run in execute(domain, goal, sensed=sensed, act=act, most_steps=most_steps):
         steps = len(run.steps)
-        achieved = holds_in(domain.knowledge, goal, worlds[steps - 1])
+        achieved = holds_in(truth.knowledge, goal, worlds[steps - 1])
         # The run goes on in place; what is given away stays as it is now.
         now = replace(run, steps=list(run.steps))
         yield Simulation(now, worlds[:steps], happenings[:steps], achieved)
