@@ -206,13 +206,8 @@ class _Robot:
         begun = time.perf_counter()
         self.doubted_before, start = None, now
         found = self._plan(start)
-        for before in self._ages(last_seen):
-            if found.found:
-                break
-            # What was seen longest ago is doubted first.
-            self.doubted_before = before
-            start = self.doubt.applied(now, last_seen, before=before)
-            found = self._plan(start)
+        if not found.found:
+            start, found = self._plan_in_doubt(now, last_seen)
         supposed: tuple[clingo.Symbol, ...] = ()
         if found.found:
             supposed = suppositions(knowledge, goal, found.actions, start=start)
@@ -248,6 +243,29 @@ class _Robot:
                 if found.actions and len(found.actions) < (len(shortest.actions) or math.inf):
                     shortest = found
         return shortest
+
+    def _plan_in_doubt(
+        self, now: State, last_seen: Mapping[clingo.Symbol, int]
+    ) -> tuple[State, Plan]:
+        """Plan with the least doubt that leaves a plan: what was seen longest ago goes first.
+
+        Who doubts more has every plan that who doubts less has, so that halving finds the least.
+        """
+        ages = self._ages(last_seen)
+        least = ages[-1]
+        start = self.doubt.applied(now, last_seen, before=least)
+        found = self._plan(start)
+        low, high = 0, len(ages) - 1
+        while found.found and low < high:
+            middle = (low + high) // 2
+            less = self.doubt.applied(now, last_seen, before=ages[middle])
+            other = self._plan(less)
+            if other.found:
+                high, least, start, found = middle, ages[middle], less, other
+            else:
+                low = middle + 1
+        self.doubted_before = least
+        return start, found
 
     def _ages(self, last_seen: Mapping[clingo.Symbol, int]) -> list[int]:
         steps = {own for fluent, own in last_seen.items() if fluent in self.doubt.fluents}
