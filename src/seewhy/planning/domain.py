@@ -185,6 +185,7 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
             table.actions,
             table.planning.robot,
             possessives=table.possessives,
+            statics=table.statics,
         ),
         robot=table.planning.robot,
         horizon=table.planning.horizon,
@@ -211,6 +212,9 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
     """What planning.toml says of things that the knowledge does not have."""
     signature = knowledge.signature
     fluents = {n: len(p.sorts) for n, p in signature.predicates.items() if p.kind.is_fluent}
+    statics = {
+        n: len(p.sorts) for n, p in signature.predicates.items() if p.kind is PredicateKind.STATIC
+    }
     actions = {n: len(p.sorts) for n, p in signature.predicates.items() if p.kind.is_action}
     members = {own for sort in signature.sorts.values() for own in sort.members or ()}
     for sort in signature.sorts.values():
@@ -227,6 +231,7 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
                 yield (key, thing), f"'{thing}' is of no sort; {did_you_mean(thing, members)}"
     for kind, named, known in (
         ("fluents", _said(table.fluents), fluents),
+        ("statics", _said(table.statics), statics),
         ("actions", _said(table.actions), actions),
     ):
         for name, texts in named.items():
@@ -246,6 +251,7 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
     for key, chances, wanted in (
         ("events", table.simulation.events, PredicateKind.EXOGENOUS_ACTION),
         ("failures", table.simulation.failures, PredicateKind.ACTION),
+        ("durations", table.simulation.durations, PredicateKind.ACTION),
     ):
         names = [n for n, p in signature.predicates.items() if p.kind is wanted]
         for name in chances:

@@ -38,6 +38,25 @@ class Simulation:
     achieved: bool = False
 
 
+def execution_seconds(domain: PlanningDomain, run: Run) -> float:
+    """Return how long the actions of a run take, as ``[simulation.durations]`` says.
+
+    An action that fails takes as long as one that does not.
+
+    Examples
+    --------
+    >>> from seewhy.planning.goal import read_goal
+    >>> from seewhy.planning.domain import load_planning_domain
+    >>> office = load_planning_domain("robot_assistant")
+    >>> goal = read_goal("loc(rob1, bathroom)", office.knowledge)
+    >>> *_, last = simulate(office, goal, seed=1)
+    >>> len(last.run.actions), execution_seconds(office, last.run)
+    (2, 30.0)
+    """
+    durations = domain.simulation.durations
+    return float(sum(durations.get(own.name, 1.0) for own in run.actions))
+
+
 def simulate(
     domain: PlanningDomain,
     goal: Goal,
