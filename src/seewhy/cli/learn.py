@@ -1,4 +1,4 @@
-"""`seewhy learn`: find axioms in annotated pictures and reason with them."""
+"""`seewhy learn`: find axioms in annotated pictures, or in the record of a robot's runs."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from seewhy.cli.options import DataFolder, Json, ModelFolder, Seed
+from seewhy.cli.options import Json, Seed
+from seewhy.cli.robot import Without, with_knowledge_of_robot
 from seewhy.cli.screen import percent, print_json, say
 from seewhy.errors import SeeWhyError
 
@@ -21,23 +22,49 @@ if TYPE_CHECKING:
 
 
 def learn(
-    model: ModelFolder,
-    data: DataFolder,
+    model: Annotated[
+        Path,
+        typer.Argument(
+            metavar="MODEL",
+            help="A model folder, made by 'seewhy train'; with --runs, a domain that plans.",
+        ),
+    ],
+    data: Annotated[
+        Path | None,
+        typer.Option("--data", help="A dataset folder: pictures and scenes.csv."),
+    ] = None,
+    runs: Annotated[
+        Path | None,
+        typer.Option(
+            "--runs",
+            help="Instead of pictures, a folder of runs that 'seewhy simulate --record' wrote.",
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", help="With --runs: the file for what is learned (.al)."),
+    ] = None,
+    without: Without = None,
     support: Annotated[
-        float,
+        float | None,
         typer.Option(
             "--support",
             min=0.0,
             max=1.0,
-            help="The share of the scenes left open that an axiom must speak about.",
+            help="The share of the scenes left open that an axiom must speak about (0.1); with "
+            "--runs, of the observations (0.02).",
         ),
-    ] = 0.1,
+    ] = None,
     tolerance: Annotated[
-        float,
+        float | None,
         typer.Option(
-            "--tolerance", min=0.0, max=0.5, help="The share of the annotation taken to be wrong."
+            "--tolerance",
+            min=0.0,
+            max=0.5,
+            help="The share of the annotation taken to be wrong (0); with --runs, how often what "
+            "is usual may be otherwise (as the record suggests).",
         ),
-    ] = 0.0,
+    ] = None,
     yes: Annotated[bool, typer.Option("--yes", help="Add all axioms found, do not ask.")] = False,
     picture: Annotated[
         Path | None,
@@ -53,17 +80,38 @@ def learn(
 
     What the pictures let pass is shown and asked about, then added to the model's knowledge. With
     --json nothing is asked: it is added with --yes, and only shown without.
+
+    With --runs, learn what is usually so from the record of a robot's earlier runs, and write it
+    to --out, for 'seewhy plan --learned' and 'seewhy simulate --learned'.
     """
+    if runs is not None:
+        _from_runs(
+            str(model), runs, out, data=data, picture=picture, without=without, support=support,
+            tolerance=tolerance, seed=seed, yes=yes, json=json,
+        )  # fmt: skip
+        return
+    if data is None:
+        raise SeeWhyError(
+            "nothing is said to learn from; give --data FOLDER with annotated pictures, or --runs "
+            "FOLDER with the record of a robot's runs"
+        )
+    if out is not None or without:
+        given = "--out" if out is not None else "--without"
+        raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the model")
     from seewhy.agent import Agent
     from seewhy.dataset import Dataset
-    from seewhy.induction.learning import LearningOptions
+    from seewhy.induction.learning import DEFAULTS, LearningOptions
 
     agent = Agent.load(model)
     dataset = Dataset.load(data, agent.given)
     before = _accuracy(agent, dataset)
     learning = agent.learn(
         dataset,
-        options=LearningOptions(support=support, tolerance=tolerance, seed=seed),
+        options=LearningOptions(
+            support=DEFAULTS.support if support is None else support,
+            tolerance=DEFAULTS.tolerance if tolerance is None else tolerance,
+            seed=seed,
+        ),
         accept=None if yes else _none if json else _ask,
         set_aside=None if yes else _none if json else _ask_aside,
         answers=agent.answerer is not None,
@@ -82,6 +130,42 @@ def learn(
     print_learning(agent, learning)
     for name, share in before.items():
         say(f"{name}: {percent(share)} before, {percent(after[name])} now")
+
+
+def _from_runs(
+    domain: str,
+    runs: Path,
+    out: Path | None,
+    *,
+    data: Path | None,
+    picture: Path | None,
+    without: list[str] | None,
+    support: float | None,
+    tolerance: float | None,
+    seed: int,
+    yes: bool,
+    json: bool,
+) -> None:
+    from seewhy.cli.learn_runs import learn_from_record
+    from seewhy.planning.domain import load_planning_domain
+
+    if data is not None or picture is not None:
+        given = "--data" if data is not None else "--picture"
+        raise SeeWhyError(f"{given} goes with pictures, and --runs with a robot; leave one out")
+    if out is None or out.suffix != ".al":
+        raise SeeWhyError(
+            f"{out or '--out'}: what is learned from runs is written as .al; give --out learned.al"
+        )
+    learn_from_record(
+        with_knowledge_of_robot(load_planning_domain(domain), learned=None, without=without),
+        runs,
+        out,
+        support=support,
+        tolerance=tolerance,
+        seed=seed,
+        accept=None if yes else _none if json else _ask,
+        json=json,
+    )
 
 
 def _ask(axioms: Sequence[Axiom]) -> list[Axiom]:
@@ -109,7 +193,7 @@ def _confirmed(question: str) -> bool:
         return typer.confirm(f"  {question}", default=True)
     except typer.Abort:
         raise SeeWhyError(
-            f"no answer to '{question}', the model stays as it was; answer y or n, or give --yes "
+            f"no answer to '{question}', everything stays as it was; answer y or n, or give --yes "
             "to agree to everything"
         ) from None
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from seewhy.cli.options import DomainName, Json
+from seewhy.cli.robot import Learned, Without, with_knowledge_of_robot
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -44,6 +45,8 @@ def plan(
         Path | None,
         typer.Option("--pddl", help="Also write domain.pddl and problem.pddl to this folder."),
     ] = None,
+    learned: Learned = None,
+    without: Without = None,
     json: Json = False,
 ) -> None:
     """Find a shortest plan to a goal."""
@@ -56,7 +59,7 @@ def plan(
     from seewhy.planning.pddl import to_pddl
     from seewhy.planning.planner import plan as find_plan
 
-    own = load_planning_domain(domain)
+    own = with_knowledge_of_robot(load_planning_domain(domain), learned=learned, without=without)
     knowledge = own.knowledge
     aim = read_goal(goal, knowledge)
     past = read_history_file(history, knowledge.signature) if history else own.history

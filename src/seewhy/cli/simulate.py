@@ -10,6 +10,7 @@ import typer
 from seewhy.cli.conversation import converse
 from seewhy.cli.options import DomainName, Json, Seed
 from seewhy.cli.plan import GoalText
+from seewhy.cli.robot import Learned, Without, robot_options, with_knowledge_of_robot
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -41,14 +42,22 @@ def simulate(
         bool,
         typer.Option("--chat", help="Afterwards answer questions about the run from the input."),
     ] = False,
+    record: Annotated[
+        Path | None,
+        typer.Option("--record", help="Also write what was seen and done to this .al file."),
+    ] = None,
+    learned: Learned = None,
+    without: Without = None,
     json: Json = False,
 ) -> None:
     """Simulate a robot that plans, acts, is surprised, and plans anew.
 
-    With --chat and --json the run is one line of JSON, and so is every answer.
+    With --chat and --json the run is one line of JSON, and so is every answer. The world follows
+    knowledge.al, whatever the robot knows of it.
     """
     from seewhy.errors import PlanningError
     from seewhy.files import write_whole
+    from seewhy.knowledge.history import history_text
     from seewhy.planning.dialogue.replying import RunAnswers
     from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.goal import read_goal
@@ -58,13 +67,16 @@ def simulate(
 
     if out is not None and out.suffix.lower() != ".html":
         raise PlanningError(f"{out}: the run is written as .html; choose a name that ends so")
-    own = load_planning_domain(domain)
+    if record is not None and record.suffix != ".al":
+        raise PlanningError(f"{record}: a record is written as .al; choose a name that ends so")
+    world = load_planning_domain(domain)
+    own = with_knowledge_of_robot(world, learned=learned, without=without)
     aim = read_goal(goal, own.knowledge)
     sight = None if model is None else _sight(own, model)
     last: Simulation | None = None
     interrupted = False
     try:
-        for last in run_simulation(own, aim, seed=seed, most_steps=steps, sight=sight):
+        for last in run_simulation(own, aim, seed=seed, most_steps=steps, world=world, sight=sight):
             step = last.run.steps[-1]
             if not json:
                 for number, sentence in enumerate(narrate_step(own.words, step)):
@@ -84,9 +96,13 @@ def simulate(
         say(f"In truth it {'is' if last.achieved else 'is not'} reached.")
         for question, reply in zip(ask or (), replies, strict=True):
             say(f"\n{question}\n{reply.text}")
+    command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
+    command += "" if model is None else f" --model {model}"
+    command += robot_options(learned=learned, without=without)
+    if record is not None:
+        write_whole(record, history_text(run.history, title=command))
+        remark(f"what was seen and done is in {record}")
     if out is not None:
-        command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
-        command += "" if model is None else f" --model {model}"
         write_whole(out, run_page(own, last, command=command))
         remark(f"the run with its map is in {out}")
     if chat:

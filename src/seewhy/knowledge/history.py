@@ -80,6 +80,26 @@ class History:
         return "\n".join(map(str, (*self.observations, *self.occurrences)))
 
 
+def history_text(history: History, *, title: str) -> str:
+    """Return a history as the text of a file, step by step, under a comment that says what it is.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge("#fluent basic lit. #action press. press causes lit.")
+    >>> source = "observed -lit at 0. observed lit at 1. happened press at 0."
+    >>> print(history_text(read_history(source, known.signature), title="a lamp"))
+    % a lamp
+    observed -lit at 0.
+    happened press at 0.
+    observed lit at 1.
+    <BLANKLINE>
+    """
+    entries: list[Observation | Occurrence] = [*history.observations, *history.occurrences]
+    entries.sort(key=lambda own: own.step)
+    return "\n".join([f"% {' '.join(title.split())}", *map(str, entries), ""])
+
+
 def read_history_file(path: Path | str, signature: Signature) -> History:
     """Read a history from a file; errors as :func:`read_history`."""
     path = Path(path)

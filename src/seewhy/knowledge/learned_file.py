@@ -36,8 +36,13 @@ class Withdrawn:
         return "set aside" if self.given else "withdrawn"
 
 
-def learned_text(axioms: Iterable[Axiom], withdrawn: Iterable[Withdrawn] = ()) -> str:
-    """Return learned axioms as the text of a file.
+def learned_text(
+    axioms: Iterable[Axiom],
+    withdrawn: Iterable[Withdrawn] = (),
+    *,
+    source: str = "annotated pictures",
+) -> str:
+    """Return learned axioms as the text of a file; ``source`` is what they were learned from.
 
     Examples
     --------
@@ -57,7 +62,7 @@ def learned_text(axioms: Iterable[Axiom], withdrawn: Iterable[Withdrawn] = ()) -
     % withdrawn: -stable(S). because it fell
     <BLANKLINE>
     """
-    lines = ["% Axioms that 'seewhy learn' found in annotated pictures.", ""]
+    lines = [f"% Axioms that 'seewhy learn' found in {source}.", ""]
     for axiom in axioms:
         origin = axiom.origin
         lines += [

@@ -158,7 +158,7 @@ def diagnose(
     solve: Any = control.configuration.solve
     best = last_model(control)
     if best is None:
-        raise PlanningError(_unexplained(knowledge, history))
+        raise PlanningError(unexplained(knowledge, history))
     solve.opt_mode, solve.enum_mode, solve.models = "optN", "cautious", 0
     sure = last_model(control) or []
     fluents = [own.symbol.arguments[1] for own in control.symbolic_atoms.by_signature("fluent", 2)]
@@ -166,6 +166,28 @@ def diagnose(
         states=tuple(_states(sure, fluents, last)),
         surprises=tuple(sorted(_surprises(knowledge, best, frozenset(sure)))),
     )
+
+
+def explained(knowledge: Knowledge, history: History, *, sensors_err: bool = False) -> bool:
+    """Whether anything that may be assumed explains a history, by however many surprises.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.history import read_history
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge("#fluent basic dark. #fluent basic lit. -lit if dark.")
+    >>> both = read_history("observed dark at 0. observed lit at 0.", known.signature)
+    >>> explained(known, both)
+    False
+    """
+    lines = [
+        diagnosis_program(knowledge, last=history.last_step, sensors_err=sensors_err),
+        *history_facts(history),
+    ]
+    control = clingo.Control(["--warn=none", "--opt-mode=ignore"], logger=lambda *_: None)
+    control.add("base", [], "\n".join(lines))
+    control.ground([("base", [])])
+    return bool(control.solve().satisfiable)
 
 
 def diagnosis_program(knowledge: Knowledge, *, last: int, sensors_err: bool = False) -> str:
@@ -276,8 +298,8 @@ def entries_in_the_way(
     return tuple(entries[number] for number in wrong)
 
 
-def _unexplained(knowledge: Knowledge, history: History) -> str:
-    """Say which entries of the history would have to be otherwise."""
+def unexplained(knowledge: Knowledge, history: History) -> str:
+    """Say which entries of a history that nothing explains would have to be otherwise."""
     wrong = entries_in_the_way(knowledge, history)
     if wrong is None:
         return (

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -12,12 +12,13 @@ import clingo
 
 from seewhy.domain import domain_folder
 from seewhy.domain_tables import DomainFile, FeatureTable
-from seewhy.errors import DomainError
+from seewhy.errors import DomainError, PlanningError
+from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.dynamics import fixed_rules
 from seewhy.knowledge.history import History, read_history_file
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.signature import PredicateKind
-from seewhy.nearest import did_you_mean
+from seewhy.nearest import did_you_mean, nearest
 from seewhy.planning.sensing import Sensing, SensingError, read_sensing
 from seewhy.planning.tables import MapTable, PlanningFile, SimulationTable
 from seewhy.planning.words import PlanningWords
@@ -84,6 +85,47 @@ class PlanningDomain:
             own.symbol.arguments[0] for own in control.symbolic_atoms.by_signature("holds", 1)
         )
         return sorted(own for own in literals if own.name == predicate)
+
+    def knowing(self, axioms: Iterable[Axiom]) -> PlanningDomain:
+        """Return the domain with further axioms in its knowledge: what a robot has learned.
+
+        Examples
+        --------
+        >>> from seewhy.knowledge.language import read_axioms
+        >>> office = load_planning_domain("robot_assistant")
+        >>> learned = read_axioms("default -closed(kitchen).", office.knowledge.signature)
+        >>> office.knowing(learned).knowledge.axioms[-1].identifier
+        'l1'
+        """
+        known = self.knowledge
+        return replace(self, knowledge=replace(known, axioms=(*known.axioms, *axioms)))
+
+    def without(self, statement: str) -> PlanningDomain:
+        """Return the domain without one axiom: what a robot knows that was never told it.
+
+        Raises
+        ------
+        PlanningError
+            If the knowledge has no such axiom; the text names the nearest one.
+
+        Examples
+        --------
+        >>> office = load_planning_domain("robot_assistant")
+        >>> less = office.without("loc(P, L) if work_place(P, L), not -loc(P, L).")
+        >>> len(office.knowledge.axioms) - len(less.knowledge.axioms)
+        1
+        """
+        known = self.knowledge
+        wanted = " ".join(statement.split()).rstrip(".")
+        kept = tuple(own for own in known.axioms if str(own).rstrip(".") != wanted)
+        if len(kept) == len(known.axioms):
+            statements = [str(own).rstrip(".") for own in known.axioms]
+            head = wanted.split(" if ")[0]
+            alike = [own for own in statements if own.split(" if ")[0] == head]
+            close = nearest(wanted, alike or statements, at_least=0.0 if alike else 60.0)
+            remedy = f"did you mean '{close}'?" if close else f"see {known.file}"
+            raise PlanningError(f"the knowledge has no axiom '{wanted}'; {remedy}")
+        return replace(self, knowledge=replace(known, axioms=kept))
 
 
 def bundled_planning_domains() -> tuple[str, ...]:
@@ -180,6 +222,7 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
             table.actions,
             table.planning.robot,
             possessives=table.possessives,
+            statics=table.statics,
         ),
         robot=table.planning.robot,
         horizon=table.planning.horizon,
@@ -208,6 +251,9 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
     """What planning.toml says of things that the knowledge does not have."""
     signature = knowledge.signature
     fluents = {n: len(p.sorts) for n, p in signature.predicates.items() if p.kind.is_fluent}
+    statics = {
+        n: len(p.sorts) for n, p in signature.predicates.items() if p.kind is PredicateKind.STATIC
+    }
     actions = {n: len(p.sorts) for n, p in signature.predicates.items() if p.kind.is_action}
     members = {own for sort in signature.sorts.values() for own in sort.members or ()}
     for sort in signature.sorts.values():
@@ -224,6 +270,7 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
                 yield (key, thing), f"'{thing}' is of no sort; {did_you_mean(thing, members)}"
     for kind, named, known in (
         ("fluents", _said(table.fluents), fluents),
+        ("statics", _said(table.statics), statics),
         ("actions", _said(table.actions), actions),
     ):
         for name, texts in named.items():
@@ -243,6 +290,7 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
     for key, chances, wanted in (
         ("events", table.simulation.events, PredicateKind.EXOGENOUS_ACTION),
         ("failures", table.simulation.failures, PredicateKind.ACTION),
+        ("durations", table.simulation.durations, PredicateKind.ACTION),
     ):
         names = [n for n, p in signature.predicates.items() if p.kind is wanted]
         for name in chances:

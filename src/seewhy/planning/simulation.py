@@ -45,18 +45,40 @@ class Simulation:
     achieved: bool = False
 
 
+def execution_seconds(domain: PlanningDomain, run: Run) -> float:
+    """Return how long the actions of a run take, as ``[simulation.durations]`` says.
+
+    An action that fails takes as long as one that does not.
+
+    Examples
+    --------
+    >>> from seewhy.planning.goal import read_goal
+    >>> from seewhy.planning.domain import load_planning_domain
+    >>> office = load_planning_domain("robot_assistant")
+    >>> goal = read_goal("loc(rob1, bathroom)", office.knowledge)
+    >>> *_, last = simulate(office, goal, seed=1)
+    >>> len(last.run.actions), execution_seconds(office, last.run)
+    (2, 30.0)
+    """
+    durations = domain.simulation.durations
+    return float(sum(durations.get(own.name, 1.0) for own in run.actions))
+
+
 def simulate(
     domain: PlanningDomain,
     goal: Goal,
     *,
     seed: int = 0,
     most_steps: int = 60,
+    world: PlanningDomain | None = None,
     sight: Sight | None = None,
 ) -> Iterator[Simulation]:
     """Let the robot pursue a goal in a random world; yields the simulation after each step.
 
-    With ``sight``, it takes a picture at every step, and sees what the networks read. The world's
-    own course is the same with the same seed, as long as the robot does the same.
+    The world follows the knowledge of ``world``; the robot's own, where that is not given. So a
+    robot may know less than is so, or have learned it. With ``sight``, it takes a picture at
+    every step, and sees what the networks read. The world's own course is the same with the same
+    seed, as long as the robot does the same.
 
     Examples
     --------
@@ -68,7 +90,8 @@ def simulate(
     >>> last.run.outcome.value, [str(action) for action in last.run.actions]
     ('achieved', ['move(rob1,kitchen)'])
     """
-    environment = PlanningEnvironment(domain, goal=goal, steps=most_steps + 1, sight=sight)
+    truth = domain if world is None else world
+    environment = PlanningEnvironment(truth, goal=goal, steps=most_steps + 1, sight=sight)
     observation, _ = environment.reset(seed=seed)
     worlds, happenings = [environment.state], list[Happening]()
     looks = [environment.look] if environment.look is not None else []
@@ -91,7 +114,7 @@ def simulate(
     )
     for run in runs:
         steps = len(run.steps)
-        achieved = holds_in(domain.knowledge, goal, worlds[steps - 1])
+        achieved = holds_in(truth.knowledge, goal, worlds[steps - 1])
         # The run goes on in place; what is given away stays as it is now.
         now = replace(run, steps=list(run.steps))
         yield Simulation(now, worlds[:steps], happenings[:steps], looks[:steps], achieved)

@@ -7,6 +7,7 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field
 
 Probability = Annotated[float, Field(ge=0.0, le=1.0)]
+Seconds = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 
 
 class _Table(BaseModel):
@@ -27,6 +28,8 @@ class PlanningTable(_Table):
 
 class FluentTable(_Table):
     """``[fluents.NAME]``: how it is said that the fluent holds, and that it does not.
+
+    ``[statics.NAME]`` says the same of statics.
 
     ``{0}``, ``{1}``, … are its arguments in words.
     """
@@ -73,11 +76,13 @@ class SimulationTable(_Table):
     ``events`` gives, for exogenous actions, the probability that one of this kind happens at a
     step; ``failures``, for actions, that it has no effect. ``before`` steps of events pass before
     the robot begins. ``unknown`` is the probability that a fluent of which nothing is known at
-    first holds.
+    first holds. ``durations`` gives, for actions, how many seconds one takes (1 where it says
+    nothing); they change nothing in the world.
     """
 
     events: dict[str, Probability] = {}
     failures: dict[str, Probability] = {}
+    durations: dict[str, Seconds] = {}
     before: int = Field(default=0, ge=0, le=10_000)
     unknown: Probability = 0.0
 
@@ -105,6 +110,7 @@ class PlanningFile(_Table):
     things: dict[str, str] = {}
     possessives: dict[str, str] = {}
     fluents: dict[str, FluentTable] = {}
+    statics: dict[str, FluentTable] = {}
     actions: dict[str, ActionTable] = {}
     sensing: tuple[SensingTable, ...] = ()
     pictures: PicturesTable | None = None

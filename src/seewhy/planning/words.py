@@ -33,6 +33,7 @@ class PlanningWords:
     actions: Mapping[str, ActionTable]
     robot: str | None = None
     possessives: Mapping[str, str] = field(default_factory=dict)
+    statics: Mapping[str, FluentTable] = field(default_factory=dict)
 
     def name(self, term: clingo.Symbol | str) -> str:
         """How a thing is called."""

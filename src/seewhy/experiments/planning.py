@@ -1,0 +1,218 @@
+"""Planning before and after learning where people usually are (the paper's hypothesis H4).
+
+A robot delivers messages in an office. Before, its knowledge lacks the axiom by which people are
+usually where they work; after, it has what it learned from the record of runs that it made
+without it. Either arm of a trial has the same goal in the same world; the world itself always
+follows the whole knowledge. The runs that are learned from have seeds of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.history import History
+from seewhy.planning.domain import PlanningDomain, load_planning_domain
+from seewhy.planning.goal import Goal, read_goal
+from seewhy.planning.learning.learning import LearnedFromRuns, learn_from_runs
+from seewhy.planning.simulation import Simulation, execution_seconds, simulate
+
+__all__ = [
+    "AXIOM",
+    "FIRST_RECORDED",
+    "MEASURES",
+    "PAPER",
+    "Interval",
+    "Ratio",
+    "learned_from",
+    "recorded_run",
+    "robot_before",
+    "summary",
+    "trial",
+]
+
+DOMAIN = "robot_assistant"
+AXIOM = "loc(P, L) if work_place(P, L), not -loc(P, L)"
+"""What the robot is never told: statement (6) of the paper."""
+RECORDED = 40
+FIRST_RECORDED = 1_000_000
+"""The seed of the first recorded run; trials have smaller ones."""
+MOST_STEPS = 60
+
+MEASURES = (
+    "plans",
+    "actions",
+    "execution_seconds",
+    "planning_seconds",
+    "planning_seconds_per_plan",
+)
+PAPER = dict(zip(MEASURES, (4.0, 2.3, 1.6, 6.0, 1.6), strict=True))
+"""The ratios before to after that the paper reports (table 5)."""
+
+_RESAMPLES = 10_000
+
+
+def robot_before() -> PlanningDomain:
+    """The office as the robot knows it that was never told where people usually are."""
+    return load_planning_domain(DOMAIN).without(AXIOM)
+
+
+def random_goal(domain: PlanningDomain, *, seed: int) -> Goal:
+    """Return that one or two messages are delivered to random people, to each person one.
+
+    Examples
+    --------
+    >>> str(random_goal(load_planning_domain("robot_assistant"), seed=4))
+    'message_status(m1, sally, delivered), message_status(m2, bob, delivered)'
+    """
+    signature = domain.knowledge.signature
+    rng = np.random.default_rng(seed)
+    messages = signature.members("message")
+    people = rng.permutation(signature.members("person"))[: 1 + rng.integers(len(messages))]
+    wanted = zip(messages, people, strict=False)
+    text = ", ".join(f"message_status({m}, {p}, delivered)" for m, p in wanted)
+    return read_goal(text, domain.knowledge)
+
+
+def recorded_run(number: int) -> History:
+    """Return the record of one of the earlier runs, made without the axiom."""
+    return _run(robot_before(), seed=FIRST_RECORDED + number).run.history
+
+
+def learned_from(record: Sequence[History]) -> LearnedFromRuns:
+    """Return what the robot learns from its record."""
+    return learn_from_runs(robot_before(), record)
+
+
+def trial(*, seed: int, learned: Sequence[Axiom]) -> list[dict[str, Any]]:
+    """Return a row for the robot before and one for the robot after learning.
+
+    The arm that goes first changes with the seed: who goes second finds some things of clingo's
+    already in memory.
+    """
+    before = robot_before()
+    arms = {"before": before, "after": before.knowing(learned)}
+    order = list(arms) if seed % 2 == 0 else list(reversed(arms))
+    rows = {arm: _row(arm, arms[arm], seed) for arm in order}
+    return [rows["before"], rows["after"]]
+
+
+def _run(robot: PlanningDomain, *, seed: int) -> Simulation:
+    world = load_planning_domain(DOMAIN)
+    goal = random_goal(world, seed=seed)
+    *_, last = simulate(robot, goal, seed=seed, most_steps=MOST_STEPS, world=world)
+    return last
+
+
+def _row(arm: str, robot: PlanningDomain, seed: int) -> dict[str, Any]:
+    last = _run(robot, seed=seed)
+    run = last.run
+    plans = len(run.plans)
+    planning = sum(own.planning_seconds for own in run.steps)
+    return {
+        "seed": seed,
+        "arm": arm,
+        "plans": plans,
+        "actions": len(run.actions),
+        "execution_seconds": execution_seconds(robot, run),
+        "planning_seconds": planning,
+        "planning_seconds_per_plan": planning / plans if plans else None,
+        "outcome": run.outcome.value if run.outcome else "",
+        "achieved": last.achieved,
+        "goal": str(run.goal),
+    }
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A figure with its 95 % interval by bootstrap over the pairs (percentiles)."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """How much more of something there is before learning than after, over paired trials.
+
+    Attributes
+    ----------
+    measure : str
+    trials : int
+        Pairs of which the ratio can be formed: after learning there is some of it.
+    before, after : float
+        Means.
+    mean_of_ratios : Interval
+        The mean of the trials' ratios, as in the paper.
+    ratio_of_means : Interval
+    paper : float
+    """
+
+    measure: str
+    trials: int
+    before: float
+    after: float
+    mean_of_ratios: Interval
+    ratio_of_means: Interval
+    paper: float
+
+
+def summary(rows: Iterable[dict[str, Any]], *, seed: int = 0) -> list[Ratio]:
+    """Return the ratios of all measures, with intervals by bootstrap over the pairs.
+
+    Pairs count whatever their outcome: who gives up or runs out of steps has made so many plans
+    and actions until then.
+
+    Examples
+    --------
+    >>> numbers = dict.fromkeys(MEASURES, 1.0)
+    >>> rows = [{"seed": s, "arm": a, **numbers} for s in range(3) for a in ("before", "after")]
+    >>> rows[0]["plans"] = 4.0
+    >>> own = summary(rows)[0]
+    >>> own.measure, own.trials, own.mean_of_ratios.value, own.ratio_of_means.value
+    ('plans', 3, 2.0, 2.0)
+    """
+    arms: dict[str, dict[int, dict[str, Any]]] = {"before": {}, "after": {}}
+    for row in rows:
+        arms[row["arm"]][row["seed"]] = row
+    seeds = sorted(arms["before"].keys() & arms["after"].keys())
+    found = []
+    for measure in MEASURES:
+        pairs = [
+            (arms["before"][own][measure], arms["after"][own][measure])
+            for own in seeds
+            if arms["before"][own][measure] is not None and arms["after"][own][measure]
+        ]
+        found.append(_ratio(measure, np.array(pairs, dtype=np.float64).reshape(-1, 2), seed))
+    return found
+
+
+def _ratio(measure: str, pairs: NDArray[np.float64], seed: int) -> Ratio:
+    if not len(pairs):
+        nan = float("nan")
+        nothing = Interval(nan, nan, nan)
+        return Ratio(measure, 0, nan, nan, nothing, nothing, PAPER[measure])
+    rng = np.random.default_rng(seed)
+    drawn = pairs[rng.integers(len(pairs), size=(_RESAMPLES, len(pairs)))]
+    means = drawn.mean(axis=1)
+    before, after = map(float, pairs.mean(axis=0))
+    return Ratio(
+        measure,
+        len(pairs),
+        before,
+        after,
+        _interval((pairs[:, 0] / pairs[:, 1]).mean(), (drawn[:, :, 0] / drawn[:, :, 1]).mean(1)),
+        _interval(before / after, means[:, 0] / means[:, 1]),
+        PAPER[measure],
+    )
+
+
+def _interval(value: float, resampled: NDArray[np.float64]) -> Interval:
+    low, high = np.percentile(resampled, (2.5, 97.5))
+    return Interval(float(value), float(low), float(high))

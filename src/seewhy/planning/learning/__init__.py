@@ -1,0 +1,1 @@
+"""Learn from the record of earlier runs what is usually so at first."""
