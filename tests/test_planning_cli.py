@@ -229,8 +229,8 @@ def test_a_domain_that_plans_is_checked(run: Run, tmp_path: Path) -> None:
         "  fluents: 11",
         "  actions: 5",
         "  axioms: 50",
-        "  note: never possible: put(rob1, _, b5)",
-        "  note: never possible: put(rob1, _, b6)",
+        "  note: it is never possible to put any box on the ball: put(rob1, _, b5)",
+        "  note: it is never possible to put any box on the roof: put(rob1, _, b6)",
         "nothing is wrong",
     ]
     both = run("check", "robot_assistant").out

@@ -55,7 +55,7 @@ class Knowledge:
         --------
         >>> known = read_knowledge('''
         ... #sort view. #sort place = {hall}. #static dark(view). #static large(place).
-        ... -dark(V) if not dark(V). large(hall).
+        ... -dark(V) if view(V), not dark(V). large(hall).
         ... ''')
         >>> [str(own) for own in known.without_sort("view").axioms]
         ['large(hall).']
