@@ -13,17 +13,19 @@ import pytest
 from seewhy.errors import QuestionError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import literal_of
+from seewhy.knowledge.history import read_history
+from seewhy.knowledge.language import read_knowledge
 from seewhy.planning.diagnosis import diagnose
 from seewhy.planning.dialogue.replying import answer
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution import Run, execute
 from seewhy.planning.goal import read_goal
+from seewhy.planning.tables import ActionTable, FluentTable
+from seewhy.planning.words import PlanningWords
 from seewhy.planning.world import Transitions, World
 
 OFFICE = load_planning_domain("robot_assistant")
 TO_SALLY = read_goal("message_status(m1, sally, delivered)", OFFICE.knowledge)
-# That there is no plan is shown sooner.
-SHORT_SIGHTED = replace(OFFICE, horizon=8)
 SEEN = ("loc", "present", "closed", "has")
 CLUTTER = ("present(cup,sallys_office)", "present(large_box,sallys_office)",
            "present(sofa,sallys_office)")  # fmt: skip
@@ -53,7 +55,6 @@ def office_run(
     transitions: Transitions,
     *literals: str,
     script: Callable[[int, World], World] = lambda _, state: state,
-    domain: PlanningDomain = OFFICE,
 ) -> Run:
     """A run to Sally in a world in which these hold and else what is usual."""
     usual = sorted(diagnose(OFFICE.knowledge, OFFICE.history).states[0].holds)
@@ -65,7 +66,7 @@ def office_run(
         state = script(next(steps), transitions.after(state, [action]) or state)
         return seen_in(state)
 
-    *_, last = execute(domain, TO_SALLY, sensed=seen_in(state), act=act)
+    *_, last = execute(OFFICE, TO_SALLY, sensed=seen_in(state), act=act)
     return last
 
 
@@ -94,7 +95,6 @@ def shut_in(transitions: Transitions) -> Run:
         "closed(kitchen)",
         "closed(bobs_office)",
         "closed(johns_office)",
-        domain=SHORT_SIGHTED,
     )
 
 
@@ -302,7 +302,7 @@ SHUT_IN = {
 
 @pytest.mark.parametrize("question", SHUT_IN)
 def test_answers_after_giving_up(shut_in: Run, question: str) -> None:
-    assert asked(shut_in, question, SHORT_SIGHTED) == SHUT_IN[question]
+    assert asked(shut_in, question) == SHUT_IN[question]
 
 
 BEFORE = {
@@ -408,6 +408,144 @@ FAILED = {
 @pytest.mark.parametrize("question", FAILED)
 def test_answers_after_an_attempt_failed(failed: Run, question: str) -> None:
     assert asked(failed, question) == FAILED[question]
+
+
+# The same in other words
+
+WORDINGS = {
+    "where's Sally?": "where is Sally?",
+    "where was Sally at first": "where is Sally at step 0?",
+    "what do you see in Sally's office?": "what is in Sally's office?",
+    "why are you going to the kitchen?": "why did you move to the kitchen?",
+    "why didn't you go straight to Bob's office at step 0?": (
+        "why did you not move to Bob's office at step 0?"
+    ),
+    "what would happen if the kitchen were closed?": (
+        "what would you do if the kitchen were closed?"
+    ),
+    "what if the kitchen was closed?": "what would you do if the kitchen were closed?",
+    "what did you plan at first?": "what was your plan at step 0?",
+    "what was your plan in the beginning?": "what was your plan at step 0?",
+    "what was your first plan?": "what was your plan at step 0?",
+    "why did you change your mind?": "why did the plan change?",
+    "what's next?": "what is your plan?",
+}
+ALSO_ASKED = {
+    "what did you do at step 1?": "I moved to Sally's office.",
+    "what happened at step 3?": "The goal is reached.",
+    "did you move to the kitchen?": "Yes, I moved to the kitchen at step 0.",
+    "did you move to the kitchen at step 1?": "No, I did not move to the kitchen at step 1.",
+    "did you go to the bathroom?": "No, I did not move to the bathroom.",
+    "have you delivered the first message?": (
+        "Yes, I delivered the first message to Sally at step 2."
+    ),
+    "have you delivered the second message?": "No, I have not delivered the second message.",
+    "what do you have?": "I have the first and second message.",
+    "what is closed?": "Nothing that I know of.",
+    "what was cluttered at step 3?": "Sally's office is cluttered.",
+    "are you done?": "Yes, the goal is reached.",
+    "why did you give up?": "I did not. The goal is reached.",
+    "why did you stop?": "The goal is reached.",
+}
+
+
+@pytest.mark.parametrize("question", WORDINGS)
+def test_the_same_in_other_words(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == asked(delivered, WORDINGS[question])
+
+
+@pytest.mark.parametrize("question", ALSO_ASKED)
+def test_what_else_is_asked(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == ALSO_ASKED[question]
+
+
+def test_a_robot_says_why_it_gave_up(shut_in: Run) -> None:
+    said = (
+        "I gave up: the goal could not be reached, since Bob's office, John's office and the "
+        "kitchen were closed."
+    )
+    assert asked(shut_in, "why did you give up?") == said
+    assert asked(shut_in, "did you reach your goal?") == f"No, {said}"
+
+
+def test_who_fails_says_so_when_asked(failed: Run) -> None:
+    assert asked(failed, "did you move to Sally's office at step 1?") == (
+        "No, I tried to move to Sally's office at step 1 and failed."
+    )
+    assert asked(failed, "did you move to Sally's office?") == (
+        "Yes, I moved to Sally's office at step 2."
+    )
+
+
+def test_a_plan_that_was_as_short_is_no_worse(begun: Run) -> None:
+    assert asked(begun, "why did you not move to Sally's office at step 1?") == (
+        "I could have as well: that plan has 3 actions too."
+    )
+
+
+MELTING = """
+#fluent basic key. #fluent basic open. #action unlock. #action melt.
+unlock causes open. melt causes -key.
+%% who has no key opens nothing
+impossible unlock if not key.
+"""
+
+
+def test_what_would_have_left_no_way_to_the_goal() -> None:
+    known = read_knowledge(MELTING)
+    words = PlanningWords(
+        {},
+        {"open": FluentTable(say="the door is open"), "key": FluentTable(say="the key is here")},
+        {
+            "unlock": ActionTable(do="unlock the door", did="unlocked the door"),
+            "melt": ActionTable(do="melt the key", did="melted the key"),
+        },
+    )
+    past = read_history("observed key at 0. observed -open at 0.", known.signature)
+    own = replace(
+        OFFICE, knowledge=known, history=past, words=words, sensing=(), robot=None, map=None
+    )
+    *_, last = execute(own, read_goal("open", known), sensed=[], act=lambda _: [])
+    assert asked(last, "why did you not melt the key?", own) == (
+        "I could have, but had I melted the key at step 0, the goal could not have been reached "
+        "any more."
+    )
+    assert asked(last, "did you melt the key?", own) == "No, I did not melt the key."
+
+
+def test_a_hope_that_was_disappointed_is_why_the_plan_changed(transitions: Transitions) -> None:
+    run = office_run(transitions, "loc(sally,johns_office)")
+    told = asked(run, "why did the plan change?").split(" At step ")
+    assert told[0].startswith("At step 2 I saw that Sally was not in her office. ")
+    assert any(own[2:].startswith("I saw that Sally was not in ") for own in told[1:])
+    assert all("Sally was in her office" not in own for own in told)
+
+
+def test_what_a_sensor_got_wrong_is_said(transitions: Transitions) -> None:
+    state = transitions.complete(sorted(diagnose(OFFICE.knowledge, OFFICE.history).states[0].holds))
+    own = replace(OFFICE, sensing=tuple(replace(one, error=0.1) for one in OFFICE.sensing))
+    steps = itertools.count()
+
+    def act(action: clingo.Symbol) -> list[Literal]:
+        nonlocal state
+        state = transitions.after(state, [action]) or state
+        if next(steps):
+            return seen_in(state)
+        right = [one for one in seen_in(state) if one.predicate != "loc"]
+        return [*right, literal_of("loc(rob1, bathroom)")]
+
+    *_, last = execute(own, TO_SALLY, sensed=seen_in(state), act=act)
+    (misread,) = last.steps[1].surprises
+    assert (misread.kind.value, str(misread.what)) == ("misread", "loc(rob1,bathroom)")
+    assert asked(last, "what did you do?", own) == (
+        "I moved to the kitchen. At step 1 I found that it was seen wrongly at step 1 that I was "
+        "in the bathroom. I moved to Sally's office and delivered the first message to Sally. The "
+        "goal is reached."
+    )
+    assert asked(last, "where were you at step 1?", own) == (
+        'I was in the kitchen. I moved to the kitchen at step 0, and "who moves to a place is '
+        'there".'
+    )
 
 
 def test_spelling_case_and_articles_are_forgiven(delivered: Run) -> None:

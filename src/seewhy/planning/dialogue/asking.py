@@ -17,6 +17,7 @@ from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.dialogue.speech import base
 from seewhy.planning.dialogue.whereabouts import places
 from seewhy.planning.domain import PlanningDomain
+from seewhy.planning.tables import ActionTable
 from seewhy.question_words import words_of
 
 LONGEST_QUESTION = 300
@@ -27,9 +28,12 @@ _ALIKE_ACTION = 68.0
 _MOST_READINGS = 64
 _SLOT = re.compile(r"\{(\d+)\}")
 _STEP = re.compile(r"(?: (?:at|in|during|after))? step (\d{1,6})\b")
+_AT_FIRST = re.compile(
+    r" (?:(?:at|in|from)(?: the)? (?:first|start|beginning|outset)|initially|to begin with)\b"
+)
 _HOLE = "§"
 _DROPPED = {"a", "an", "the", "any", "some", "instead", "now", "then", "please", "currently",
-            "really", "just", "actually", "still", "so", "far"}  # fmt: skip
+            "really", "just", "actually", "still", "so", "far", "straight", "directly"}  # fmt: skip
 _SAME = {"are": "is", "am": "is", "was": "is", "were": "is", "be": "is", "think": "believe",
          "what's": "what", "altered": "change", "changed": "change", "replan": "change",
          "aim": "goal", "intention": "plan"}  # fmt: skip
@@ -58,17 +62,27 @@ class Asks(StrEnum):
     WHY_BELIEVE = "why_believe"
     WHAT_IF = "what_if"
     WHY_CHANGED = "why_changed"
+    WHICH = "which"
+    DID = "did"
+    ENDED = "ended"
+    WHY_ENDED = "why_ended"
 
 
-_ACTIONS = (Asks.WHY_DID, Asks.WHY_NOT)
+_ACTIONS = (Asks.WHY_DID, Asks.WHY_NOT, Asks.DID)
 _UNFILLED = {
     Asks.PLAN: ("what is your plan", "what do you plan to do", "what will you do",
-                "what will you do next", "what do you intend to do"),
+                "what will you do next", "what do you intend to do", "what do you plan",
+                "what did you plan", "what did you plan to do", "what is next",
+                "what are you doing"),
     Asks.DONE: ("what did you do", "what have you done", "what happened"),
     Asks.GOAL: ("what is your goal", "what do you want to achieve", "what do you want"),
     Asks.WHY_CHANGED: ("why did the plan change", "why did your plan change",
                        "why did you change your plan", "why did you plan anew",
-                       "why do you have a new plan"),
+                       "why do you have a new plan", "why did you change your mind"),
+    Asks.ENDED: ("did you reach your goal", "is the goal reached", "are you done",
+                 "have you reached your goal", "did you succeed"),
+    Asks.WHY_ENDED: ("why did you give up", "why do you give up", "why did you stop",
+                     "why did you fail"),
 }  # fmt: skip
 
 
@@ -122,6 +136,7 @@ class _Thing:
     term: str
     sorts: frozenset[str]
     located: bool = False
+    said: str = ""
 
 
 @dataclass(frozen=True)
@@ -200,6 +215,7 @@ class PlanningQuestions:
                 f"the question has {len(text)} characters, at most {LONGEST_QUESTION} are read", []
             )
         joined = " ".join(self._mended(word) for word in words_of(text))
+        joined = _AT_FIRST.sub(" step 0", joined.replace("first plan", "plan at first"))
         step = _STEP.search(joined)
         words = _STEP.sub("", joined).split()
         marked = self._marked(self._with_names(_plain(words)))
@@ -332,7 +348,8 @@ class PlanningQuestions:
             for length in range(min(self._longest, len(words) - place), 0, -1):
                 term = self._names.get(tuple(words[place : place + length]))
                 if term is not None:
-                    marked.append(_Thing(term, self._sorts[term]))
+                    said = " ".join(words[place : place + length])
+                    marked.append(_Thing(term, self._sorts[term], said=said))
                     place += length
                     break
             else:
@@ -407,10 +424,12 @@ def _chosen(
         if isinstance(own, str) or place in kept:
             yield own
         else:
-            yield own.term.replace("_", " ")
+            yield own.said or own.term.replace("_", " ")
 
 
 def _fits(asks: Asks, read: Sequence[str], skeleton: Sequence[str], alike: float) -> bool:
+    if asks is Asks.DID and read[:2] != skeleton[:2]:
+        return False
     if asks in _ACTIONS:
         return (alike >= _ALIKE_ACTION and _HOLE in read) or alike >= _ALIKE
     telling = [word for word in skeleton if word not in _FREE]
@@ -439,11 +458,14 @@ def _templates(domain: PlanningDomain) -> Iterator[_Template]:
         if own.single:
             yield _Template(Asks.WHERE, f"where is {{{own.thing}}}", own.predicate, 2, sorts)
         for who in ("what", "who", "what objects", "what things"):
-            text = f"{who} is {own.preposition} {{0}}"
-            yield _Template(Asks.CONTENTS, text, arity=1, sorts=(sorts[own.place],))
+            for text in (f"{who} is", f"{who} do you see", f"{who} did you see"):
+                text = f"{text} {own.preposition} {{0}}"
+                yield _Template(Asks.CONTENTS, text, arity=1, sorts=(sorts[own.place],))
     for name, predicate in signature.predicates.items():
         if predicate.kind.is_fluent:
             say, deny = _said(domain, name, len(predicate.sorts))
+            for text in _asking_which(say):
+                yield _Template(Asks.WHICH, text, name, len(predicate.sorts), predicate.sorts)
             for positive, clause in ((True, say), (False, deny)):
                 for asks, text in _about_a_fluent(clause, positive):
                     yield _Template(
@@ -456,10 +478,55 @@ def _templates(domain: PlanningDomain) -> Iterator[_Template]:
                 (Asks.WHY_DID, "why did you"),
                 (Asks.WHY_NOT, "why did you not"),
                 (Asks.WHY_NOT, "why do you not"),
+                (Asks.WHY_NOT, "why not"),
+                (Asks.DID, "did you"),
             ):
                 yield _Template(
                     asks, f"{beginning} {do}", name, len(predicate.sorts), predicate.sorts
                 )
+            for asks, text in (
+                (Asks.WHY_DID, f"why are you {gerund(do)}"),
+                (Asks.DID, f"have you {table.did if table else do}"),
+                *((Asks.DID, f"{start} {part}") for start, part in _less(do, table)),
+            ):
+                yield _Template(asks, text, name, len(predicate.sorts), predicate.sorts)
+
+
+def _less(do: str, table: ActionTable | None) -> Iterator[tuple[str, str]]:
+    """What is done without the last of what it is done to: "deliver the message"."""
+    for start, text in (("did you", do), ("have you", table.did if table else do)):
+        found = re.fullmatch(r"(.*\{\d+\}) [a-z ]+ \{\d+\}", text)
+        if found:
+            yield start, found.group(1)
+
+
+def _asking_which(clause: str) -> Iterator[str]:
+    """Questions for what a clause ends or begins with: "what does Bob have", "what is closed"."""
+    words = clause.split()
+    slots = [place for place, word in enumerate(words) if _SLOT.fullmatch(word)]
+    if slots == [0]:
+        yield " ".join(["what", *words[1:]])
+    elif slots == [0, len(words) - 1] and words[1] not in ("is", "are"):
+        _, asked, *verb = question_form(" ".join(words[:-1])).split()
+        yield " ".join(["what does", asked, *verb])
+        if verb != ["have"]:
+            yield " ".join(["what is", asked, gerund(" ".join(verb))])
+
+
+def gerund(do: str) -> str:
+    """Return what is to be done as what somebody is doing; of regular verbs.
+
+    Examples
+    --------
+    >>> gerund("move to {1}"), gerund("put {1} on {2}"), gerund("pick up {1}")
+    ('moving to {1}', 'putting {1} on {2}', 'picking up {1}')
+    """
+    verb, *rest = do.split(" ")
+    if verb.endswith("e") and not verb.endswith("ee"):
+        verb = verb[:-1]
+    elif re.fullmatch("[^aeiou]*[aeiou][^aeiouwxy]", verb):
+        verb += verb[-1]
+    return " ".join([f"{verb}ing", *rest])
 
 
 def _about_a_fluent(clause: str, positive: bool) -> Iterator[tuple[Asks, str]]:

@@ -100,6 +100,23 @@ class BeliefAnswers:
                     return literal
         return denied
 
+    def which(self, query: Query) -> tuple[str, dict[str, Any]]:
+        """Of what something is believed: what somebody has, what is closed."""
+        beliefs, step = self._beliefs(query)
+        found = [
+            own
+            for own in beliefs.diagnosis.states[step].positive(query.predicate)
+            if all(
+                asked in (None, str(argument))
+                for asked, argument in zip(query.arguments, own.arguments, strict=True)
+            )
+        ]
+        reasons = {"literals": [str(own) for own in found]}
+        if not found:
+            return sentences(["nothing that I know of"]), reasons
+        now = step == self.run.history.last_step
+        return sentences([(self.speech.every if now else self.speech.every_past)(found)]), reasons
+
     def why_believe(self, query: Query) -> tuple[str, dict[str, Any]]:
         """Why something is believed."""
         beliefs, step = self._beliefs(query)

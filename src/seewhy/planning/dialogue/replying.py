@@ -133,6 +133,10 @@ class RunAnswers:
             Asks.WHY_BELIEVE: self.beliefs.why_believe,
             Asks.WHAT_IF: self._what_if,
             Asks.WHY_CHANGED: self._why_changed,
+            Asks.WHICH: self.beliefs.which,
+            Asks.DID: self._did_so,
+            Asks.ENDED: self._has_ended,
+            Asks.WHY_ENDED: self._why_ended,
         }
         text, reasons = asked[query.asks](query)
         return PlanningReply(text, query, reasons)
@@ -157,12 +161,13 @@ class RunAnswers:
         said = [f"my plan is to {self._do(step.plan)}", supposed and f"I suppose that {supposed}"]
         return sentences(said), {"actions": [str(own) for own in step.plan]}
 
-    def _done(self, _: Query) -> tuple[str, dict[str, Any]]:
+    def _done(self, query: Query) -> tuple[str, dict[str, Any]]:
         said: list[str] = []
         events: list[dict[str, Any]] = []
         failed = self._failures()
         did: list[str] = []
-        for step in self.run.steps:
+        asked = [own for own in self.run.steps if query.step in (None, own.number)]
+        for step in asked:
             noticed = [
                 past(self.speech.surprise(own))
                 for own in step.surprises
@@ -181,11 +186,62 @@ class RunAnswers:
                     else self.speech.did(step.action)
                 )
         said += self._did(did)
+        if query.step is not None and asked and not asked[-1].action:
+            return sentences([*said, self._ended()]), {"actions": events}
+        if query.step is not None and asked:
+            return sentences(said), {"actions": events}
         if not events:
             said.append("I have not done anything yet" if self.run.outcome is None
                         else "I did not do anything")  # fmt: skip
         said.append(self._ended())
         return sentences(said), {"actions": events}
+
+    def _did_so(self, query: Query) -> tuple[str, dict[str, Any]]:
+        failed = self._failures()
+        done = [
+            own
+            for own in self.run.steps
+            if own.action is not None
+            and _fits(query, own.action)
+            and query.step in (None, own.number)
+        ]
+        worked = [own for own in done if (own.number, own.action) not in failed]
+        reasons = {"steps": [own.number for own in worked]}
+        if not done:
+            when = "" if query.step is None else f" at step {query.step}"
+            have = query.text.startswith("have ")
+            return sentences(
+                [f"no, I {'have' if have else 'did'} not {self._asked(query)}{when}"]
+            ), reasons
+        steps = join_words([str(own.number) for own in worked or done])
+        when = f"at step{'s' * (len(worked or done) > 1)} {steps}"
+        action = (worked or done)[-1].action
+        assert action is not None
+        if not worked:
+            return sentences(
+                [f"no, I tried to {self.speech.do(action)} {when} and failed"]
+            ), reasons
+        return sentences([f"yes, I {self.speech.did(action)} {when}"]), reasons
+
+    def _has_ended(self, _: Query) -> tuple[str, dict[str, Any]]:
+        outcome = self.run.outcome
+        yes = "yes" if outcome is Outcome.ACHIEVED else "no"
+        said = self._ended() or "I am still on my way"
+        return sentences([f"{yes}, {said}"]), {"outcome": outcome.value if outcome else None}
+
+    def _why_ended(self, query: Query) -> tuple[str, dict[str, Any]]:
+        outcome = self.run.outcome
+        reasons: dict[str, Any] = {"outcome": outcome.value if outcome else None}
+        if outcome is Outcome.IMPOSSIBLE:
+            last = self.run.steps[-1]
+            reasons["because"] = [str(own) for own in last.because]
+            said = [self._gave_up(last)]
+            if not last.because:
+                said.append("nothing that I saw there, had it alone been otherwise, would have "
+                            "left a plan")  # fmt: skip
+            return sentences(said), reasons
+        gave_up = "give up" in query.text or "fail" in query.text
+        return sentences(["I did not" if gave_up else "", self._ended()]), reasons
 
     def _goal(self, _: Query) -> tuple[str, dict[str, Any]]:
         return f"My goal is that {say_goal(self.run.goal, self.domain, self.speech)}.", {
@@ -273,8 +329,9 @@ class RunAnswers:
             self.domain.knowledge, history, literal, sensors_err=self.domain.sensors_err
         )
         if supposing is None:
-            return sentences([f"{self.speech.say(literal)}: nothing that I know of could bring "
-                               "that about"]), reasons  # fmt: skip
+            clause = self.speech.say(literal)
+            said = f"nothing that I know of could bring it about that {clause}"
+            return sentences([said]), reasons
         step = self._decided(supposing)
         reasons |= {
             "decision": step.decision.value,
@@ -318,7 +375,8 @@ class RunAnswers:
 
     def _change(self, before: Step, step: Step) -> tuple[str, dict[str, Any]]:
         assert before.action is not None
-        seen = self._unexpected(before, step)
+        hoped_for = self._disappointed(step)
+        seen = hoped_for or self._unexpected(before, step)
         noticed = [
             past(self.speech.surprise(own))
             for own in step.surprises
@@ -347,6 +405,7 @@ class RunAnswers:
         failing = self.intentions.failing(before.plan[1:], step.believed)
         if failing is not None:
             reasons["failing"] = self._needs([failing])[0]
+        if failing is not None and not hoped_for:
             said.append(begin + self._no_longer(failing))
         if step.decision is Decision.GIVE_UP:
             said.append(self._gave_up(step))
@@ -373,6 +432,13 @@ class RunAnswers:
         obstacle = self._obstacle(failing.obstacles)
         said = f"I could no longer {self.speech.do(failing.action)} as planned"
         return f"{said}: {obstacle}" if obstacle else said
+
+    def _disappointed(self, step: Step) -> list[clingo.Symbol]:
+        """What is seen at a step instead of what the plan before it supposed."""
+        made = [own for own in self.run.plans if own.number < step.number]
+        supposed = made[-1].supposed if made else ()
+        sensed = {clingo.parse_term(key_of(own)) for own in step.sensed}
+        return [complement_of(own) for own in supposed if complement_of(own) in sensed]
 
     def _unexpected(self, before: Step, step: Step) -> list[clingo.Symbol]:
         assert before.action is not None
@@ -431,7 +497,10 @@ class RunAnswers:
         ]
 
     def _asked(self, query: Query) -> str:
-        named = re.sub(r"^why (did|do) you (not )?", "", query.text)
+        named = re.sub(r"^(why )?(did|do|have|are) you (not )?", "", query.text)
+        if query.text.startswith("why are you "):
+            # Of "are you moving", what is to be done.
+            return self.speech.do(self._actions(query)[0])
         return re.sub(r" at step \d+$", "", named)
 
     def _decided(self, history: History) -> Step:
@@ -454,7 +523,7 @@ class RunAnswers:
     def _step_asked(self, query: Query) -> Step:
         if query.step is not None:
             return self._step_at(query.step)
-        if query.text.startswith("why do "):
+        if query.text.startswith(("why do ", "why not ")):
             return self._present_step()
         acting = [own for own in self.run.steps if own.action is not None]
         same = [own for own in acting if own.action and own.action.name == query.predicate]

@@ -17,6 +17,7 @@ _PAST = {"is": "was", "are": "were", "am": "was", "has": "had", "have": "had", "
          "do": "did", "can": "could"}  # fmt: skip
 _PLURAL = {"is": "are", "has": "have", "does": "do", "was": "were", "had": "had"}
 _VERB = re.compile(rf"^(.+?) ({'|'.join(_PLURAL)}) (.+)$")
+_SUBJECT = re.compile(rf"(^|\bthat |^perhaps ){_ME} (\w+)")
 _FIRST = {"is": "am", "has": "have", "does": "do", "was": "was", "goes": "go"}
 
 
@@ -181,9 +182,11 @@ def plural(noun: str) -> str:
 
 
 def _in_first_person(clause: str) -> str:
-    if clause.startswith(f"{_ME} "):
-        _, verb, *rest = clause.split(" ")
-        clause = " ".join(["I", _FIRST.get(verb) or base(verb), *rest])
+    def spoken(found: re.Match[str]) -> str:
+        before, verb = found.groups()
+        return f"{before}I {_FIRST.get(verb) or base(verb)}"
+
+    clause = _SUBJECT.sub(spoken, clause)
     return clause.replace(f"{_ME}'s", "my").replace(_ME, "me")
 
 
