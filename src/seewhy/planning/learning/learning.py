@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import sem
+from scipy.stats import binom, sem
 from sklearn.model_selection import GroupKFold
 
 from seewhy.errors import PlanningError
@@ -48,6 +48,8 @@ TOLERANCES = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)
 """How often what is usual may be otherwise; the data choose."""
 SUPPORT = 0.02
 _FOLDS = 5
+_AS_OFTEN_WRONG = 0.05
+"""What is usual is right more often than wrong: so unlikely is the opposite."""
 
 
 @dataclass(frozen=True)
@@ -254,7 +256,8 @@ def _is_usual(one: Candidate, table: SceneTable) -> bool:
     A candidate about several things may owe its evidence to some of them.
     """
     found = tally(one, table)
-    return found.right > found.wrong and chance(one, table, found) <= BY_CHANCE
+    as_often_wrong = binom.sf(found.right - 1, found.right + found.wrong, 0.5)
+    return bool(as_often_wrong <= _AS_OFTEN_WRONG) and chance(one, table, found) <= BY_CHANCE
 
 
 def _exceptions(
@@ -301,15 +304,19 @@ def _axiom(
 def _by_diagnosis(
     domain: PlanningDomain, features: FluentFeatures, cases: Sequence[Case]
 ) -> Decide:
-    """How candidates decide with the knowledge around them: what is then believed at first."""
+    """How candidates decide with the knowledge around them: what is then believed at first.
+
+    Candidates by which something usually does not hold become no axioms, and decide nothing.
+    """
     fluents = {features.vector(own.fluent): own.fluent for own in cases}
-    alone = decide_by_candidates(features.values)
+    table = scene_table(features.values, list(fluents), [YES] * len(fluents))
     remembered: dict[tuple[Candidate, ...], State | None] = {}
 
     def believed(holding: tuple[Candidate, ...]) -> State | None:
         if holding not in remembered:
+            same = [preferred(own, features, table) for own in holding]
             text = "\n".join(
-                usual_statement(one, features) for own in holding for one in single(own, features)
+                usual_statement(one, features) for own in same for one in single(own, features)
             )
             axioms = read_axioms(text, domain.knowledge.signature, letter="c")
             remembered[holding] = _at_first(domain.knowing(axioms))
@@ -318,19 +325,16 @@ def _by_diagnosis(
     def decide(candidates: Sequence[Candidate], vectors: Sequence[FeatureVector]) -> list[Decision]:
         state = believed(tuple(own for own in candidates if own.label == YES))
         if state is None:
-            return [Decision(None, Verdict.CONTRADICTION) for _ in vectors]
-        settled = {own: YES if own.positive else NO for own in state.holds}
-        labels = {fluent_of(own): label for own, label in settled.items()}
-        # What usually does not hold becomes no axiom; it only says what needs none.
-        silent = alone([own for own in candidates if own.label == NO], vectors)
-        return [
-            Decision(labels[fluents[tuple(vector)]], Verdict.BELIEVED)
-            if fluents[tuple(vector)] in labels
-            else other
-            for vector, other in zip(vectors, silent, strict=True)
-        ]
+            return [Decision(None, Verdict.CONTRADICTION)] * len(vectors)
+        labels = {fluent_of(own): YES if own.positive else NO for own in state.holds}
+        found = (labels.get(fluents[tuple(vector)]) for vector in vectors)
+        return [_decision(label) for label in found]
 
     return decide
+
+
+def _decision(label: str | None) -> Decision:
+    return Decision(label, Verdict.SILENT if label is None else Verdict.BELIEVED)
 
 
 def _at_first(domain: PlanningDomain) -> State | None:
@@ -375,7 +379,11 @@ def _predictor(
     options: LearningOptions,
 ) -> Callable[[Sequence[FeatureVector]], list[str]]:
     """Learn from some cases alone; where no axiom says that a fluent holds, it does not."""
-    decide = decide_by_candidates(features.values)
+    by_all = decide_by_candidates(features.values)
+
+    def decide(some: Sequence[Candidate], asked: Sequence[FeatureVector]) -> Sequence[Decision]:
+        return by_all([own for own in some if own.label == YES], asked)
+
     table = scene_table(features.values, vectors, labels)
     holding = _usual(features, table, decide, options)
     return lambda some: [own.label or NO for own in decide(holding, some)]
