@@ -16,7 +16,7 @@ from seewhy.errors import PlanningError
 from seewhy.experiments.planning import MEASURES, Interval, summary, trial
 from seewhy.files import write_whole
 from seewhy.knowledge.history import History, history_text, read_history, read_history_file
-from seewhy.knowledge.language import read_literal
+from seewhy.knowledge.language import read_knowledge, read_literal
 from seewhy.knowledge.learned_file import learned_text, parse_learned
 from seewhy.planning.diagnosis import diagnose, explained
 from seewhy.planning.domain import load_planning_domain
@@ -223,6 +223,21 @@ def test_boxes_teach_the_same_way() -> None:
     found = learn_from_runs(robot, runs)
     assert said(found) == ["usually a box is on a surface: on(B, S) if surface(S), not -on(B, S)."]
     assert (found.axioms[0].origin.support, found.axioms[0].origin.precision) == (36, 33 / 36)
+
+
+def test_what_is_usual_need_not_speak_of_relations() -> None:
+    """Of the second lamp nothing was seen, and nothing is learned."""
+    known = read_knowledge("""
+    #sort lamp = {l1, l2}. #fluent basic dark. #fluent basic lit(lamp). #action press(lamp).
+    press(L) causes lit(L).
+    """)
+    lamps = replace(OFFICE, knowledge=known, history=History(), sensing=())
+    seen = [f"observed {'-' * (n % 6 == 0)}dark at 0. observed lit(l1) at 0." for n in range(18)]
+    found = learn_from_runs(lamps, [read_history(own, known.signature) for own in seen])
+    assert said(found) == [
+        "usually dark: dark if not -dark.",
+        "usually lit (l1): lit(l1) if not -lit(l1).",
+    ]
 
 
 def test_a_run_that_nothing_explains_is_refused() -> None:
