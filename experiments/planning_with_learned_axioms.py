@@ -38,19 +38,19 @@ NAMES = {
 }
 
 
-def make_run(out: Path, number: int) -> None:
+def make_run(out: Path, number: int, before: int | None) -> None:
     """Record an earlier run, unless it is there."""
     file = out / "runs" / f"{number:04}.al"
     if not file.is_file():
-        write_whole(file, history_text(recorded_run(number), title=f"run {number}"))
+        write_whole(file, history_text(recorded_run(number, before=before), title=f"run {number}"))
 
 
-def make_trial(out: Path, seed: int) -> None:
+def make_trial(out: Path, seed: int, before: int | None) -> None:
     """Write the rows of a trial, unless they are there."""
     file = trial_file(out, seed)
     if not file.is_file():
         axioms, _ = read_learned(out / "learned.al", robot_before().knowledge.signature)
-        rows = trial(seed=seed, learned=axioms)
+        rows = trial(seed=seed, learned=axioms, before=before)
         write_whole(file, json.dumps({"trial": seed, "rows": rows}, indent=1))
 
 
@@ -92,13 +92,18 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--trials", type=int, default=100)
     parser.add_argument("--runs", type=int, default=RECORDED, help="runs that are learned from")
+    parser.add_argument(
+        "--before",
+        type=int,
+        help="steps that people may walk about before the robot begins (else as planning.toml)",
+    )
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
     work = Parallel(n_jobs=options.jobs)
-    work(delayed(make_run)(options.out, number) for number in range(options.runs))
+    work(delayed(make_run)(options.out, number, options.before) for number in range(options.runs))
     learn(options.out, options.runs)
     print((options.out / "learned.al").read_text(encoding="utf-8"))
-    work(delayed(make_trial)(options.out, seed) for seed in range(options.trials))
+    work(delayed(make_trial)(options.out, seed, options.before) for seed in range(options.trials))
     rows = [
         row
         for seed in range(options.trials)

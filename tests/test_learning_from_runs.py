@@ -13,9 +13,10 @@ import pytest
 
 from conftest import Run
 from seewhy.errors import PlanningError
+from seewhy.experiments.planning import MEASURES, Interval, summary, trial
 from seewhy.files import write_whole
 from seewhy.knowledge.history import History, history_text, read_history, read_history_file
-from seewhy.knowledge.language import read_literal
+from seewhy.knowledge.language import read_knowledge, read_literal
 from seewhy.knowledge.learned_file import learned_text, parse_learned
 from seewhy.planning.diagnosis import diagnose, explained
 from seewhy.planning.domain import load_planning_domain
@@ -222,6 +223,21 @@ def test_boxes_teach_the_same_way() -> None:
     assert (found.axioms[0].origin.support, found.axioms[0].origin.precision) == (36, 33 / 36)
 
 
+def test_what_is_usual_need_not_speak_of_relations() -> None:
+    """Of the second lamp nothing was seen, and nothing is learned."""
+    known = read_knowledge("""
+    #sort lamp = {l1, l2}. #fluent basic dark. #fluent basic lit(lamp). #action press(lamp).
+    press(L) causes lit(L).
+    """)
+    lamps = replace(OFFICE, knowledge=known, history=History(), sensing=())
+    seen = [f"observed {'-' * (n % 6 == 0)}dark at 0. observed lit(l1) at 0." for n in range(18)]
+    found = learn_from_runs(lamps, [read_history(own, known.signature) for own in seen])
+    assert said(found) == [
+        "usually dark: dark if not -dark.",
+        "usually lit (l1): lit(l1) if not -lit(l1).",
+    ]
+
+
 def test_a_run_that_nothing_explains_is_refused() -> None:
     text = "observed loc(bob, library) at 0. observed loc(bob, kitchen) at 0."
     with pytest.raises(PlanningError) as caught:
@@ -366,3 +382,46 @@ def test_what_learning_is_asked_to_do_must_be_clear(
     monkeypatch.chdir(tmp_path)
     done = run("learn", "robot_assistant", *arguments)
     assert (done.code, done.out, done.err) == (2, "", f"seewhy: {complaint}\n")
+
+
+# The experiment
+
+
+def test_a_trial_is_the_same_world_and_goal_for_both_arms() -> None:
+    learned = parse_learned(
+        f"% learned from 9 observations, 80.0 % of them rightly\n{AT_WORK}.",
+        ROBOT.knowledge.signature,
+    )
+    rows = trial(seed=6, learned=learned)
+    told = [
+        {key: own for key, own in row.items() if not key.startswith("planning_")} for row in rows
+    ]
+    both = {"seed": 6, "outcome": "achieved", "achieved": True, "goal": TO_BOB}
+    assert told == [
+        {"arm": "before", "plans": 2, "actions": 4, "execution_seconds": 55.0, **both},
+        {"arm": "after", "plans": 1, "actions": 2, "execution_seconds": 25.0, **both},
+    ]
+    for row in rows:
+        assert row["planning_seconds"] == pytest.approx(
+            row["planning_seconds_per_plan"] * row["plans"]
+        )
+
+
+def test_ratios_come_with_intervals() -> None:
+    rng = np.random.default_rng(0)
+    rows = []
+    for seed in range(50):
+        after = float(rng.integers(1, 4))
+        rows.append({"seed": seed, "arm": "after", **dict.fromkeys(MEASURES, after)})
+        rows.append({"seed": seed, "arm": "before", **dict.fromkeys(MEASURES, 2 * after)})
+    rows.append({"seed": 50, "arm": "before", **dict.fromkeys(MEASURES, 9.0)})
+    found = summary(rows)
+    assert [own.measure for own in found] == list(MEASURES)
+    assert [own.paper for own in found] == [4.0, 2.3, 1.6, 6.0, 1.6]
+    for own in found:
+        assert own.trials == 50
+        assert own.mean_of_ratios == own.ratio_of_means == Interval(2.0, 2.0, 2.0)
+    rows[1] = {**rows[1], "plans": 0, "planning_seconds_per_plan": None}
+    plans, *_, per_plan = summary(rows)
+    assert (plans.trials, per_plan.trials) == (50, 49)
+    assert plans.mean_of_ratios.low < plans.mean_of_ratios.value < 2.0

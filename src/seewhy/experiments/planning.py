@@ -9,7 +9,7 @@ follows the whole knowledge. The runs that are learned from have seeds of their 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -79,9 +79,13 @@ def random_goal(domain: PlanningDomain, *, seed: int) -> Goal:
     return read_goal(text, domain.knowledge)
 
 
-def recorded_run(number: int) -> History:
-    """Return the record of one of the earlier runs, made without the axiom."""
-    return _run(robot_before(), seed=FIRST_RECORDED + number).run.history
+def recorded_run(number: int, *, before: int | None = None) -> History:
+    """Return the record of one of the earlier runs, made without the axiom.
+
+    ``before`` is how many steps people may walk about before the robot begins; by default as many
+    as planning.toml says.
+    """
+    return _run(robot_before(), seed=FIRST_RECORDED + number, before=before).run.history
 
 
 def learned_from(record: Sequence[History]) -> LearnedFromRuns:
@@ -89,28 +93,35 @@ def learned_from(record: Sequence[History]) -> LearnedFromRuns:
     return learn_from_runs(robot_before(), record)
 
 
-def trial(*, seed: int, learned: Sequence[Axiom]) -> list[dict[str, Any]]:
+def trial(
+    *, seed: int, learned: Sequence[Axiom], before: int | None = None
+) -> list[dict[str, Any]]:
     """Return a row for the robot before and one for the robot after learning.
+
+    ``before`` is as in :func:`recorded_run`.
 
     The arm that goes first changes with the seed: who goes second finds some things of clingo's
     already in memory.
     """
-    before = robot_before()
-    arms = {"before": before, "after": before.knowing(learned)}
+    robot = robot_before()
+    arms = {"before": robot, "after": robot.knowing(learned)}
     order = list(arms) if seed % 2 == 0 else list(reversed(arms))
-    rows = {arm: _row(arm, arms[arm], seed) for arm in order}
+    rows = {arm: _row(arm, arms[arm], seed, before) for arm in order}
     return [rows["before"], rows["after"]]
 
 
-def _run(robot: PlanningDomain, *, seed: int) -> Simulation:
+def _run(robot: PlanningDomain, *, seed: int, before: int | None) -> Simulation:
     world = load_planning_domain(DOMAIN)
+    if before is not None:
+        chances = world.simulation.model_copy(update={"before": before})
+        world = replace(world, simulation=chances)
     goal = random_goal(world, seed=seed)
     *_, last = simulate(robot, goal, seed=seed, most_steps=MOST_STEPS, world=world)
     return last
 
 
-def _row(arm: str, robot: PlanningDomain, seed: int) -> dict[str, Any]:
-    last = _run(robot, seed=seed)
+def _row(arm: str, robot: PlanningDomain, seed: int, before: int | None) -> dict[str, Any]:
+    last = _run(robot, seed=seed, before=before)
     run = last.run
     plans = len(run.plans)
     planning = sum(own.planning_seconds for own in run.steps)

@@ -30,6 +30,8 @@ class FluentFeatures:
         Feature → the argument whose identity it is.
     values : mapping of str to tuple of str
         Feature → its values, relations first.
+    same : mapping of int to str
+        Argument → the thing that it is in all cases: of others nothing was seen.
     """
 
     signature: Signature
@@ -38,6 +40,7 @@ class FluentFeatures:
     relations: Mapping[str, Relation]
     places: Mapping[str, int]
     values: Mapping[str, tuple[str, ...]]
+    same: Mapping[int, str]
 
     @property
     def sorts(self) -> tuple[str, ...]:
@@ -80,9 +83,12 @@ def features_of(signature: Signature, facts: Facts, cases: Sequence[Case]) -> Fl
     kept = {str(own): own for own in told.values()}
     values: dict[str, tuple[str, ...]] = dict.fromkeys(kept, (YES, NO))
     places: dict[str, int] = {}
+    same: dict[int, str] = {}
     for place in range(len(signature.predicates[name].sorts)):
         members = sorted({str(own.arguments[place]) for own in fluents})
         if len(members) > 1:
             feature = f"argument {place}"
             places[feature], values[feature] = place, tuple(members)
-    return FluentFeatures(signature, facts, name, kept, places, values)
+        else:
+            same[place] = members[0]
+    return FluentFeatures(signature, facts, name, kept, places, values, same)

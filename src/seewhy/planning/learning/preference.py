@@ -14,9 +14,8 @@ from seewhy.planning.learning.features import NO, YES, FluentFeatures
 def preferred(candidate: Candidate, features: FluentFeatures, table: SceneTable) -> Candidate:
     """Return a candidate that speaks of the same cases, naming things only where it must.
 
-    Instead of which thing an argument is, a relation is asked, if it divides the cases alike, one
-    that holds rather than one that does not; and of several arguments whose identity divides them
-    alike, the first.
+    Of conditions that divide the cases alike, that a relation holds is preferred (one between more
+    of the arguments), then that one does not hold, then which thing the first argument is.
 
     Examples
     --------
@@ -36,13 +35,15 @@ def preferred(candidate: Candidate, features: FluentFeatures, table: SceneTable)
     (PathCondition(feature='work_place(0, 1)', values=('yes',)),)
     """
     for place, own in enumerate(candidate.conditions):
-        if own.values == (YES,):
-            continue
         others = (*candidate.conditions[:place], *candidate.conditions[place + 1 :])
         among = table.satisfying(others)
+        inside = among & table.satisfying([own])
         asked = {condition.feature for condition in others}
-        for other in _alike(own, features, table, among):
-            if other.feature not in asked:
+        for other in _before(own, features, table, among & ~inside):
+            if (
+                other.feature not in asked
+                and (table.satisfying([other])[among] == inside[among]).all()
+            ):
                 conditions = [*others, other]
                 order = list(features.values)
                 conditions.sort(key=lambda condition: order.index(condition.feature))
@@ -50,25 +51,23 @@ def preferred(candidate: Candidate, features: FluentFeatures, table: SceneTable)
     return candidate
 
 
-def _alike(
-    own: PathCondition, features: FluentFeatures, table: SceneTable, among: Rows
+def _before(
+    own: PathCondition, features: FluentFeatures, table: SceneTable, left_out: Rows
 ) -> Iterator[PathCondition]:
-    """Conditions that come before this one and divide some rows as it does, the best first."""
-    inside = among & table.satisfying([own])
-    outside = among & ~inside
-    for value in (YES, NO) if own.feature in features.places else (YES,):
-        for relation in features.relations:
-            condition = PathCondition(relation, (value,))
-            if (table.satisfying([condition])[among] == inside[among]).all():
-                yield condition
-    if own.feature not in features.places:
-        return
-    for feature, place in features.places.items():
-        if place >= features.places[own.feature]:
-            continue
-        showing = table.showing[feature]
-        values = zip(features.values[feature], showing, strict=True)
-        kept = tuple(value for value, rows in values if not (rows & outside).any())
-        condition = PathCondition(feature, kept)
-        if (table.satisfying([condition])[among] == inside[among]).all():
-            yield condition
+    """Conditions that are preferred to this one, the best first."""
+    for other in _in_order(features, table, left_out):
+        if other == own or (other.feature == own.feature and own.feature in features.places):
+            return
+        yield other
+
+
+def _in_order(
+    features: FluentFeatures, table: SceneTable, left_out: Rows
+) -> Iterator[PathCondition]:
+    """That relations hold, that they do not, and which things arguments are."""
+    for value in (YES, NO):
+        yield from (PathCondition(relation, (value,)) for relation in features.relations)
+    for feature in features.places:
+        values = zip(features.values[feature], table.showing[feature], strict=True)
+        kept = (value for value, rows in values if not (rows & left_out).any())
+        yield PathCondition(feature, tuple(kept))

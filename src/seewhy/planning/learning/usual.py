@@ -107,11 +107,13 @@ def _terms(candidate: Candidate, features: FluentFeatures) -> list[str]:
 
 
 def _named(candidate: Candidate, features: FluentFeatures) -> dict[int, str]:
-    return {
+    """Arguments that are one thing: the only one that was seen, or the one that is meant."""
+    meant = {
         features.places[own.feature]: own.values[0]
         for own in candidate.conditions
         if own.feature in features.places and len(own.values) == 1
     }
+    return {**features.same, **meant}
 
 
 def _sorts(candidate: Candidate, features: FluentFeatures) -> list[str]:
@@ -207,7 +209,7 @@ class _Things:
         table: FluentTable | None = tables.get(predicate)
         if table is None:
             about = ", ".join(self.say(own) for own in places)
-            said = f"{predicate.replace('_', ' ')} ({about})"
+            said = predicate.replace("_", " ") + (f" ({about})" if about else "")
             return said if holds else f"not: {said}"
         text = table.say if holds or table.deny is None else table.deny
         said = _ARTICLE_AND_SLOT.sub(lambda own: self.say(places[int(own.group(1))]), text)

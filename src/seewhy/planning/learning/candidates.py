@@ -1,0 +1,122 @@
+"""Candidates by which a fluent usually holds, and by which it usually does not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.stats import binom
+
+from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
+from seewhy.induction.generalisation import most_general
+from seewhy.induction.learning import BY_CHANCE, Decide, LearningOptions, learn_axioms
+from seewhy.induction.scene_table import SceneTable, scene_table
+from seewhy.induction.tree import PathCondition
+from seewhy.knowledge.scene import FeatureVector
+from seewhy.planning.learning.features import YES, FluentFeatures
+from seewhy.planning.learning.preference import preferred
+from seewhy.planning.learning.usual import excluded, single
+
+_AS_OFTEN_WRONG = 0.05
+"""What is usual is right more often than wrong: so unlikely is the opposite."""
+
+
+def usual_candidates(
+    features: FluentFeatures, table: SceneTable, decide: Decide, options: LearningOptions
+) -> list[Candidate]:
+    """Return the candidates by which a fluent usually holds, each one axiom.
+
+    Examples
+    --------
+    >>> import clingo
+    >>> from seewhy.induction.learning import decide_by_candidates
+    >>> from seewhy.planning.domain import load_planning_domain
+    >>> from seewhy.planning.learning.cases import Case
+    >>> from seewhy.planning.learning.features import features_of
+    >>> from seewhy.planning.learning.relations import Facts
+    >>> office = load_planning_domain("robot_assistant").knowledge
+    >>> texts = ("loc(sally,sallys_office)", "loc(bob,bobs_office)", "loc(bob,kitchen)")
+    >>> cases = [Case(clingo.parse_term(own), True, 0) for own in texts]
+    >>> features = features_of(office.signature, Facts(office), cases)
+    >>> vectors = [features.vector(own.fluent) for own in cases] * 20
+    >>> table = scene_table(features.values, vectors, ["yes", "yes", "no"] * 20)
+    >>> decide = decide_by_candidates(features.values)
+    >>> [own.conditions for own in usual_candidates(features, table, decide, LearningOptions())]
+    [(PathCondition(feature='work_place(0, 1)', values=('yes',)),)]
+    """
+    everywhere = Candidate(YES, ())
+    if is_borne_out(everywhere, table, options.tolerance) and _is_usual(everywhere, table):
+        return [everywhere]
+    if not features.values:
+        return []
+    scenes = [own for row in range(len(table.vectors)) for own in _scenes(table, row)]
+    learned = learn_axioms(
+        features.values,
+        [vector for vector, _ in scenes],
+        [label for _, label in scenes],
+        decide=decide,
+        options=options,
+    )
+    found = [
+        preferred(_with_usual_things(own.candidate, features, table), features, table)
+        for own in learned.accepted
+        if own.candidate.label == YES
+    ]
+    every = [one for own in found for one in single(own, features) if _is_usual(one, table)]
+    return most_general(every)
+
+
+def _with_usual_things(
+    candidate: Candidate, features: FluentFeatures, table: SceneTable
+) -> Candidate:
+    """Take back things that a candidate leaves out, though it is usually right of them, too.
+
+    What is usual has exceptions; more of them than elsewhere are no reason to know nothing.
+    """
+    for opposite, thing in excluded(candidate, features):
+        found = tally(opposite, table)
+        if found.wrong > found.right:
+            conditions = []
+            for own in candidate.conditions:
+                values = features.values[own.feature]
+                allowed = own.values
+                if own.feature == thing.feature:
+                    allowed = tuple(v for v in values if v in (*own.values, *thing.values))
+                if allowed != values:
+                    conditions.append(PathCondition(own.feature, allowed))
+            candidate = Candidate(candidate.label, tuple(conditions))
+    return candidate
+
+
+def _is_usual(one: Candidate, table: SceneTable) -> bool:
+    """Whether an axiom by itself is right more often than not, and than chance explains.
+
+    A candidate about several things may owe its evidence to some of them.
+    """
+    found = tally(one, table)
+    if binom.sf(found.right - 1, found.right + found.wrong, 0.5) > _AS_OFTEN_WRONG:
+        return False
+    return not one.conditions or chance(one, table, found) <= BY_CHANCE
+
+
+def exceptions(
+    candidate: Candidate, features: FluentFeatures, table: SceneTable
+) -> Iterator[Candidate]:
+    """Yield that things which a candidate leaves out are usually otherwise than it says.
+
+    Chance is judged among what the candidate would speak about, did it leave nothing out.
+    """
+    for own, thing in excluded(candidate, features):
+        every = tuple(o for o in own.conditions if o != thing)
+        rows = np.flatnonzero(table.satisfying(every))
+        spoken = [(v, c) for row in rows for v, c in _scenes(table, int(row))]
+        among = scene_table(features.values, [v for v, _ in spoken], [c for _, c in spoken])
+        alone = Candidate(own.label, (thing,))
+        if _is_usual(alone, among):
+            yield own
+
+
+def _scenes(table: SceneTable, row: int) -> Iterator[tuple[FeatureVector, str]]:
+    for label, count in zip(table.classes, table.counts[row], strict=True):
+        for _ in range(int(count)):
+            yield table.vectors[row], label

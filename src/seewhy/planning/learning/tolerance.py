@@ -1,0 +1,71 @@
+"""How often what is usual may be otherwise: what the record itself suggests."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.stats import sem
+from sklearn.model_selection import GroupKFold
+
+from seewhy.induction.candidate import Candidate
+from seewhy.induction.learning import LearningOptions, decide_by_candidates
+from seewhy.induction.scene_table import scene_table
+from seewhy.knowledge.reasoner import Decision
+from seewhy.knowledge.scene import FeatureVector
+from seewhy.planning.learning.candidates import usual_candidates
+from seewhy.planning.learning.cases import Case
+from seewhy.planning.learning.features import NO, YES, FluentFeatures
+
+TOLERANCES = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)
+_FOLDS = 5
+
+
+def suggested_tolerance(
+    features: FluentFeatures, cases: Sequence[Case], options: LearningOptions
+) -> float:
+    """Return the greatest tolerance within a standard error of the one that predicts best.
+
+    What the axioms learned from four fifths of the runs predict is held against the rest.
+    """
+    folds = min(_FOLDS, len({own.run for own in cases}))
+    if folds < 2:
+        return 0.0
+    vectors = [features.vector(own.fluent) for own in cases]
+    labels = [YES if own.holds else NO for own in cases]
+    groups = [own.run for own in cases]
+    scores = []
+    for tolerance in TOLERANCES:
+        right = []
+        for train, test in GroupKFold(folds).split(vectors, labels, groups):
+            predict = _predictor(
+                features,
+                [vectors[n] for n in train],
+                [labels[n] for n in train],
+                replace(options, tolerance=tolerance),
+            )
+            predicted = predict([vectors[n] for n in test])
+            right.append(np.mean([predicted[m] == labels[n] for m, n in enumerate(test)]))
+        scores.append(right)
+    means = np.mean(scores, axis=1)
+    best = int(np.argmax(means))
+    least = means[best] - sem(scores[best])
+    return max(own for own, mean in zip(TOLERANCES, means, strict=True) if mean >= least)
+
+
+def _predictor(
+    features: FluentFeatures,
+    vectors: Sequence[FeatureVector],
+    labels: Sequence[str],
+    options: LearningOptions,
+) -> Callable[[Sequence[FeatureVector]], list[str]]:
+    """Learn from some cases alone; where no axiom says that a fluent holds, it does not."""
+    by_all = decide_by_candidates(features.values)
+
+    def decide(some: Sequence[Candidate], asked: Sequence[FeatureVector]) -> Sequence[Decision]:
+        return by_all([own for own in some if own.label == YES], asked)
+
+    table = scene_table(features.values, vectors, labels)
+    holding = usual_candidates(features, table, decide, options)
+    return lambda some: [own.label or NO for own in decide(holding, some)]
