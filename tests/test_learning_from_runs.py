@@ -392,14 +392,15 @@ def test_a_trial_is_the_same_world_and_goal_for_both_arms() -> None:
         f"% learned from 9 observations, 80.0 % of them rightly\n{AT_WORK}.",
         ROBOT.knowledge.signature,
     )
-    rows = trial(seed=6, learned=learned)
+    rows = trial(seed=3, learned=learned)
     told = [
         {key: own for key, own in row.items() if not key.startswith("planning_")} for row in rows
     ]
-    both = {"seed": 6, "outcome": "achieved", "achieved": True, "goal": TO_BOB}
+    goal = "message_status(m1, sally, delivered)"
+    both = {"seed": 3, "outcome": "achieved", "achieved": True, "goal": goal}
     assert told == [
-        {"arm": "before", "plans": 2, "actions": 4, "execution_seconds": 55.0, **both},
-        {"arm": "after", "plans": 1, "actions": 2, "execution_seconds": 25.0, **both},
+        {"arm": "before", "plans": 6, "actions": 10, "execution_seconds": 145.0, **both},
+        {"arm": "after", "plans": 1, "actions": 3, "execution_seconds": 40.0, **both},
     ]
     for row in rows:
         assert row["planning_seconds"] == pytest.approx(

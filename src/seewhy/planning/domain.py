@@ -49,11 +49,11 @@ class PlanningDomain:
     shows : mapping of str to Sensing
         For features of the folder's domain.toml the fluent whose truth they are, in a picture that
         the robot takes.
-    sensors_err : bool
-        Whether what is sensed may be wrong.
     map : MapTable or None
         How to draw where things are.
     folder : Path
+    seen_by_networks : bool
+        Whether networks read the pictures that the robot takes.
 
     Examples
     --------
@@ -74,7 +74,12 @@ class PlanningDomain:
     simulation: SimulationTable
     map: MapTable | None
     folder: Path
-    sensors_err: bool
+    seen_by_networks: bool = False
+
+    @property
+    def sensors_err(self) -> bool:
+        """Whether what is sensed may be wrong."""
+        return self.seen_by_networks or any(own.error for own in self.sensing)
 
     def statics(self, predicate: str) -> list[clingo.Symbol]:
         """The literals about a static that follow from the knowledge, sorted."""
@@ -231,7 +236,6 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         simulation=table.simulation,
         map=table.map,
         folder=folder,
-        sensors_err=any(own.error for own in sensing),
     )
 
 

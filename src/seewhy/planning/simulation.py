@@ -106,7 +106,7 @@ def simulate(
 
     sensed = environment.read(observation)
     runs = execute(
-        domain if sight is None else replace(domain, sensors_err=True),
+        domain if sight is None else replace(domain, seen_by_networks=True),
         goal,
         sensed=sensed,
         act=act,

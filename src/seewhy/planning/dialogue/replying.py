@@ -95,7 +95,8 @@ class RunAnswers:
     """
 
     def __init__(self, domain: PlanningDomain, run: Run) -> None:
-        domain = replace(domain, sensors_err=domain.sensors_err or run.sensors_err)
+        # Without errors there may be no explanation of what networks read.
+        domain = replace(domain, seen_by_networks=run.sensors_err)
         self.domain = domain
         self.run = run
         self.questions = PlanningQuestions(domain)
