@@ -20,6 +20,7 @@ from seewhy.experiments.planning import (
     Interval,
     Ratio,
     learned_from,
+    recipients_elsewhere,
     recorded_run,
     robot_before,
     summary,
@@ -118,10 +119,14 @@ def main() -> None:
         reached = sum(row["achieved"] for row in rows if row["arm"] == arm)
         counts = ", ".join(f"{own} {ended.count(own)}" for own in sorted(set(ended)))
         print(f"\n{arm}: {counts}; goal truly reached in {reached} of {len(ended)}", end="")
-    achieved = {row["seed"] for row in rows} - {row["seed"] for row in rows if not row["achieved"]}
-    print(f"\n\nOf the {len(achieved)} trials in which either reached it:\n")
-    for own in summary(row for row in rows if row["seed"] in achieved):
-        print(line(own))
+    elsewhere = recipients_elsewhere(range(options.trials), before=options.before)
+    for text, seeds in (
+        ("the recipients are at first where they work", [s for s, n in elsewhere.items() if not n]),
+        ("a recipient is at first elsewhere", [s for s, n in elsewhere.items() if n]),
+    ):
+        print(f"\n\nOf the {len(seeds)} trials in which {text}:\n")
+        for own in summary(row for row in rows if row["seed"] in seeds):
+            print(line(own))
 
 
 if __name__ == "__main__":

@@ -170,6 +170,22 @@ MISTAKES = {
         "shut = 0.1",
         "planning.toml:31: 'shut' is no action; it must be one of: move",
     ),
+    "a fluent among the statics": (
+        "[map]",
+        '[statics.at]\nsay = "{0} is in {1}"\n\n[map]',
+        "planning.toml:33: 'at' is none of the statics; it must be one of: next_to",
+    ),
+    "a duration of something that happens": (
+        "[map]",
+        "[simulation.durations]\nshut = 3\n\n[map]",
+        "planning.toml:34: 'shut' is no action; it must be one of: move",
+    ),
+    "a duration below nothing": (
+        "[map]",
+        "[simulation.durations]\nmove = -3\n\n[map]",
+        "planning.toml:34: 'simulation.durations.move': input should be greater than or equal to "
+        "0, got -3",
+    ),
     "no probability": (
         "move = 0.1",
         "move = 1.5",

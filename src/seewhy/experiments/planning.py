@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.history import History
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
+from seewhy.planning.environment import PlanningEnvironment
 from seewhy.planning.goal import Goal, read_goal
 from seewhy.planning.learning.learning import LearnedFromRuns, learn_from_runs
 from seewhy.planning.simulation import Simulation, execution_seconds, simulate
@@ -30,6 +31,7 @@ __all__ = [
     "Interval",
     "Ratio",
     "learned_from",
+    "recipients_elsewhere",
     "recorded_run",
     "robot_before",
     "summary",
@@ -110,11 +112,39 @@ def trial(
     return [rows["before"], rows["after"]]
 
 
-def _run(robot: PlanningDomain, *, seed: int, before: int | None) -> Simulation:
+def recipients_elsewhere(seeds: Iterable[int], *, before: int | None = None) -> dict[int, int]:
+    """Return for each trial how many recipients are at first not where they work.
+
+    Examples
+    --------
+    >>> recipients_elsewhere([0, 6])
+    {0: 1, 6: 0}
+    """
+    world = _world(before)
+    environment = PlanningEnvironment(world)
+    at_work = {tuple(map(str, own.arguments)) for own in world.statics("work_place")}
+    found = {}
+    for seed in seeds:
+        environment.reset(seed=seed)
+        state = environment.state
+        goal = random_goal(world, seed=seed)
+        people = {own.literal.arguments[1] for own in goal.axiom.body if own.literal}
+        places = [
+            tuple(map(str, own.arguments)) for own in state if own.positive and own.name == "loc"
+        ]
+        found[seed] = sum(person in people and (person, at) not in at_work for person, at in places)
+    return found
+
+
+def _world(before: int | None) -> PlanningDomain:
     world = load_planning_domain(DOMAIN)
-    if before is not None:
-        chances = world.simulation.model_copy(update={"before": before})
-        world = replace(world, simulation=chances)
+    if before is None:
+        return world
+    return replace(world, simulation=world.simulation.model_copy(update={"before": before}))
+
+
+def _run(robot: PlanningDomain, *, seed: int, before: int | None) -> Simulation:
+    world = _world(before)
     goal = random_goal(world, seed=seed)
     *_, last = simulate(robot, goal, seed=seed, most_steps=MOST_STEPS, world=world)
     return last
