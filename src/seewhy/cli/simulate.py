@@ -62,6 +62,7 @@ def simulate(
     from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.goal import read_goal
     from seewhy.planning.narration import narrate_end, narrate_step
+    from seewhy.planning.recording import record_of
     from seewhy.planning.simulation import simulate as run_simulation
     from seewhy.report.run_page import run_page
 
@@ -100,7 +101,7 @@ def simulate(
     command += "" if model is None else f" --model {model}"
     command += robot_options(learned=learned, without=without)
     if record is not None:
-        write_whole(record, history_text(run.history, title=command))
+        write_whole(record, history_text(record_of(own, run), title=command))
         remark(f"what was seen and done is in {record}")
     if out is not None:
         write_whole(out, run_page(own, last, command=command))

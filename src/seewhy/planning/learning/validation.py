@@ -29,7 +29,7 @@ def check_explained(domain: PlanningDomain, record: Mapping[str, History]) -> No
     PlanningError
     """
     for name, run in record.items():
-        if not _explained(domain, run):
+        if not explained(domain.knowledge, run, sensors_err=domain.sensors_err):
             raise PlanningError(f"{name}: {unexplained(domain.knowledge, run)}")
 
 
@@ -77,12 +77,5 @@ def _objections(
     for literal in sorted(before.holds - now.holds):
         yield f"'{literal}' would no longer be believed at first"
     for name, run in record.items():
-        if not _explained(domain, run):
+        if not explained(domain.knowledge, run, sensors_err=domain.sensors_err):
             yield f"{name} could not be explained with it"
-
-
-def _explained(domain: PlanningDomain, run: History) -> bool:
-    if explained(domain.knowledge, run, sensors_err=domain.sensors_err):
-        return True
-    # Networks may have read the pictures of this run.
-    return bool(domain.shows) and explained(domain.knowledge, run, sensors_err=True)
