@@ -1,0 +1,1 @@
+"""The paper's evaluation: every experiment by one command, resumable, with its statistics."""

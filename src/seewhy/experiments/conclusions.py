@@ -1,0 +1,131 @@
+"""What the rows of an experiment say about its hypothesis: tests, and a sentence for each claim."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from seewhy.experiments.catalogue import experiment
+from seewhy.experiments.experiment import Claim, Experiment, Row, say_size
+from seewhy.experiments.statistics import LEVEL, Paired, compare, holm
+
+__all__ = ["Compared", "Finding", "conclude", "values_of"]
+
+
+@dataclass(frozen=True)
+class Compared:
+    """Two systems at one size, with the p-values corrected for the number of sizes (Holm)."""
+
+    size: int
+    paired: Paired
+    corrected_t: float
+    corrected_wilcoxon: float
+
+    @property
+    def verdict(self) -> str:
+        """ "better", "worse" or "open": both tests must reach the level after correction."""
+        largest = max(self.corrected_t, self.corrected_wilcoxon)
+        if math.isnan(largest) or largest >= LEVEL or self.paired.difference.mean == 0.0:
+            return "open"
+        return "better" if self.paired.difference.mean > 0.0 else "worse"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A claim, what the trials say about it at each size, and both in a sentence."""
+
+    claim: Claim
+    compared: tuple[Compared, ...]
+    supported: bool
+    text: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the finding as values that JSON can hold."""
+        return {
+            **asdict(self.claim),
+            "supported": self.supported,
+            "text": self.text,
+            "sizes": [
+                {
+                    "size": say_size(own.size),
+                    **_finite(asdict(own.paired)),
+                    "corrected_t": _number(own.corrected_t),
+                    "corrected_wilcoxon": _number(own.corrected_wilcoxon),
+                    "verdict": own.verdict,
+                }
+                for own in self.compared
+            ],
+        }
+
+
+def _finite(values: dict[str, Any]) -> dict[str, Any]:
+    return {
+        key: _finite(own) if isinstance(own, dict) else _number(own) for key, own in values.items()
+    }
+
+
+def _number(value: Any) -> Any:
+    """The value, or None for a number that JSON has no word for."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def values_of(rows: Sequence[Row], system: str, size: int, measure: str) -> dict[int, float]:
+    """Seed → the measure of a system at a size."""
+    return {
+        int(row["seed"]): float(row[measure])
+        for row in rows
+        if row["system"] == system and row["size"] == size and row.get(measure) is not None
+    }
+
+
+def conclude(name: str, rows: Sequence[Row]) -> list[Finding]:
+    """Test every claim of an experiment on its rows."""
+    own = experiment(name)
+    return [_finding(own, claim, rows) for claim in own.claims]
+
+
+def _finding(own: Experiment, claim: Claim, rows: Sequence[Row]) -> Finding:
+    paired: dict[int, Paired] = {}
+    for size in dict.fromkeys(row["size"] for row in rows):
+        one = values_of(rows, claim.system, size, claim.measure)
+        other = values_of(rows, claim.against, size, claim.measure)
+        seeds = sorted(one.keys() & other.keys())
+        if seeds:
+            paired[size] = compare([one[s] for s in seeds], [other[s] for s in seeds])
+    tested = holm([own.p_t for own in paired.values()])
+    ranked = holm([own.p_wilcoxon for own in paired.values()])
+    compared = tuple(
+        Compared(size, found, p_t, p_wilcoxon)
+        for (size, found), p_t, p_wilcoxon in zip(paired.items(), tested, ranked, strict=True)
+    )
+    verdicts = [found.verdict for found in compared]
+    supported = bool(verdicts) and (
+        "worse" not in verdicts if claim.at_least_equal else set(verdicts) == {"better"}
+    )
+    return Finding(claim, compared, supported, _sentence(own, claim, compared, supported))
+
+
+def _sentence(own: Experiment, claim: Claim, compared: Sequence[Compared], supported: bool) -> str:
+    measure = own.measure(claim.measure).name
+    names = f"{own.systems[claim.system]} against {own.systems[claim.against]}"
+    if not compared:
+        return f"{measure}: {names}: there is no finished trial yet."
+    parts = []
+    for verdict, said in (
+        ("better", "significantly better"),
+        ("worse", "significantly worse"),
+        ("open", "not told apart"),
+    ):
+        there = [found for found in compared if found.verdict == verdict]
+        if there:
+            sizes = ", ".join(say_size(found.size) for found in there)
+            points = [100 * found.paired.difference.mean for found in there]
+            least, most = f"{min(points):+.1f}", f"{max(points):+.1f}"
+            span = least if least == most else f"{least} to {most}"
+            parts.append(f"{said} at {sizes} ({span} points)")
+    trials = sorted({found.paired.trials for found in compared})
+    number = str(trials[0]) if len(trials) == 1 else f"{trials[0]} to {trials[-1]}"
+    judged = "supported" if supported else "not supported at every size"
+    return f"{measure}: {names}, {number} trials: {'; '.join(parts)}. The claim is {judged}."

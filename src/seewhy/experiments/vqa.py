@@ -1,0 +1,150 @@
+"""H1 and H2: classes and answers against the number of training pictures, beside end to end."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+
+from seewhy.agent import Agent
+from seewhy.dataset import Dataset
+from seewhy.dialogue.reference import ReferenceAnswers, experience_of
+from seewhy.experiments.drawing import divide
+from seewhy.experiments.experiment import Claim, Experiment, Measure, Plan, Row, Setting, Trial
+from seewhy.experiments.questioning import Asked, answer_scores, draw_questions
+from seewhy.pictures import determined_share
+
+__all__ = ["MEASURES", "VQA", "annotator", "score_agent"]
+
+MEASURES = (
+    Measure("accuracy", "classified rightly"),
+    Measure("answers", "answers, every relevant attribute"),
+    Measure("answers_strict", "answers, those and no other"),
+    Measure("explanations", "explanatory answers, every relevant attribute"),
+    Measure("explanations_strict", "explanatory answers, those and no other"),
+)
+
+
+def annotator(scenes: Dataset) -> ReferenceAnswers:
+    """Who annotates questions with answers: knows the full knowledge and all annotated scenes.
+
+    The same answers train all systems and judge them.
+    """
+    agent = Agent(scenes.domain)
+    experience = experience_of(scenes.vectors, scenes.labels)
+    return ReferenceAnswers(scenes.domain, agent.reasoned, experience)
+
+
+def score_agent(
+    agent: Agent, test: Dataset, asked: list[Asked], reference: ReferenceAnswers
+) -> dict[str, Any]:
+    """The measures of an agent on pictures and questions about them."""
+    found = agent.classify_all(test.pictures(test.domain.pictures.size))
+    replies = agent.answer_all([(found[own.picture], own.question) for own in asked])
+    labels = [own.label for own in found]
+    vectors = [own.vector for own in found]
+    return {
+        "accuracy": _agreement(labels, test.labels),
+        **answer_scores(
+            asked,
+            [reply.kind for reply in replies],
+            test,
+            reference,
+            vectors=vectors,
+            labels=labels,
+        ),
+        "features": _feature_accuracy(vectors, test),
+        "by_knowledge": float(np.mean([own.method == "knowledge" for own in found])),
+    }
+
+
+def _agreement(found: list[str | None] | list[str], true: list[str]) -> float:
+    return float(np.mean([own == label for own, label in zip(found, true, strict=True)]))
+
+
+def _feature_accuracy(vectors: list[Any], test: Dataset) -> float:
+    pairs = zip(vectors, test.vectors, strict=True)
+    return float(np.mean([a == b for own, true in pairs for a, b in zip(own, true, strict=True)]))
+
+
+def run_trial(setting: Setting, trial: Trial) -> list[Row]:
+    """Train both architectures on one drawing of pictures and score them on another."""
+    from seewhy.experiments.end_to_end import EndToEnd, class_options, fit_class_network
+
+    domain = setting.domain
+    train, test = divide(setting, trial)
+    reference = annotator(setting.scenes)
+    agent = Agent(domain, seed=trial.seed, known_share=1.0)
+    asked = draw_questions(agent.questions, test.labels, seed=trial.seed)
+    common: Row = {
+        "seed": trial.seed,
+        "size": trial.size,
+        "trained": len(train),
+        "tested": len(test),
+        "determined": determined_share(test.vectors, test.labels),
+    }
+
+    began = time.process_time()
+    agent.fit(train, drawn=0, answers=False, workers=1)
+    seeing = time.process_time()
+    agent.fit_induction(train.vectors, train.labels, reference=reference)
+    fitted = time.process_time()
+    ours = score_agent(agent, test, asked, reference)
+    scored = time.process_time()
+
+    assert agent.extractor is not None
+    classes = fit_class_network(train, options=class_options(domain, seed=trial.seed))
+    baseline = EndToEnd(domain, agent.extractor, classes)
+    classed = time.process_time()
+    baseline.fit_answers(train, agent.questions, reference, seed=trial.seed)
+    answering = time.process_time()
+    theirs = baseline.score(test, asked, reference)
+    ended = time.process_time()
+    return [
+        {
+            **common,
+            "system": "seewhy",
+            **ours,
+            "seconds_networks": round(seeing - began, 2),
+            "seconds_answers": round(fitted - seeing, 2),
+            "seconds_test": round(scored - fitted, 2),
+        },
+        {
+            **common,
+            "system": "end_to_end",
+            **theirs,
+            # The networks of the features are the same as above and were trained there.
+            "seconds_networks": round(seeing - began + classed - scored, 2),
+            "seconds_answers": round(answering - classed, 2),
+            "seconds_test": round(ended - answering, 2),
+        },
+    ]
+
+
+VQA = Experiment(
+    name="vqa",
+    title="Classes and answers against the number of training pictures",
+    hypothesis=(
+        "H1: with few training pictures the architecture classifies better than a network trained "
+        "end to end. H2: it answers questions better at every size."
+    ),
+    systems={"seewhy": "SeeWhy", "end_to_end": "end to end"},
+    measures=MEASURES,
+    claims=(
+        Claim("accuracy", "seewhy", "end_to_end"),
+        Claim("answers", "seewhy", "end_to_end"),
+        Claim("answers_strict", "seewhy", "end_to_end"),
+        Claim("explanations", "seewhy", "end_to_end"),
+        Claim("explanations_strict", "seewhy", "end_to_end"),
+    ),
+    trial=run_trial,
+    full={
+        "structure_stability": Plan(trials=50, sizes=(100, 200, 400, 800, 1200, 1667)),
+        "traffic_signs": Plan(trials=50, sizes=(100, 200, 500, 1000, 2000, 0)),
+        "": Plan(trials=50, sizes=(100, 200, 400, 800), pictures=2000, tested=500),
+    },
+    quick={
+        "": Plan(trials=3, sizes=(100, 300), pictures=900, tested=400),
+    },
+)
