@@ -95,7 +95,7 @@ def experiment(
     command += f" --drawn {drawn}" if drawn else ""
     command += f" --out {out}"
     findings = conclude(run.experiment, rows)
-    page = out / f"{name}.html"
+    page = run.folder / "index.html"
     write_whole(page, experiment_page(run, rows, findings, command=command))
     if json:
         print_json({"page": str(page), "findings": [own.to_dict() for own in findings]})

@@ -10,7 +10,12 @@ from seewhy.nearest import did_you_mean
 
 __all__ = ["NAMES", "experiment"]
 
-_HOMES = {"vqa": ("seewhy.experiments.vqa", "VQA")}
+_HOMES = {
+    "vqa": ("seewhy.experiments.vqa", "VQA"),
+    "confidence": ("seewhy.experiments.coupling", "CONFIDENCE"),
+    "reading": ("seewhy.experiments.coupling", "READING"),
+    "ablation": ("seewhy.experiments.coupling", "ABLATION"),
+}
 
 NAMES = tuple(_HOMES)
 

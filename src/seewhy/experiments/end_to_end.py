@@ -7,7 +7,6 @@ of the picture, and the question, to the type of the answer.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -24,53 +23,13 @@ from seewhy.dialogue.reference import ReferenceAnswers
 from seewhy.domain import Domain
 from seewhy.experiments.questioning import Asked as AskedQuestion
 from seewhy.experiments.questioning import answer_scores
+from seewhy.experiments.seeing import Shown
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.perception.domain_options import training_options
-from seewhy.perception.extractor import FeatureExtractor, fit_extractor
-from seewhy.perception.options import TrainingOptions
-from seewhy.perception.rehearsal import Rehearsal
 
-__all__ = ["CLASS", "Answers", "EndToEnd", "class_options", "fit_answers", "fit_class_network"]
-
-CLASS = "class"
-"""The name under which the network of the class is trained."""
+__all__ = ["Answers", "EndToEnd", "fit_answers", "represented"]
 
 _SHOWN_AT_ONCE = 4096
-Pictures = npt.NDArray[np.uint8]
 Representation = npt.NDArray[np.float32]
-
-
-def class_options(domain: Domain, *, seed: int) -> TrainingOptions:
-    """How the network of the class is trained: as the domain's hardest feature is.
-
-    It grows until it is as accurate as the most accurate of them must be, and is as wide as the
-    widest.
-    """
-    options = training_options(domain, seed=seed).values()
-    largest = max(options, key=lambda own: (sum(own.channels), own.dense))
-    return replace(largest, threshold=max(own.threshold for own in options))
-
-
-def fit_class_network(
-    scenes: Dataset,
-    *,
-    options: TrainingOptions,
-    start_from: FeatureExtractor | None = None,
-    rehearsal: Rehearsal | None = None,
-    validation: npt.NDArray[np.int64] | None = None,
-) -> FeatureExtractor:
-    """Train one network from the picture to the class, like the network of a feature."""
-    return fit_extractor(
-        scenes.pictures(scenes.domain.pictures.size),
-        {CLASS: scenes.labels},
-        values={CLASS: tuple(scenes.domain.classes)},
-        options=options,
-        groups=scenes.groups,
-        validation=validation,
-        start_from=start_from,
-        rehearsal=rehearsal,
-        workers=1,
-    )
 
 
 class Answers:
@@ -161,63 +120,53 @@ def fit_answers(
 class EndToEnd:
     """The trained architecture: what it takes pictures to be, and what it answers.
 
+    Its networks of the features are SeeWhy's: both train them in the same way, each by itself.
+
     Parameters
     ----------
     domain : Domain
-    features : FeatureExtractor
-        The networks of the features. They are trained as SeeWhy's are, by themselves.
-    classes : FeatureExtractor
-        The network of the class.
+    train : Shown
+        The pictures that its networks were trained on.
     """
 
-    def __init__(
-        self, domain: Domain, features: FeatureExtractor, classes: FeatureExtractor
-    ) -> None:
+    def __init__(self, domain: Domain, train: Shown) -> None:
         self.domain = domain
-        self.features = features
-        self.classes = classes
+        self.train = train
         self.answers: Answers | None = None
 
-    def classify(self, pictures: Pictures) -> list[str]:
-        """The most probable class of each picture."""
-        names = self.classes.values[CLASS]
-        found = self.classes.probabilities(pictures)[CLASS].argmax(axis=1)
-        return [names[n] for n in found]
+    def fit_answers(self, questions: Questions, reference: ReferenceAnswers, *, seed: int) -> None:
+        """Train the LSTM on questions about all pictures."""
+        shown = represented(self.train)
+        self.answers = fit_answers(questions, reference, self.train.scenes, shown, seed=seed)
 
-    def vectors(self, pictures: Pictures) -> list[FeatureVector]:
+    def classify(self, shown: Shown) -> list[str]:
+        """The most probable class of each picture."""
+        names = list(self.domain.classes)
+        return [names[n] for n in shown.classes.argmax(axis=1)]
+
+    def vectors(self, shown: Shown) -> list[FeatureVector]:
         """The most probable value of every feature of each picture."""
-        seen = self.features.probabilities(pictures)
         columns = [
-            [self.features.values[key][n] for n in seen[key].argmax(axis=1)]
-            for key in self.domain.features
+            [feature.values[n] for n in shown.features[key].argmax(axis=1)]
+            for key, feature in self.domain.features.items()
         ]
         return list(zip(*columns, strict=True))
 
-    def represent(self, pictures: Pictures) -> Representation:
-        """What the LSTM is shown of each picture: the probabilities of all values and classes."""
-        seen = {**self.features.probabilities(pictures), **self.classes.probabilities(pictures)}
-        return np.concatenate(list(seen.values()), axis=1).astype(np.float32)
-
-    def fit_answers(
-        self, scenes: Dataset, questions: Questions, reference: ReferenceAnswers, *, seed: int
-    ) -> None:
-        """Train the LSTM on questions about annotated pictures."""
-        shown = self.represent(scenes.pictures(self.domain.pictures.size))
-        self.answers = fit_answers(questions, reference, scenes, shown, seed=seed)
-
     def score(
-        self, test: Dataset, asked: Sequence[AskedQuestion], reference: ReferenceAnswers
+        self, test: Shown, asked: Sequence[AskedQuestion], reference: ReferenceAnswers
     ) -> dict[str, float]:
         """Its measures on pictures and questions about them."""
         assert self.answers is not None
-        pictures = test.pictures(self.domain.pictures.size)
-        labels, vectors = self.classify(pictures), self.vectors(pictures)
-        shown = self.represent(pictures)
+        labels, vectors = self.classify(test), self.vectors(test)
         kinds = self.answers.answer(
-            [own.question for own in asked], shown[[own.picture for own in asked]]
+            [own.question for own in asked], represented(test)[[own.picture for own in asked]]
         )
-        right = [own == true for own, true in zip(labels, test.labels, strict=True)]
-        return {
-            "accuracy": float(np.mean(right)),
-            **answer_scores(asked, kinds, test, reference, vectors=vectors, labels=labels),
-        }
+        right = [own == true for own, true in zip(labels, test.scenes.labels, strict=True)]
+        scores = answer_scores(asked, kinds, test.scenes, reference, vectors=vectors, labels=labels)
+        return {"accuracy": float(np.mean(right)), **scores}
+
+
+def represented(shown: Shown) -> Representation:
+    """What the LSTM is shown of each picture: the probabilities of all values and classes."""
+    parts = [*shown.features.values(), shown.classes]
+    return np.concatenate(parts, axis=1).astype(np.float32)

@@ -52,7 +52,7 @@ class Setting:
     drawn : int
         Pictures of the domain's own source that networks are trained on before.
     out : Path
-        The folder of the experiment, for what trials share.
+        The folder for what the experiments of a domain share: pictures, and what networks saw.
     """
 
     domain: Domain

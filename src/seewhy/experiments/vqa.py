@@ -10,12 +10,20 @@ import numpy as np
 from seewhy.agent import Agent
 from seewhy.dataset import Dataset
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of
-from seewhy.experiments.drawing import divide
 from seewhy.experiments.experiment import Claim, Experiment, Measure, Plan, Row, Setting, Trial
 from seewhy.experiments.questioning import Asked, answer_scores, draw_questions
+from seewhy.experiments.seeing import Remembered, Seen, pretrain, see
 from seewhy.pictures import determined_share
 
-__all__ = ["MEASURES", "VQA", "annotator", "score_agent"]
+__all__ = [
+    "MEASURES",
+    "VQA",
+    "agent_of",
+    "annotator",
+    "common_columns",
+    "scenes_to_learn",
+    "score_agent",
+]
 
 MEASURES = (
     Measure("accuracy", "classified rightly"),
@@ -68,16 +76,36 @@ def _feature_accuracy(vectors: list[Any], test: Dataset) -> float:
     return float(np.mean([a == b for own, true in pairs for a, b in zip(own, true, strict=True)]))
 
 
-def run_trial(setting: Setting, trial: Trial) -> list[Row]:
-    """Train both architectures on one drawing of pictures and score them on another."""
-    from seewhy.experiments.end_to_end import EndToEnd, class_options, fit_class_network
+def agent_of(
+    setting: Setting,
+    seen: Seen,
+    *,
+    seed: int,
+    gate: float | None = None,
+    reading: str | None = None,
+) -> Agent:
+    """An agent that sees what a trial's networks saw in the pictures to test on."""
+    agent = Agent(setting.domain, seed=seed, known_share=1.0, gate=gate, reading=reading)
+    agent.extractor = Remembered(seen.test)  # type: ignore[assignment]
+    return agent
 
-    domain = setting.domain
-    train, test = divide(setting, trial)
-    reference = annotator(setting.scenes)
-    agent = Agent(domain, seed=trial.seed, known_share=1.0)
-    asked = draw_questions(agent.questions, test.labels, seed=trial.seed)
-    common: Row = {
+
+def scenes_to_learn(setting: Setting, train: Dataset) -> tuple[list[Any], list[str]]:
+    """The annotated scenes that the tree and the answers are learned from.
+
+    Those of the training pictures, and of the drawings that networks saw before.
+    """
+    vectors, labels = list(train.vectors), list(train.labels)
+    if setting.drawn:
+        first, _ = pretrain(setting)
+        vectors, labels = [*vectors, *first.vectors], [*labels, *first.labels]
+    return vectors, labels
+
+
+def common_columns(trial: Trial, seen: Seen) -> Row:
+    """What all rows of a trial say."""
+    train, test = seen.train.scenes, seen.test.scenes
+    return {
         "seed": trial.seed,
         "size": trial.size,
         "trained": len(train),
@@ -85,38 +113,45 @@ def run_trial(setting: Setting, trial: Trial) -> list[Row]:
         "determined": determined_share(test.vectors, test.labels),
     }
 
+
+def run_trial(setting: Setting, trial: Trial) -> list[Row]:
+    """Train both architectures on one drawing of pictures and score them on another."""
+    from seewhy.experiments.end_to_end import EndToEnd
+
+    seen = see(setting, trial)
+    train, test = seen.train.scenes, seen.test.scenes
+    reference = annotator(setting.scenes)
+    agent = agent_of(setting, seen, seed=trial.seed)
+    asked = draw_questions(agent.questions, test.labels, seed=trial.seed)
+    common = common_columns(trial, seen)
+
     began = time.process_time()
-    agent.fit(train, drawn=0, answers=False, workers=1)
-    seeing = time.process_time()
-    agent.fit_induction(train.vectors, train.labels, reference=reference)
+    agent.fit_induction(*scenes_to_learn(setting, train), reference=reference)
     fitted = time.process_time()
     ours = score_agent(agent, test, asked, reference)
     scored = time.process_time()
-
-    assert agent.extractor is not None
-    classes = fit_class_network(train, options=class_options(domain, seed=trial.seed))
-    baseline = EndToEnd(domain, agent.extractor, classes)
-    classed = time.process_time()
-    baseline.fit_answers(train, agent.questions, reference, seed=trial.seed)
+    baseline = EndToEnd(setting.domain, seen.train)
+    baseline.fit_answers(agent.questions, reference, seed=trial.seed)
     answering = time.process_time()
-    theirs = baseline.score(test, asked, reference)
+    theirs = baseline.score(seen.test, asked, reference)
     ended = time.process_time()
     return [
         {
             **common,
             "system": "seewhy",
             **ours,
-            "seconds_networks": round(seeing - began, 2),
-            "seconds_answers": round(fitted - seeing, 2),
+            "weights": seen.weights,
+            "seconds_networks": seen.seconds_features,
+            "seconds_answers": round(fitted - began, 2),
             "seconds_test": round(scored - fitted, 2),
         },
         {
             **common,
             "system": "end_to_end",
             **theirs,
-            # The networks of the features are the same as above and were trained there.
-            "seconds_networks": round(seeing - began + classed - scored, 2),
-            "seconds_answers": round(answering - classed, 2),
+            "weights": seen.weights + seen.weights_class,
+            "seconds_networks": round(seen.seconds_features + seen.seconds_class, 2),
+            "seconds_answers": round(answering - scored, 2),
             "seconds_test": round(ended - answering, 2),
         },
     ]
