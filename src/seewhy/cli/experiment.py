@@ -13,7 +13,12 @@ from seewhy.cli.screen import print_json, progress, say
 if TYPE_CHECKING:
     from seewhy.experiments.conclusions import Finding
 
-ExperimentName = Annotated[str, typer.Argument(metavar="NAME", help="The experiment: vqa.")]
+ExperimentName = Annotated[
+    str,
+    typer.Argument(
+        metavar="NAME", help="The experiment: vqa, axioms, confidence, reading or ablation."
+    ),
+]
 
 
 def experiment(
@@ -44,6 +49,10 @@ def experiment(
     jobs: Annotated[
         int, typer.Option("--jobs", min=-1, help="Trials at the same time; -1: one a core.")
     ] = -1,
+    tested: Annotated[
+        int | None,
+        typer.Option("--tested", min=1, help="Pictures that a trial tests on, without groups."),
+    ] = None,
     drawn: Annotated[
         int,
         typer.Option(
@@ -76,6 +85,7 @@ def experiment(
             sizes=None if sizes is None else read_sizes(sizes),
             first_seed=seed,
             quick=quick,
+            tested=tested,
             drawn=drawn,
             workers=jobs,
             on_picture=lambda done: bars.update(drawing, completed=done, visible=True),
@@ -92,6 +102,7 @@ def experiment(
     command += f" --sizes {sizes}" if sizes is not None else ""
     command += f" --seed {seed}" if seed else ""
     command += " --quick" if quick else ""
+    command += f" --tested {tested}" if tested is not None else ""
     command += f" --drawn {drawn}" if drawn else ""
     command += f" --out {out}"
     findings = conclude(run.experiment, rows)

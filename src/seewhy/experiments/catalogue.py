@@ -12,6 +12,7 @@ __all__ = ["NAMES", "experiment"]
 
 _HOMES = {
     "vqa": ("seewhy.experiments.vqa", "VQA"),
+    "axioms": ("seewhy.experiments.axioms", "AXIOMS"),
     "confidence": ("seewhy.experiments.coupling", "CONFIDENCE"),
     "reading": ("seewhy.experiments.coupling", "READING"),
     "ablation": ("seewhy.experiments.coupling", "ABLATION"),

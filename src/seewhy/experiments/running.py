@@ -6,8 +6,6 @@ import ctypes
 import hashlib
 import json
 import os
-import socket
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -19,6 +17,7 @@ from seewhy.dataset import TABLE
 from seewhy.domain import FILES, load_domain
 from seewhy.errors import ExperimentError
 from seewhy.experiments.catalogue import experiment
+from seewhy.experiments.claims import claimed
 from seewhy.experiments.drawing import load_pictures, pool_of, require_enough
 from seewhy.experiments.experiment import Plan, Row, Setting, Trial
 from seewhy.experiments.rows import read_trial, trial_file, write_table, write_trial
@@ -31,8 +30,6 @@ ROWS, TIMINGS = "rows.csv", "timings.csv"
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # glibc's numbers for what mallopt sets
 _KEPT = 2**30  # bytes
-
-_ABANDONED = 2 * 3600.0  # seconds after which a claim of another machine counts for nothing
 
 
 @dataclass(frozen=True)
@@ -77,6 +74,7 @@ def prepare(
     sizes: Sequence[int] | None = None,
     first_seed: int = 0,
     quick: bool = False,
+    tested: int | None = None,
     drawn: int = 0,
     workers: int = -1,
     on_picture: Callable[[int], None] | None = None,
@@ -96,6 +94,8 @@ def prepare(
     first_seed : int, default 0
     quick : bool, default False
         The smaller version of the experiment.
+    tested : int, optional
+        Pictures that a trial tests on; what the experiment says where left out.
     drawn : int, default 0
         Pictures of the domain's source that networks are trained on before.
     workers : int, default -1
@@ -117,7 +117,7 @@ def prepare(
         out.mkdir(parents=True, exist_ok=True)
     except (FileExistsError, NotADirectoryError):
         raise ExperimentError(
-            f"{out}: is a file; choose a folder for the results with --out"
+            f"{out}: is a file, or lies in one; choose a folder for the results with --out"
         ) from None
     pictures = pool_of(
         loaded, data, out, count=plan.pictures, workers=workers, on_picture=on_picture
@@ -127,7 +127,7 @@ def prepare(
         domain=domain,
         pictures=pictures,
         out=out,
-        tested=plan.tested,
+        tested=plan.tested if tested is None else tested,
         drawn=drawn,
         trials=tuple(
             Trial(seed, size) for seed in range(first_seed, first_seed + count) for size in chosen
@@ -206,7 +206,7 @@ def _run_one(run: Run, trial: Trial) -> None:
     file = trial_file(run.folder, trial)
     if file.exists():
         return
-    with _claimed(file.with_suffix(".claim")) as ours:
+    with claimed(file) as ours:
         if not ours or file.exists():
             return
         # Networks this small gain nothing from a second thread; trials run beside each other.
@@ -225,47 +225,6 @@ def _keep_memory() -> None:
         library = ctypes.CDLL(None)
         for parameter in (_TRIM_THRESHOLD, _MMAP_THRESHOLD):
             library.mallopt(parameter, _KEPT)
-
-
-@contextmanager
-def _claimed(file: Path) -> Iterator[bool]:
-    """Claim a trial by a file that only one process can make; yield whether it is ours.
-
-    A claim of a process that is gone, or of another machine hours ago, is taken over.
-    """
-    file.parent.mkdir(parents=True, exist_ok=True)
-    if _is_abandoned(file):
-        file.unlink(missing_ok=True)
-    try:
-        with file.open("x", encoding="utf-8") as stream:
-            json.dump({"host": socket.gethostname(), "process": os.getpid()}, stream)
-    except FileExistsError:
-        yield False
-        return
-    try:
-        yield True
-    finally:
-        file.unlink(missing_ok=True)
-
-
-def _is_abandoned(file: Path) -> bool:
-    try:
-        age = time.time() - file.stat().st_mtime
-        claim = json.loads(file.read_text(encoding="utf-8"))
-        host, process = claim["host"], int(claim["process"])
-    except FileNotFoundError:
-        return False
-    except (ValueError, KeyError, TypeError):
-        return age > 60.0  # half written by a process that was killed, unless it is writing now
-    if host != socket.gethostname():
-        return age > _ABANDONED
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return True
-    except PermissionError:
-        return False
-    return False
 
 
 def _check_settings(run: Run) -> None:

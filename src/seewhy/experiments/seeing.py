@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from seewhy.dataset import Dataset
 from seewhy.domain import Domain
+from seewhy.experiments.claims import claimed
 from seewhy.experiments.drawing import divide
 from seewhy.experiments.experiment import Setting, Trial
 from seewhy.files import whole_file
@@ -82,8 +83,12 @@ def see(setting: Setting, trial: Trial) -> Seen:
     """
     train, test = divide(setting, trial)
     file = setting.out / _FOLDER / f"{setting.drawn}-{trial.name}.npz"
-    if not file.is_file():
-        _train(setting, trial, train, test, file)
+    while not file.is_file():
+        with claimed(file) as ours:
+            if not ours:
+                time.sleep(1.0)  # another process trains them
+            elif not file.is_file():
+                _train(setting, trial, train, test, file)
     with np.load(file) as kept:
         numbers = json.loads(str(kept["numbers"]))
 
