@@ -24,6 +24,7 @@ from seewhy.experiments.catalogue import NAMES, experiment
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.conclusions import conclude
 from seewhy.experiments.drawing import divide, in_fold
+from seewhy.experiments.effort import Effort, efforts
 from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
 from seewhy.experiments.questioning import answer_scores, draw_questions, suitable
 from seewhy.experiments.vqa import annotator
@@ -440,6 +441,20 @@ def test_conclusions_are_drawn_from_the_numbers() -> None:
     assert json.dumps(first.to_dict(), allow_nan=False)
     (none, *_) = conclude("vqa", [])
     assert none.text.endswith("there is no finished trial yet.")
+
+
+def test_what_it_takes_to_reach_a_level() -> None:
+    rows = [*made([0.6, 0.7], [0.5, 0.5], size=100), *made([0.9, 0.9], [0.7, 0.8], size=200)]
+    for row in rows:
+        row |= {"trained": row["size"], "seconds_networks": row["size"] / 10, "seconds_test": 9.0}
+    found = efforts(rows, ["seewhy", "end_to_end"], "accuracy")
+    assert [own for own in found if own.level in (0.7, 0.8)] == [
+        Effort("seewhy", 0.7, 120.0, 12.0),
+        Effort("end_to_end", 0.7, 180.0, 18.0),
+        Effort("seewhy", 0.8, 160.0, 16.0),
+        Effort("end_to_end", 0.8, None, None),
+    ]
+    assert {own.level for own in found} == {0.7, 0.8, 0.85, 0.9}
 
 
 def test_one_trial_proves_nothing() -> None:

@@ -12,6 +12,7 @@ from jinja2 import Environment
 
 from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.conclusions import Compared, Finding, values_of
+from seewhy.experiments.effort import efforts
 from seewhy.experiments.experiment import Experiment, Measure, Row, say_size
 from seewhy.experiments.rows import is_timing
 from seewhy.experiments.running import Run
@@ -50,6 +51,7 @@ def experiment_page(
         planned=len(run.trials),
         measures=[_measure(own, measure, rows, sizes) for measure in own.measures],
         findings=[_tested(own, finding) for finding in findings],
+        efforts=_efforts(own, rows),
         timings=_timings(own, rows, sizes),
         seeds=_span(sorted({int(row["seed"]) for row in rows})),
         tested=_span(sorted({int(row["tested"]) for row in rows if "tested" in row})),
@@ -120,6 +122,18 @@ def _p(value: float) -> str:
     if math.isnan(value):
         return "–"
     return f"{value:.3f}" if value >= 0.001 else f"{value:.0e}"
+
+
+def _efforts(own: Experiment, rows: Sequence[Row]) -> list[dict[str, object]]:
+    """For every level: what each system needs to classify so many pictures rightly."""
+    found: dict[float, dict[str, object]] = {}
+    for effort in efforts(rows, list(own.systems), own.measures[0].key):
+        line = found.setdefault(effort.level, {"level": f"{100 * effort.level:.0f} %", "cells": []})
+        cells = line["cells"]
+        assert isinstance(cells, list)
+        pictures = "not reached" if effort.pictures is None else f"{effort.pictures:,.0f}"
+        cells.append(pictures + ("" if effort.seconds is None else f" ({effort.seconds:,.0f} s)"))
+    return list(found.values())
 
 
 def _timings(own: Experiment, rows: Sequence[Row], sizes: Sequence[int]) -> dict[str, object]:
