@@ -22,7 +22,7 @@ from seewhy.errors import ExperimentError
 from seewhy.experiments.axioms import agreement, incomplete, learned_again
 from seewhy.experiments.catalogue import NAMES, experiment
 from seewhy.experiments.claims import claimed
-from seewhy.experiments.conclusions import conclude
+from seewhy.experiments.conclusions import conclude, summary
 from seewhy.experiments.drawing import divide, in_fold
 from seewhy.experiments.effort import Effort, efforts
 from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
@@ -427,20 +427,44 @@ def test_conclusions_are_drawn_from_the_numbers() -> None:
     low = (0.5 + 0.01 * rng.random(12)).tolist()
     high = [own + 0.1 + 0.001 * n for n, own in enumerate(low)]
     rows = [*made(high, low, size=100), *made(low, low, size=200), *made(low, high, size=0)]
-    finding = conclude("vqa", rows)[0]
+    finding = conclude("vqa", rows, domain="tiles")[0]
     assert [own.verdict for own in finding.compared] == ["better", "open", "worse"]
     assert not finding.supported
     assert finding.text == (
         "classified rightly: SeeWhy against end to end, 12 trials: significantly better at 100 "
         "(+10.5 points); significantly worse at all (-10.5 points); not told apart at 200 "
-        "(+0.0 points). The claim is not supported at every size."
+        "(+0.0 points). What is claimed does not hold at 200, all."
     )
-    (first, *_) = conclude("vqa", made(high, low))
+    (first, *_) = conclude("vqa", made(high, low), domain="tiles")
     assert first.supported
-    assert first.text.endswith("The claim is supported.")
+    assert first.text.endswith("What is claimed holds.")
     assert json.dumps(first.to_dict(), allow_nan=False)
-    (none, *_) = conclude("vqa", [])
+    (none, *_) = conclude("vqa", [], domain="tiles")
     assert none.text.endswith("there is no finished trial yet.")
+
+
+def test_less_is_claimed_of_some_sizes_and_domains() -> None:
+    rng = np.random.default_rng(0)
+    low = (0.5 + 0.01 * rng.random(12)).tolist()
+    high = [own + 0.1 + 0.001 * n for n, own in enumerate(low)]
+    mixed = [own + 0.02 * (n % 2) - 0.009 for n, own in enumerate(low)]
+    rows = [
+        *made(high, low, size=1000),
+        *made(mixed, low, size=1001),
+        *made([own - 0.002 for own in mixed], low, size=ALL),
+    ]
+    accuracy, answers, *_ = conclude("vqa", rows, domain="traffic_signs")
+    assert [own.verdict for own in accuracy.compared] == ["better", "open", "open"]
+    assert (accuracy.failed, answers.failed) == ((ALL,), (1001, ALL))
+    equal, *_ = conclude("vqa", rows, domain="structure_stability")
+    assert equal.supported
+    worse, *_ = conclude("vqa", made(low, high), domain="structure_stability")
+    assert worse.failed == (100,)
+    assert summary([equal, worse, answers]) == (
+        "1 of 3 claims hold at every size that was tried. The hypothesis is not supported for "
+        "accuracy (seewhy against end to end) at 100; answers (seewhy against end to end) at "
+        "1001, all."
+    )
 
 
 def test_what_it_takes_to_reach_a_level() -> None:
@@ -458,7 +482,7 @@ def test_what_it_takes_to_reach_a_level() -> None:
 
 
 def test_one_trial_proves_nothing() -> None:
-    finding = conclude("vqa", made([0.9], [0.1]))[0]
+    finding = conclude("vqa", made([0.9], [0.1]), domain="tiles")[0]
     assert finding.compared[0].verdict == "open"
     assert json.dumps(finding.to_dict(), allow_nan=False)
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from seewhy.cli.options import Json
 from seewhy.cli.screen import print_json, progress, say
-
-if TYPE_CHECKING:
-    from seewhy.experiments.conclusions import Finding
 
 ExperimentName = Annotated[
     str,
@@ -66,8 +63,9 @@ def experiment(
     Every finished trial is a file: a run that is stopped goes on where it was, and several
     processes or machines that see the same folder share the work.
     """
+    from seewhy.domain import load_domain
     from seewhy.errors import ExperimentError
-    from seewhy.experiments.conclusions import conclude
+    from seewhy.experiments.conclusions import conclude, summary
     from seewhy.experiments.running import prepare, run_missing, write_tables
     from seewhy.files import write_whole
     from seewhy.report.experiment_page import experiment_page
@@ -105,13 +103,21 @@ def experiment(
     command += f" --tested {tested}" if tested is not None else ""
     command += f" --drawn {drawn}" if drawn else ""
     command += f" --out {out}"
-    findings = conclude(run.experiment, rows)
+    findings = conclude(run.experiment, rows, domain=load_domain(domain).name)
     page = run.folder / "index.html"
     write_whole(page, experiment_page(run, rows, findings, command=command))
     if json:
-        print_json({"page": str(page), "findings": [own.to_dict() for own in findings]})
+        print_json(
+            {
+                "page": str(page),
+                "summary": summary(findings),
+                "findings": [own.to_dict() for own in findings],
+            }
+        )
         return
-    print_findings(findings)
+    for own in findings:
+        say(own.text)
+    say(summary(findings))
     say(f"page: {page}")
 
 
@@ -136,9 +142,3 @@ def read_sizes(text: str) -> list[int]:
     if not found:
         raise ExperimentError("--sizes names no size; give some, as in 100,400,all")
     return found
-
-
-def print_findings(findings: list[Finding]) -> None:
-    """Print the conclusions."""
-    for own in findings:
-        say(own.text)

@@ -8,10 +8,10 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from seewhy.experiments.catalogue import experiment
-from seewhy.experiments.experiment import Claim, Experiment, Row, say_size
+from seewhy.experiments.experiment import ALL, Claim, Experiment, Row, say_size
 from seewhy.experiments.statistics import LEVEL, Paired, compare, holm
 
-__all__ = ["Compared", "Finding", "conclude", "values_of"]
+__all__ = ["Compared", "Finding", "conclude", "summary", "values_of"]
 
 
 @dataclass(frozen=True)
@@ -34,12 +34,20 @@ class Compared:
 
 @dataclass(frozen=True)
 class Finding:
-    """A claim, what the trials say about it at each size, and both in a sentence."""
+    """A claim, what the trials say about it at each size, and both in a sentence.
+
+    ``failed`` are the sizes at which the trials do not bear the claim out.
+    """
 
     claim: Claim
     compared: tuple[Compared, ...]
-    supported: bool
+    failed: tuple[int, ...]
     text: str
+
+    @property
+    def supported(self) -> bool:
+        """Whether the trials bear the claim out at every size."""
+        return bool(self.compared) and not self.failed
 
     def to_dict(self) -> dict[str, Any]:
         """Return the finding as values that JSON can hold."""
@@ -80,13 +88,28 @@ def values_of(rows: Sequence[Row], system: str, size: int, measure: str) -> dict
     }
 
 
-def conclude(name: str, rows: Sequence[Row]) -> list[Finding]:
-    """Test every claim of an experiment on its rows."""
+def conclude(name: str, rows: Sequence[Row], *, domain: str) -> list[Finding]:
+    """Test every claim of an experiment in a domain on its rows."""
     own = experiment(name)
-    return [_finding(own, claim, rows) for claim in own.claims]
+    return [_finding(own, claim, rows, domain) for claim in own.claims]
 
 
-def _finding(own: Experiment, claim: Claim, rows: Sequence[Row]) -> Finding:
+def summary(findings: Sequence[Finding]) -> str:
+    """Say in a sentence or two how many claims the trials bear out, and where they do not."""
+    held = sum(own.supported for own in findings)
+    said = f"{held} of {len(findings)} claims hold at every size that was tried."
+    missed = [own for own in findings if not own.supported and own.compared]
+    if missed:
+        parts = [
+            f"{own.claim.measure.replace('_', ' ')} ({own.claim.system.replace('_', ' ')} against "
+            f"{own.claim.against.replace('_', ' ')}) at {', '.join(map(say_size, own.failed))}"
+            for own in missed
+        ]
+        said += f" The hypothesis is not supported for {'; '.join(parts)}."
+    return said
+
+
+def _finding(own: Experiment, claim: Claim, rows: Sequence[Row], domain: str) -> Finding:
     paired: dict[int, Paired] = {}
     for size in dict.fromkeys(row["size"] for row in rows):
         one = values_of(rows, claim.system, size, claim.measure)
@@ -100,14 +123,25 @@ def _finding(own: Experiment, claim: Claim, rows: Sequence[Row]) -> Finding:
         Compared(size, found, p_t, p_wilcoxon)
         for (size, found), p_t, p_wilcoxon in zip(paired.items(), tested, ranked, strict=True)
     )
-    verdicts = [found.verdict for found in compared]
-    supported = bool(verdicts) and (
-        "worse" not in verdicts if claim.at_least_equal else set(verdicts) == {"better"}
+    failed = tuple(found.size for found in compared if not _holds(claim, found, domain))
+    return Finding(claim, compared, failed, _sentence(own, claim, compared, failed))
+
+
+def _holds(claim: Claim, found: Compared, domain: str) -> bool:
+    """Whether the trials of one size bear a claim out."""
+    if claim.at_least_equal(domain):
+        return found.verdict != "worse"
+    beyond = claim.significant_to != ALL and (
+        found.size == ALL or found.size > claim.significant_to
     )
-    return Finding(claim, compared, supported, _sentence(own, claim, compared, supported))
+    if beyond:
+        return found.verdict != "worse" and found.paired.difference.mean > 0.0
+    return found.verdict == "better"
 
 
-def _sentence(own: Experiment, claim: Claim, compared: Sequence[Compared], supported: bool) -> str:
+def _sentence(
+    own: Experiment, claim: Claim, compared: Sequence[Compared], failed: Sequence[int]
+) -> str:
     measure = own.measure(claim.measure).name
     names = f"{own.systems[claim.system]} against {own.systems[claim.against]}"
     if not compared:
@@ -127,5 +161,6 @@ def _sentence(own: Experiment, claim: Claim, compared: Sequence[Compared], suppo
             parts.append(f"{said} at {sizes} ({span} points)")
     trials = sorted({found.paired.trials for found in compared})
     number = str(trials[0]) if len(trials) == 1 else f"{trials[0]} to {trials[-1]}"
-    judged = "supported" if supported else "not supported at every size"
-    return f"{measure}: {names}, {number} trials: {'; '.join(parts)}. The claim is {judged}."
+    number += " trial" if number == "1" else " trials"
+    judged = f"does not hold at {', '.join(map(say_size, failed))}" if failed else "holds"
+    return f"{measure}: {names}, {number}: {'; '.join(parts)}. What is claimed {judged}."

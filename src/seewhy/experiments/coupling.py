@@ -153,8 +153,8 @@ ABLATION = Experiment(
     claims=(
         Claim("accuracy", "seewhy", "no_tree"),
         Claim("answers", "seewhy", "no_lstm"),
-        Claim("accuracy", "seewhy", "tree_on_all", at_least_equal=True),
-        Claim("answers", "seewhy", "lstm_on_all", at_least_equal=True),
+        Claim("accuracy", "seewhy", "tree_on_all", equal_in=("",)),
+        Claim("answers", "seewhy", "lstm_on_all", equal_in=("",)),
     ),
     trial=run_ablation,
     full=_FULL,

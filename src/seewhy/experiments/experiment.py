@@ -94,15 +94,27 @@ class Measure:
 
 @dataclass(frozen=True)
 class Claim:
-    """One system is better than another by a measure, at every size.
+    """One system is significantly better than another by a measure, at every size.
 
-    ``at_least_equal`` weakens it: it suffices that the system is nowhere significantly worse.
+    Attributes
+    ----------
+    measure, system, against : str
+    equal_in : tuple of str
+        Domains in which less is claimed: that it is nowhere significantly worse; "" for all.
+    significant_to : int
+        The largest size at which the difference has to be significant; above, the mean has to be
+        better. 0: at all sizes.
     """
 
     measure: str
     system: str
     against: str
-    at_least_equal: bool = False
+    equal_in: tuple[str, ...] = ()
+    significant_to: int = ALL
+
+    def at_least_equal(self, domain: str) -> bool:
+        """Whether it suffices in a domain that the system is nowhere significantly worse."""
+        return domain in self.equal_in or "" in self.equal_in
 
 
 @dataclass(frozen=True)

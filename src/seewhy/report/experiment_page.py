@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 from jinja2 import Environment
 
 from seewhy.experiments.catalogue import experiment
-from seewhy.experiments.conclusions import Compared, Finding, values_of
+from seewhy.experiments.conclusions import Compared, Finding, summary, values_of
 from seewhy.experiments.effort import efforts
 from seewhy.experiments.experiment import Experiment, Measure, Row, say_size
 from seewhy.experiments.rows import is_timing
@@ -50,6 +50,7 @@ def experiment_page(
         finished=finished,
         planned=len(run.trials),
         measures=[_measure(own, measure, rows, sizes) for measure in own.measures],
+        summary=summary(findings),
         findings=[_tested(own, finding) for finding in findings],
         efforts=_efforts(own, rows),
         timings=_timings(own, rows, sizes),
