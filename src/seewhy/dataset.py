@@ -126,6 +126,12 @@ class Dataset:
             taken._pixels[size] = pixels[list(positions)]
         return taken
 
+    def with_pictures(self, pixels: NDArray[np.uint8]) -> Dataset:
+        """Return the same scenes with their pictures as an earlier :meth:`pictures` gave them."""
+        same = replace(self)
+        same._pixels[pixels.shape[1]] = pixels
+        return same
+
     def without_classes(self, classes: Sequence[str]) -> Dataset:
         """Return the scenes of all other classes.
 

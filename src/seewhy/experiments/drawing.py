@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
@@ -10,10 +11,11 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from seewhy.dataset import Dataset
+from seewhy.dataset import TABLE, Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import ExperimentError
 from seewhy.experiments.experiment import ALL, Setting, Trial
+from seewhy.files import whole_file
 from seewhy.picture_source import load_source
 from seewhy.pictures import make_dataset
 
@@ -58,13 +60,21 @@ def pool_of(
 
 
 @lru_cache(maxsize=1)
-def load_pictures(domain: str, folder: Path) -> Dataset:
-    """Read a dataset with all its pictures, once a process; they are kept beside as numbers."""
+def load_pictures(domain: str, folder: Path, out: Path) -> Dataset:
+    """Read a dataset with all its pictures, once a process.
+
+    The pixels are kept in ``out``, where the next process finds them in an instant.
+    """
     own = load_domain(domain)
     scenes = Dataset.load(folder, own)
     scenes = replace(scenes, scenes=tuple(replace(scene, split="") for scene in scenes.scenes))
-    scenes.pictures(own.pictures.size)
-    return scenes
+    size = own.pictures.size
+    digest = hashlib.sha256((folder / TABLE).read_bytes()).hexdigest()[:16]
+    file = out / f"pixels-{size}-{own.pictures.fit}-{digest}.npy"
+    if not file.is_file():
+        with whole_file(file) as temporary, temporary.open("wb") as stream:
+            np.save(stream, scenes.pictures(size))
+    return scenes.with_pictures(np.load(file, mmap_mode="r"))
 
 
 def require_enough(setting: Setting, size: int) -> None:

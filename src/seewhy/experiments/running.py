@@ -195,7 +195,7 @@ def _backend(jobs: int) -> Iterator[None]:
 
 
 def _setting(run: Run) -> Setting:
-    scenes = load_pictures(run.domain, run.pictures)
+    scenes = load_pictures(run.domain, run.pictures, run.out)
     return Setting(scenes.domain, scenes, run.tested, run.drawn, run.out)
 
 
