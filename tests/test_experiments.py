@@ -191,6 +191,14 @@ def test_pictures_are_drawn_where_none_are_given(
     assert (result.code, result.err) == (0, "")
     assert len(list((out / "pictures" / "images").glob("*.png"))) == 40
     assert [row["tested"] for row in rows_of(out / "reading")] == ["20", "20"]
+    # Networks that drawings taught go on from there; the tree knows the drawings, too.
+    more = tmp_path / "more"
+    before = ("experiment", "reading", "--domain", folder, "--data", out / "pictures")
+    result = run(*before, "--out", more, "--quick", "--jobs", 1, "--drawn", 10)
+    assert (result.code, result.err) == (0, "")
+    assert (more / "drawn-10" / "class" / "perception.safetensors").is_file()
+    assert (more / "networks" / "10-12-0.npz").is_file()
+    assert [row["tested"] for row in rows_of(more / "reading")] == ["20", "20"]
 
 
 # What is refused ---------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ CLASS = "class"
 """The name under which the network of the class is trained."""
 
 _FOLDER = "networks"
-_DRAWN = "drawn"
+_DRAWN, _FEATURES = "drawn", "features"
 
 Probabilities = Mapping[str, npt.NDArray[np.float64]]
 
@@ -186,24 +186,20 @@ def _class_network(
 
 
 def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
-    """Train both architectures on pictures of the domain's source, once for all trials."""
+    """Return what both architectures learned from drawings; train them where nobody did.
+
+    The networks of the features, and that of the class, on pictures of the domain's source; once
+    for all trials.
+    """
     domain = setting.domain
     folder = setting.out / f"{_DRAWN}-{setting.drawn}"
-    done = folder / "features"
-    if not done.is_dir():
-        first = pretrained(
-            domain,
-            count=setting.drawn,
-            together=domain.reading == "consistent",
-            checkpoints=folder,
-        )
-        done.mkdir(parents=True)
-        first.extractor.save(done)
+    while not (folder / CLASS).is_dir():
+        with claimed(folder / CLASS) as ours:
+            if not ours:
+                time.sleep(1.0)  # another process trains them
+            elif not (folder / CLASS).is_dir():
+                _pretrain(setting, folder)
     scenes = Dataset.load(folder / "drawn", domain)
-    if not (folder / CLASS).is_dir():
-        own = _class_network(scenes, class_options(domain, seed=0))
-        (folder / CLASS).mkdir()
-        own.save(folder / CLASS)
     pixels = scenes.pictures(domain.pictures.size)
     columns = {
         key: [str(value) for value in column]
@@ -211,7 +207,9 @@ def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
     }
     vectors, labels = tuple(scenes.vectors), tuple(scenes.labels)
     return (
-        Pretrained(FeatureExtractor.load(done), Rehearsal(pixels, columns), vectors, labels),
+        Pretrained(
+            FeatureExtractor.load(folder / _FEATURES), Rehearsal(pixels, columns), vectors, labels
+        ),
         Pretrained(
             FeatureExtractor.load(folder / CLASS),
             Rehearsal(pixels, {CLASS: scenes.labels}),
@@ -219,3 +217,27 @@ def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
             labels,
         ),
     )
+
+
+def _pretrain(setting: Setting, folder: Path) -> None:
+    """Draw pictures, and train both on them; what was finished before is not done again."""
+    domain = setting.domain
+    if not (folder / _FEATURES).is_dir():
+        first = pretrained(
+            domain,
+            count=setting.drawn,
+            together=domain.reading == "consistent",
+            workers=1,
+            checkpoints=folder,
+        )
+        _save(first.extractor, folder / _FEATURES)
+    scenes = Dataset.load(folder / "drawn", domain)
+    _save(_class_network(scenes, class_options(domain, seed=0)), folder / CLASS)
+
+
+def _save(networks: FeatureExtractor, folder: Path) -> None:
+    """Write networks to a folder that is there when it is whole."""
+    begun = folder.with_name(f"{folder.name}-begun")
+    begun.mkdir(parents=True, exist_ok=True)
+    networks.save(begun)
+    begun.rename(folder)
