@@ -492,6 +492,12 @@ def test_what_it_takes_to_reach_a_level() -> None:
 def test_one_trial_proves_nothing() -> None:
     finding = conclude("vqa", made([0.9], [0.1]), domain="tiles")[0]
     assert finding.compared[0].verdict == "open"
+    assert summary([finding]).startswith("There are too few trials for any difference to be")
+    # Six of six at one size: Wilcoxon's p is 2/64.
+    few = conclude("vqa", made([0.9] * 5, [0.1] * 5), domain="tiles")
+    enough = conclude("vqa", made([0.9] * 6, [0.1] * 6), domain="tiles")
+    assert summary(few).startswith("There are too few")
+    assert summary(enough) == "5 of 5 claims hold at every size that was tried."
     assert json.dumps(finding.to_dict(), allow_nan=False)
 
 

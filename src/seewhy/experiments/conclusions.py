@@ -96,6 +96,11 @@ def conclude(name: str, rows: Sequence[Row], *, domain: str) -> list[Finding]:
 
 def summary(findings: Sequence[Finding]) -> str:
     """Say in a sentence or two how many claims the trials bear out, and where they do not."""
+    if any(map(_too_few, findings)):
+        return (
+            "There are too few trials for any difference to be significant after correction; what "
+            "follows says where to look, and no more."
+        )
     held = sum(own.supported for own in findings)
     said = f"{held} of {len(findings)} claims hold at every size that was tried."
     missed = [own for own in findings if not own.supported and own.compared]
@@ -107,6 +112,12 @@ def summary(findings: Sequence[Finding]) -> str:
         ]
         said += f" The hypothesis is not supported for {'; '.join(parts)}."
     return said
+
+
+def _too_few(finding: Finding) -> bool:
+    """Whether Wilcoxon's test could not reach the level, were one system better in every trial."""
+    sizes = len(finding.compared)
+    return any(sizes * 2.0 ** (1 - own.paired.trials) >= LEVEL for own in finding.compared)
 
 
 def _finding(own: Experiment, claim: Claim, rows: Sequence[Row], domain: str) -> Finding:
