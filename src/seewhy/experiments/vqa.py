@@ -182,7 +182,7 @@ VQA = Experiment(
     ),
     trial=run_trial,
     full={
-        "structure_stability": Plan(trials=50, sizes=(100, 200, 400, 800, 1200, 1667)),
+        "structure_stability": Plan(trials=50, sizes=(100, 200, 400, 800, 1667)),
         "traffic_signs": Plan(trials=50, sizes=(100, 200, 500, 1000, 2000, 0)),
         "": Plan(trials=50, sizes=(100, 200, 400, 800), pictures=2000, tested=500),
     },
