@@ -56,6 +56,7 @@ def image(tmp_path: Path) -> Path:
         ("new", "Write a working domain folder"),
         ("check", "Check a domain folder"),
         ("demo", "Make pictures, train, evaluate, ask"),
+        ("experiment", "Run an experiment, or what is missing of it"),
         ("data", "Make datasets and look at them."),
         ("data make", "Make pictures with the domain's own source"),
         ("data show", "Write a contact sheet"),

@@ -779,6 +779,22 @@ def test_one_picture_takes_milliseconds(trained: FeatureExtractor) -> None:
 # On disk
 
 
+def test_a_feature_of_one_value_is_saved_at_its_depth(tmp_path: Path) -> None:
+    pictures = np.zeros((6, 16, 16, 3), dtype=np.uint8)
+    made = fit_extractor(
+        pictures,
+        {"light": ["on"] * 6},
+        values={"light": ["on", "off"]},
+        options=TrainingOptions(depth=3),
+        workers=1,
+    )
+    made.save(tmp_path)
+    loaded = FeatureExtractor.load(tmp_path)
+    assert made.records["light"].depth == loaded.networks["light"].depth == 3
+    seen = [own.probabilities(pictures)["light"] for own in (made, loaded)]
+    assert np.array_equal(*seen)
+
+
 def test_saved_and_loaded(trained: FeatureExtractor, tmp_path: Path) -> None:
     trained.save(tmp_path / "model")
     loaded = FeatureExtractor.load(tmp_path / "model")

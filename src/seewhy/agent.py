@@ -176,6 +176,7 @@ class Agent:
         start_from: Agent | Pretrained | None = None,
         drawn: int | None = None,
         answers: bool = True,
+        reference: ReferenceAnswers | None = None,
         workers: int = -1,
         checkpoints: Path | None = None,
         on_picture: Callable[[int], None] | None = None,
@@ -198,6 +199,8 @@ class Agent:
             where the dataset was drawn itself or ``start_from`` is given.
         answers : bool, default True
             False leaves the recurrent network out, where only classes are of interest.
+        reference : ReferenceAnswers, optional
+            Whose answers to learn; see :meth:`fit_induction`.
         workers : int, default -1
             Features trained at the same time; -1: one a core. The weights do not depend on it.
         checkpoints : Path, optional
@@ -274,6 +277,7 @@ class Agent:
             [*scenes.labels, *(first.labels if first else ())],
             uncertain=self._uncertain(pixels),
             answers=answers,
+            reference=reference,
         )
         self.familiarity, self.validation_scores = None, {}
         if validation is not None:

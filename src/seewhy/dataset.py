@@ -120,8 +120,17 @@ class Dataset:
         return replace(self, scenes=chosen)
 
     def take(self, positions: Sequence[int]) -> Dataset:
-        """Return the scenes at some positions."""
-        return replace(self, scenes=tuple(self.scenes[p] for p in positions))
+        """Return the scenes at some positions; pictures that were read are not read again."""
+        taken = replace(self, scenes=tuple(self.scenes[p] for p in positions))
+        for size, pixels in self._pixels.items():
+            taken._pixels[size] = pixels[list(positions)]
+        return taken
+
+    def with_pictures(self, pixels: NDArray[np.uint8]) -> Dataset:
+        """Return the same scenes with their pictures as an earlier :meth:`pictures` gave them."""
+        same = replace(self)
+        same._pixels[pixels.shape[1]] = pixels
+        return same
 
     def without_classes(self, classes: Sequence[str]) -> Dataset:
         """Return the scenes of all other classes.

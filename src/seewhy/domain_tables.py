@@ -69,6 +69,7 @@ class NetworkTable(_Table):
     channels: Channels = (8, 16, 32, 64)
     dense: int = Field(default=64, ge=1, le=65_536)
     epochs: int = Field(default=18, ge=1, le=10_000)
+    patience: int = Field(default=6, ge=1, le=10_000)
     batch: int = Field(default=64, ge=1, le=65_536)
 
 

@@ -53,3 +53,7 @@ class NotFittedError(SeeWhyError, ValueError):
 
 class PlanningError(SeeWhyError, ValueError):
     """A goal, a history or a simulation cannot be used as it stands."""
+
+
+class ExperimentError(SeeWhyError, ValueError):
+    """An experiment cannot be run as it was asked for, or its folder cannot be used."""

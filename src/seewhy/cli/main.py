@@ -17,6 +17,7 @@ from seewhy.cli import (
     data,
     demo,
     evaluate,
+    experiment,
     learn,
     new,
     plan,
@@ -51,6 +52,7 @@ app.command("check")(check.check)
 app.command("plan")(plan.plan)
 app.command("simulate")(simulate.simulate)
 app.command("demo")(demo.demo)
+app.command("experiment")(experiment.experiment)
 
 
 def main() -> None:

@@ -44,7 +44,7 @@ def fit_learned_answers(
         if question.asks not in _NOT_LEARNED:
             by_query.setdefault(question.query, []).append(question)
     examples = []
-    for number, queries in _drawn(by_query, labels, most=most_examples, seed=seed):
+    for number, queries in dealt(by_query, labels, most=most_examples, seed=seed):
         vector, label = vectors[number], labels[number]
         for query in queries:
             same = by_query[query]
@@ -65,10 +65,10 @@ def fit_learned_answers(
     )
 
 
-def _drawn(
+def dealt(
     by_query: Mapping[Query, Sequence[Question]], labels: Sequence[str], *, most: int, seed: int
 ) -> Iterator[tuple[int, list[Query]]]:
-    """Scenes by their numbers, and what each is asked."""
+    """Yield scenes by their numbers, and what each is asked; see :func:`fit_learned_answers`."""
     queries = list(by_query)
     if len(queries) * len(labels) <= most:
         for number in range(len(labels)):

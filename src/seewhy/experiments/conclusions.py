@@ -1,0 +1,177 @@
+"""What the rows of an experiment say about its hypothesis: tests, and a sentence for each claim."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from seewhy.experiments.catalogue import experiment
+from seewhy.experiments.experiment import ALL, Claim, Experiment, Row, say_size
+from seewhy.experiments.statistics import LEVEL, Paired, compare, holm
+
+__all__ = ["Compared", "Finding", "conclude", "summary", "values_of"]
+
+
+@dataclass(frozen=True)
+class Compared:
+    """Two systems at one size, with the p-values corrected for the number of sizes (Holm)."""
+
+    size: int
+    paired: Paired
+    corrected_t: float
+    corrected_wilcoxon: float
+
+    @property
+    def verdict(self) -> str:
+        """ "better", "worse" or "open": both tests must reach the level after correction."""
+        largest = max(self.corrected_t, self.corrected_wilcoxon)
+        if math.isnan(largest) or largest >= LEVEL or self.paired.difference.mean == 0.0:
+            return "open"
+        return "better" if self.paired.difference.mean > 0.0 else "worse"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A claim, what the trials say about it at each size, and both in a sentence.
+
+    ``failed`` are the sizes at which the trials do not bear the claim out.
+    """
+
+    claim: Claim
+    compared: tuple[Compared, ...]
+    failed: tuple[int, ...]
+    text: str
+
+    @property
+    def supported(self) -> bool:
+        """Whether the trials bear the claim out at every size."""
+        return bool(self.compared) and not self.failed
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the finding as values that JSON can hold."""
+        return {
+            **asdict(self.claim),
+            "supported": self.supported,
+            "text": self.text,
+            "sizes": [
+                {
+                    "size": say_size(own.size),
+                    **_finite(asdict(own.paired)),
+                    "corrected_t": _number(own.corrected_t),
+                    "corrected_wilcoxon": _number(own.corrected_wilcoxon),
+                    "verdict": own.verdict,
+                }
+                for own in self.compared
+            ],
+        }
+
+
+def _finite(values: dict[str, Any]) -> dict[str, Any]:
+    return {
+        key: _finite(own) if isinstance(own, dict) else _number(own) for key, own in values.items()
+    }
+
+
+def _number(value: Any) -> Any:
+    """The value, or None for a number that JSON has no word for."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def values_of(rows: Sequence[Row], system: str, size: int, measure: str) -> dict[int, float]:
+    """Seed → the measure of a system at a size."""
+    return {
+        int(row["seed"]): float(row[measure])
+        for row in rows
+        if row["system"] == system and row["size"] == size and row.get(measure) is not None
+    }
+
+
+def conclude(name: str, rows: Sequence[Row], *, domain: str) -> list[Finding]:
+    """Test every claim of an experiment in a domain on its rows."""
+    own = experiment(name)
+    return [_finding(own, claim, rows, domain) for claim in own.claims]
+
+
+def summary(findings: Sequence[Finding]) -> str:
+    """Say in a sentence or two how many claims the trials bear out, and where they do not."""
+    if any(map(_too_few, findings)):
+        return (
+            "There are too few trials for any difference to be significant after correction; what "
+            "follows says where to look, and no more."
+        )
+    held = sum(own.supported for own in findings)
+    said = f"{held} of {len(findings)} claims hold at every size that was tried."
+    missed = [own for own in findings if not own.supported and own.compared]
+    if missed:
+        parts = [
+            f"{own.claim.measure.replace('_', ' ')} ({own.claim.system.replace('_', ' ')} against "
+            f"{own.claim.against.replace('_', ' ')}) at {', '.join(map(say_size, own.failed))}"
+            for own in missed
+        ]
+        said += f" The hypothesis is not supported for {'; '.join(parts)}."
+    return said
+
+
+def _too_few(finding: Finding) -> bool:
+    """Whether Wilcoxon's test could not reach the level, were one system better in every trial."""
+    sizes = len(finding.compared)
+    return any(sizes * 2.0 ** (1 - own.paired.trials) >= LEVEL for own in finding.compared)
+
+
+def _finding(own: Experiment, claim: Claim, rows: Sequence[Row], domain: str) -> Finding:
+    paired: dict[int, Paired] = {}
+    for size in dict.fromkeys(row["size"] for row in rows):
+        one = values_of(rows, claim.system, size, claim.measure)
+        other = values_of(rows, claim.against, size, claim.measure)
+        seeds = sorted(one.keys() & other.keys())
+        if seeds:
+            paired[size] = compare([one[s] for s in seeds], [other[s] for s in seeds])
+    tested = holm([own.p_t for own in paired.values()])
+    ranked = holm([own.p_wilcoxon for own in paired.values()])
+    compared = tuple(
+        Compared(size, found, p_t, p_wilcoxon)
+        for (size, found), p_t, p_wilcoxon in zip(paired.items(), tested, ranked, strict=True)
+    )
+    failed = tuple(found.size for found in compared if not _holds(claim, found, domain))
+    return Finding(claim, compared, failed, _sentence(own, claim, compared, failed))
+
+
+def _holds(claim: Claim, found: Compared, domain: str) -> bool:
+    """Whether the trials of one size bear a claim out."""
+    if claim.at_least_equal(domain):
+        return found.verdict != "worse"
+    beyond = claim.significant_to != ALL and (
+        found.size == ALL or found.size > claim.significant_to
+    )
+    if beyond:
+        return found.verdict != "worse" and found.paired.difference.mean > 0.0
+    return found.verdict == "better"
+
+
+def _sentence(
+    own: Experiment, claim: Claim, compared: Sequence[Compared], failed: Sequence[int]
+) -> str:
+    measure = own.measure(claim.measure).name
+    names = f"{own.systems[claim.system]} against {own.systems[claim.against]}"
+    if not compared:
+        return f"{measure}: {names}: there is no finished trial yet."
+    parts = []
+    for verdict, said in (
+        ("better", "significantly better"),
+        ("worse", "significantly worse"),
+        ("open", "not told apart"),
+    ):
+        there = [found for found in compared if found.verdict == verdict]
+        if there:
+            sizes = ", ".join(say_size(found.size) for found in there)
+            points = [100 * found.paired.difference.mean for found in there]
+            least, most = f"{min(points):+.1f}", f"{max(points):+.1f}"
+            span = least if least == most else f"{least} to {most}"
+            parts.append(f"{said} at {sizes} ({span} points)")
+    trials = sorted({found.paired.trials for found in compared})
+    number = str(trials[0]) if len(trials) == 1 else f"{trials[0]} to {trials[-1]}"
+    number += " trial" if number == "1" else " trials"
+    judged = f"does not hold at {', '.join(map(say_size, failed))}" if failed else "holds"
+    return f"{measure}: {names}, {number}: {'; '.join(parts)}. What is claimed {judged}."

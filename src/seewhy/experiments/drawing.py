@@ -1,0 +1,132 @@
+"""The pictures of an experiment, and which of them a trial trains and tests on."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from seewhy.dataset import TABLE, Dataset
+from seewhy.domain import Domain, load_domain
+from seewhy.errors import ExperimentError
+from seewhy.experiments.experiment import ALL, Setting, Trial
+from seewhy.files import whole_file
+from seewhy.picture_source import load_source
+from seewhy.pictures import make_dataset
+
+__all__ = ["divide", "in_fold", "load_pictures", "pool_of", "require_enough"]
+
+FOLDS = 5
+"""Where pictures have groups, a fifth of the groups of every class is tested on."""
+
+_POOL = "pictures"
+
+Indices = npt.NDArray[np.int64]
+
+
+def pool_of(
+    domain: Domain,
+    data: Path | None,
+    out: Path,
+    *,
+    count: int,
+    workers: int,
+    on_picture: Callable[[int], None] | None = None,
+) -> Path:
+    """Return the folder of pictures that trials draw from; draw them where the user gave none.
+
+    Raises
+    ------
+    ExperimentError
+        If there is no folder and the domain has no source of pictures.
+    """
+    if data is not None:
+        return data
+    if domain.source is None:
+        raise ExperimentError(
+            f"the domain '{domain.name}' has no source of pictures; name a folder of annotated "
+            "pictures with --data"
+        )
+    load_source(domain)
+    make_dataset(
+        domain, out / _POOL, count=count, workers=workers, test_share=0.0, on_progress=on_picture
+    )
+    return out / _POOL
+
+
+@lru_cache(maxsize=1)
+def load_pictures(domain: str, folder: Path, out: Path) -> Dataset:
+    """Read a dataset with all its pictures, once a process.
+
+    The pixels are kept in ``out``, where the next process finds them in an instant.
+    """
+    own = load_domain(domain)
+    scenes = Dataset.load(folder, own)
+    scenes = replace(scenes, scenes=tuple(replace(scene, split="") for scene in scenes.scenes))
+    size = own.pictures.size
+    digest = hashlib.sha256((folder / TABLE).read_bytes()).hexdigest()[:16]
+    file = out / f"pixels-{size}-{own.pictures.fit}-{digest}.npy"
+    if not file.is_file():
+        with whole_file(file) as temporary, temporary.open("wb") as stream:
+            np.save(stream, scenes.pictures(size))
+    return scenes.with_pictures(np.load(file, mmap_mode="r"))
+
+
+def require_enough(setting: Setting, size: int) -> None:
+    """Raise an ExperimentError if there are too few pictures for a size."""
+    total = len(setting.scenes)
+    left = total - setting.tested if not has_groups(setting.scenes) else total
+    if size > left or (size == ALL and left < 1):
+        raise ExperimentError(
+            f"{setting.scenes.folder}: {total} pictures are too few to train on {size} and test on "
+            f"{total - left or 'a fifth'} of them; choose a smaller size, or give more pictures"
+        )
+
+
+def has_groups(scenes: Dataset) -> bool:
+    """Whether several pictures show one thing."""
+    return len(set(scenes.groups)) < len(scenes)
+
+
+def divide(setting: Setting, trial: Trial) -> tuple[Dataset, Dataset]:
+    """Return the pictures that a trial trains on, and those that it tests on.
+
+    What is tested on depends on the seed alone, what is trained on is drawn anew for each size.
+    Where pictures have groups these stay whole: every fifth of the groups of each class is
+    tested on, and five seeds in a row test on all.
+    """
+    scenes = setting.scenes
+    if has_groups(scenes):
+        tested = np.flatnonzero(in_fold(scenes, trial.seed % FOLDS, seed=trial.seed // FOLDS))
+    else:
+        order = np.random.default_rng(trial.seed).permutation(len(scenes))
+        tested = np.sort(order[: setting.tested])
+    rest = np.setdiff1d(np.arange(len(scenes)), tested)
+    drawn = np.random.default_rng([trial.seed, trial.size, 1]).permutation(rest)
+    train = drawn if trial.size == ALL else drawn[: trial.size]
+    return scenes.take(np.sort(train).tolist()), scenes.take(tested.tolist())
+
+
+def in_fold(scenes: Dataset, fold: int, *, seed: int = 0) -> npt.NDArray[np.bool_]:
+    """Which scenes are in one of five folds: every class gives its share of groups."""
+    groups: dict[str, dict[str, None]] = {}
+    for scene, group in zip(scenes.scenes, scenes.groups, strict=True):
+        groups.setdefault(scene.label, {}).setdefault(group, None)
+    rng = np.random.default_rng(seed)
+    tested: set[tuple[str, str]] = set()
+    for label in sorted(groups):
+        own = [str(group) for group in rng.permutation(list(groups[label]))]
+        first = int(rng.integers(FOLDS))  # or rare classes would all fall into the first folds
+        tested |= {(label, group) for n, group in enumerate(own) if (n + first) % FOLDS == fold}
+    return np.array(
+        [
+            (scene.label, group) in tested
+            for scene, group in zip(scenes.scenes, scenes.groups, strict=True)
+        ],
+        dtype=bool,
+    )

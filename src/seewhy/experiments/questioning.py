@@ -1,0 +1,132 @@
+"""Questions drawn for pictures, and the score of the answers, alike for every system."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from seewhy.dataset import Dataset
+from seewhy.dialogue.answer import AnswerType
+from seewhy.dialogue.question import Asks, Query, Question, Questions
+from seewhy.dialogue.reference import ReferenceAnswers
+from seewhy.evaluation import EXPLANATORY, score_answer
+from seewhy.knowledge.scene import FeatureVector
+
+__all__ = ["Asked", "answer_scores", "draw_questions", "suitable"]
+
+QUESTIONS = 8
+"""Questions drawn for every picture."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A question about one of several pictures."""
+
+    picture: int
+    question: Question
+
+
+def suitable(question: Question, label: str) -> bool:
+    """Whether a question can be asked of a picture of a class: what it presumes is so.
+
+    Examples
+    --------
+    >>> why = Question(Asks.WHY_CLASS, "", (), label="stable")
+    >>> suitable(why, "stable"), suitable(why, "unstable")
+    (True, False)
+    """
+    if question.asks is Asks.WHY_CLASS:
+        return question.label == label
+    if question.asks in (Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS, Asks.DIFFERENCE_TO_CLASS):
+        return question.label != label
+    return question.asks is not Asks.EXPLAIN
+
+
+def draw_questions(
+    questions: Questions, labels: Sequence[str], *, seed: int, count: int = QUESTIONS
+) -> list[Asked]:
+    """Draw different questions for each picture from those that suit its class, and a wording.
+
+    Every kind of question (why, how many, …) is as likely as every other, however many classes
+    and values it can be asked about.
+    """
+    wordings: dict[Query, list[Question]] = {}
+    for question in questions.all:
+        wordings.setdefault(question.query, []).append(question)
+    rng = np.random.default_rng([seed, 2])
+    found: list[Asked] = []
+    by_class: dict[str, tuple[list[Query], np.ndarray[tuple[int], np.dtype[np.float64]]]] = {}
+    for number, label in enumerate(labels):
+        if label not in by_class:
+            own = [query for query, same in wordings.items() if suitable(same[0], label)]
+            kinds = [query[0] for query in own]
+            chances = np.array([1.0 / kinds.count(kind) for kind in kinds])
+            by_class[label] = own, chances / chances.sum()
+        queries, chance = by_class[label]
+        drawn = rng.choice(len(queries), size=min(count, len(queries)), replace=False, p=chance)
+        for chosen in drawn:
+            same = wordings[queries[int(chosen)]]
+            found.append(Asked(number, same[int(rng.integers(len(same)))]))
+    return found
+
+
+def answer_scores(
+    asked: Sequence[Asked],
+    kinds: Sequence[AnswerType],
+    scenes: Dataset,
+    reference: ReferenceAnswers,
+    *,
+    vectors: Sequence[FeatureVector],
+    labels: Sequence[str | None],
+) -> dict[str, float]:
+    """Score answers by the paper's measure and by the strict one.
+
+    Parameters
+    ----------
+    asked, kinds : sequence, length n
+        The questions, and the type of the answer to each.
+    scenes : Dataset
+        The pictures with their annotation.
+    reference : ReferenceAnswers
+        What correct answers say.
+    vectors, labels : sequence, one a picture
+        What the system takes the features and the class to be; its answers name these.
+
+    Returns
+    -------
+    dict of str to float
+        "answers" and "answers_strict" over all questions, "explanations" and
+        "explanations_strict" over those that ask why, why not, and what would have to change.
+    """
+    features = list(scenes.domain.features)
+    seen = [_named(features, own) for own in vectors]
+    true = [_named(features, own) for own in scenes.vectors]
+    scored: list[tuple[bool, bool, bool]] = []
+    for own, kind in zip(asked, kinds, strict=True):
+        scene = scenes.scenes[own.picture]
+        enough, exact = score_answer(
+            kind,
+            reference.answer(own.question, scene.vector, scene.label),
+            seen=seen[own.picture],
+            true=true[own.picture],
+            right_class=labels[own.picture] == scene.label,
+        )
+        scored.append((enough, exact, own.question.asks in EXPLANATORY))
+    explaining = [row for row in scored if row[2]]
+    return {
+        "answers": _share([row[0] for row in scored]),
+        "answers_strict": _share([row[1] for row in scored]),
+        "explanations": _share([row[0] for row in explaining]),
+        "explanations_strict": _share([row[1] for row in explaining]),
+    }
+
+
+def _named(features: Sequence[str], vector: FeatureVector) -> dict[str, str | None]:
+    own: Mapping[str, str | None] = dict(zip(features, vector, strict=True))
+    return dict(own)
+
+
+def _share(outcomes: Sequence[bool]) -> float:
+    return float(np.mean(outcomes)) if outcomes else 0.0

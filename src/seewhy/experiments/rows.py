@@ -1,0 +1,91 @@
+"""The results on disk: one file a finished trial, and one table of all."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from seewhy.errors import ExperimentError
+from seewhy.experiments.experiment import Row, Trial
+from seewhy.files import write_whole
+
+__all__ = ["is_timing", "read_trial", "trial_file", "write_table", "write_trial"]
+
+_FOLDER = "trials"
+
+
+def is_timing(column: str) -> bool:
+    """Whether a column is a time, which no two runs agree about.
+
+    Examples
+    --------
+    >>> is_timing("seconds_training"), is_timing("seed")
+    (True, False)
+    """
+    return column.startswith("seconds")
+
+
+def trial_file(out: Path, trial: Trial) -> Path:
+    """Where a trial's rows lie."""
+    return out / _FOLDER / f"{trial.name}.json"
+
+
+def write_trial(out: Path, trial: Trial, rows: Sequence[Row]) -> None:
+    """Write the rows of a finished trial, whole or not at all."""
+    write_whole(trial_file(out, trial), json.dumps({"trial": trial.name, "rows": rows}, indent=1))
+
+
+def read_trial(out: Path, trial: Trial) -> list[Row] | None:
+    """Return the rows of a trial; None where it is not finished.
+
+    Raises
+    ------
+    ExperimentError
+        If the file is damaged.
+    """
+    file = trial_file(out, trial)
+    try:
+        text = file.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return None
+    except UnicodeDecodeError:
+        raise _damaged(file) from None
+    try:
+        found: Any = json.loads(text)
+        rows = found["rows"]
+        sound = found["trial"] == trial.name and all(
+            isinstance(row, dict) and (row["seed"], row["size"]) == (trial.seed, trial.size)
+            for row in rows
+        )
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise _damaged(file) from None
+    if not sound or not rows:
+        raise _damaged(file)
+    return list(rows)
+
+
+def _damaged(file: Path) -> ExperimentError:
+    return ExperimentError(
+        f"{file}: is not as it was written; delete it, and the same command runs the trial again"
+    )
+
+
+def write_table(path: Path, rows: Iterable[Row], *, timings: bool) -> None:
+    """Write rows as CSV: what the trials found, or with ``timings`` how long they took.
+
+    The table without timings is the same whenever the trials are.
+    """
+    rows = list(rows)
+    names = dict.fromkeys(name for row in rows for name in row)
+    keys = ("seed", "size", "system")
+    columns = [name for name in names if (name in keys if timings else not is_timing(name))]
+    columns += [name for name in names if timings and is_timing(name)]
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns, lineterminator="\n", extrasaction="ignore")
+    writer.writeheader()
+    writer.writerows(rows)
+    write_whole(path, text.getvalue())

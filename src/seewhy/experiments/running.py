@@ -1,0 +1,260 @@
+"""Run the trials of an experiment that are missing, in any number of processes and machines."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import json
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from joblib import Parallel, delayed, parallel_config
+
+from seewhy.dataset import TABLE
+from seewhy.domain import FILES, load_domain
+from seewhy.errors import ExperimentError
+from seewhy.experiments.catalogue import experiment
+from seewhy.experiments.claims import claimed
+from seewhy.experiments.drawing import load_pictures, pool_of, require_enough
+from seewhy.experiments.experiment import Plan, Row, Setting, Trial
+from seewhy.experiments.rows import read_trial, trial_file, write_table, write_trial
+from seewhy.files import write_whole
+
+__all__ = ["Run", "finished_rows", "prepare", "run_missing", "write_tables"]
+
+SETTINGS = "settings.json"
+ROWS, TIMINGS = "rows.csv", "timings.csv"
+
+_TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # glibc's numbers for what mallopt sets
+_KEPT = 2**30  # bytes
+
+
+@dataclass(frozen=True)
+class Run:
+    """An experiment as it is asked for: what is passed to the processes that run its trials.
+
+    Attributes
+    ----------
+    experiment : str
+        Its name.
+    domain : str
+        A bundled domain's name or a domain folder.
+    pictures, out : Path
+        Where the pictures are, and where the results go.
+    tested, drawn : int
+        See :class:`~seewhy.experiments.experiment.Setting`.
+    trials : tuple of Trial
+        Seed by seed, so that what is finished early has every size.
+    """
+
+    experiment: str
+    domain: str
+    pictures: Path
+    out: Path
+    tested: int
+    drawn: int
+    trials: tuple[Trial, ...]
+
+    @property
+    def folder(self) -> Path:
+        """Where the results of the experiment lie; beside it, what experiments share."""
+        return self.out / self.experiment
+
+
+def prepare(
+    name: str,
+    domain: str,
+    out: Path,
+    *,
+    data: Path | None = None,
+    trials: int | None = None,
+    sizes: Sequence[int] | None = None,
+    first_seed: int = 0,
+    quick: bool = False,
+    tested: int | None = None,
+    drawn: int = 0,
+    workers: int = -1,
+    on_picture: Callable[[int], None] | None = None,
+) -> Run:
+    """Make or find the pictures, check what is asked for, and return it as data.
+
+    Parameters
+    ----------
+    name, domain : str
+    out : Path
+        The folder for results; a folder with results of the same settings is gone on with.
+    data : Path, optional
+        Annotated pictures; without it the domain's source draws some.
+    trials : int, optional
+        How many seeds; what the experiment says where left out, as for ``sizes``.
+    sizes : sequence of int, optional
+    first_seed : int, default 0
+    quick : bool, default False
+        The smaller version of the experiment.
+    tested : int, optional
+        Pictures that a trial tests on; what the experiment says where left out.
+    drawn : int, default 0
+        Pictures of the domain's source that networks are trained on before.
+    workers : int, default -1
+        Processes that draw pictures.
+    on_picture : callable, optional
+        Called with the number of pictures drawn so far.
+
+    Raises
+    ------
+    ExperimentError
+        If something asked for cannot be done.
+    """
+    own = experiment(name)
+    loaded = load_domain(domain)
+    plan: Plan = own.plan(loaded.name, quick=quick)
+    count = plan.trials if trials is None else trials
+    chosen = tuple(dict.fromkeys(plan.sizes if sizes is None else sizes))
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise ExperimentError(
+            f"{out}: is a file, or lies in one; choose a folder for the results with --out"
+        ) from None
+    pictures = pool_of(
+        loaded, data, out, count=plan.pictures, workers=workers, on_picture=on_picture
+    )
+    run = Run(
+        experiment=name,
+        domain=domain,
+        pictures=pictures,
+        out=out,
+        tested=plan.tested if tested is None else tested,
+        drawn=drawn,
+        trials=tuple(
+            Trial(seed, size) for seed in range(first_seed, first_seed + count) for size in chosen
+        ),
+    )
+    setting = _setting(run)
+    for size in chosen:
+        require_enough(setting, size)
+    _check_settings(run)
+    return run
+
+
+def run_missing(run: Run, *, jobs: int = -1, on_trial: Callable[[int], None] | None = None) -> None:
+    """Run the trials that no file is there for.
+
+    Parameters
+    ----------
+    run : Run
+    jobs : int, default -1
+        Processes; -1: one a core. Where Ray is installed and connected to a cluster
+        (``RAY_ADDRESS``), joblib hands the trials to its machines; the folder of the results must
+        be one that all of them see.
+    on_trial : callable, optional
+        Called with the number of finished trials, those of earlier calls included.
+    """
+    missing = [trial for trial in run.trials if read_trial(run.folder, trial) is None]
+    done = len(run.trials) - len(missing)
+    if on_trial is not None:
+        on_trial(done)
+    with _backend(jobs):
+        tasks = (delayed(_run_one)(run, trial) for trial in missing)
+        for _ in Parallel(return_as="generator_unordered")(tasks):
+            done += 1
+            if on_trial is not None:
+                on_trial(done)
+
+
+def finished_rows(run: Run) -> list[Row]:
+    """The rows of all trials of a run that are finished, size by size."""
+    ordered = sorted(run.trials, key=lambda own: (own.size == 0, own.size, own.seed))
+    return [row for trial in ordered for row in read_trial(run.folder, trial) or ()]
+
+
+def write_tables(run: Run) -> list[Row]:
+    """Write all finished rows as tables, the timings in one of their own; return the rows."""
+    rows = finished_rows(run)
+    write_table(run.folder / ROWS, rows, timings=False)
+    write_table(run.folder / TIMINGS, rows, timings=True)
+    return rows
+
+
+@contextmanager
+def _backend(jobs: int) -> Iterator[None]:
+    """Choose joblib's backend: Ray's where a cluster is named and Ray is there."""
+    if os.environ.get("RAY_ADDRESS"):
+        with suppress(ImportError):
+            from ray.util.joblib import register_ray  # type: ignore[import-not-found,unused-ignore]
+
+            register_ray()
+            with parallel_config(backend="ray", n_jobs=jobs):
+                yield
+            return
+    with parallel_config(n_jobs=jobs):
+        yield
+
+
+def _setting(run: Run) -> Setting:
+    scenes = load_pictures(run.domain, run.pictures, run.out)
+    return Setting(scenes.domain, scenes, run.tested, run.drawn, run.out)
+
+
+def _run_one(run: Run, trial: Trial) -> None:
+    """Run one trial and write its rows, unless somebody else does or did."""
+    import torch
+
+    file = trial_file(run.folder, trial)
+    if file.exists():
+        return
+    with claimed(file) as ours:
+        if not ours or file.exists():
+            return
+        # Networks this small gain nothing from a second thread; trials run beside each other.
+        torch.set_num_threads(1)
+        _keep_memory()
+        write_trial(run.folder, trial, experiment(run.experiment).trial(_setting(run), trial))
+
+
+def _keep_memory() -> None:
+    """Let freed memory stay with this process, where the C library can be told so (glibc).
+
+    Every step of training takes and frees the same megabytes; fetching them from the system anew
+    costs a tenth of the time.
+    """
+    with suppress(OSError, AttributeError):
+        library = ctypes.CDLL(None)
+        for parameter in (_TRIM_THRESHOLD, _MMAP_THRESHOLD):
+            library.mallopt(parameter, _KEPT)
+
+
+def _check_settings(run: Run) -> None:
+    """Keep what the trials depend on beside them; refuse a folder of other settings."""
+    domain = load_domain(run.domain)
+    settings = {
+        "domain": domain.name,
+        "knowledge": _digest(*(domain.folder / name for name in FILES)),
+        "pictures": _digest(run.pictures / TABLE),
+        "tested": run.tested,
+        "drawn": run.drawn,
+    }
+    file = run.out / SETTINGS
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        write_whole(file, json.dumps(settings, indent=1))
+        return
+    except ValueError:
+        raise ExperimentError(
+            f"{file}: is not as it was written; choose another folder with --out, or delete this "
+            "one"
+        ) from None
+    wrong = [key for key, value in settings.items() if found.get(key) != value]
+    if wrong:
+        raise ExperimentError(
+            f"{run.out}: holds trials with other settings ({', '.join(wrong)}); choose another "
+            "folder with --out, or delete this one"
+        )
+
+
+def _digest(*files: Path) -> str:
+    return hashlib.sha256(b"\0".join(file.read_bytes() for file in files)).hexdigest()[:16]

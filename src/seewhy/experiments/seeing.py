@@ -1,0 +1,243 @@
+"""What networks make of a trial's pictures: trained once, kept on disk, shared by experiments."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from seewhy.dataset import Dataset
+from seewhy.domain import Domain
+from seewhy.experiments.claims import claimed
+from seewhy.experiments.drawing import divide
+from seewhy.experiments.experiment import Setting, Trial
+from seewhy.files import whole_file
+from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.options import TrainingOptions
+from seewhy.perception.rehearsal import Rehearsal
+from seewhy.pretraining import Pretrained, pretrained
+
+__all__ = ["CLASS", "Remembered", "Seen", "Shown", "class_options", "pretrain", "see"]
+
+CLASS = "class"
+"""The name under which the network of the class is trained."""
+
+_FOLDER = "networks"
+_DRAWN, _FEATURES = "drawn", "features"
+
+Probabilities = Mapping[str, npt.NDArray[np.float64]]
+
+
+@dataclass(frozen=True)
+class Shown:
+    """Pictures with what the networks of the features, and that of the class, make of them."""
+
+    scenes: Dataset
+    features: Probabilities
+    classes: npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Seen:
+    """The pictures that a trial trains on and tests on, as its networks see them.
+
+    Attributes
+    ----------
+    train, test : Shown
+    seconds_features, seconds_class : float
+        Processor time of training the networks of the features, and that of the class.
+    weights, weights_class : int
+        How many weights they have.
+    """
+
+    train: Shown
+    test: Shown
+    seconds_features: float
+    seconds_class: float
+    weights: int
+    weights_class: int
+
+
+class Remembered:
+    """What networks saw in given pictures, in place of the networks."""
+
+    def __init__(self, shown: Shown) -> None:
+        self._shown = shown
+
+    def probabilities(self, pictures: npt.NDArray[np.uint8]) -> dict[str, Any]:
+        """The probabilities of each feature's values; the pictures are always the same."""
+        assert len(pictures) == len(self._shown.scenes)
+        return dict(self._shown.features)
+
+
+def see(setting: Setting, trial: Trial) -> Seen:
+    """Return what the networks of a trial make of its pictures; train them where none did.
+
+    The networks of the features are trained as :meth:`seewhy.agent.Agent.fit` trains them.
+    """
+    train, test = divide(setting, trial)
+    file = setting.out / _FOLDER / f"{setting.drawn}-{trial.name}.npz"
+    while not file.is_file():
+        with claimed(file) as ours:
+            if not ours:
+                time.sleep(1.0)  # another process trains them
+            elif not file.is_file():
+                _train(setting, trial, train, test, file)
+    with np.load(file) as kept:
+        numbers = json.loads(str(kept["numbers"]))
+
+        def shown(part: str, scenes: Dataset) -> Shown:
+            features = {key: kept[f"{part}/{key}"] for key in setting.domain.features}
+            return Shown(scenes, features, kept[f"{part}-{CLASS}"])
+
+        return Seen(shown("train", train), shown("test", test), **numbers)
+
+
+def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: Path) -> None:
+    from seewhy.perception.domain_options import training_options
+
+    domain = setting.domain
+    pixels = {
+        "train": train.pictures(domain.pictures.size),
+        "test": test.pictures(domain.pictures.size),
+    }
+    first, first_class = pretrain(setting) if setting.drawn else (None, None)
+    began = time.process_time()
+    features = fit_extractor(
+        pixels["train"],
+        dict(zip(domain.features, zip(*train.vectors, strict=True), strict=True)),
+        values={key: own.values for key, own in domain.features.items()},
+        options=training_options(domain, seed=trial.seed),
+        groups=train.groups,
+        start_from=first.extractor if first else None,
+        rehearsal=first.rehearsal if first else None,
+        together=domain.reading == "consistent",
+        workers=1,
+    )
+    middle = time.process_time()
+    classes = _class_network(
+        train,
+        class_options(domain, seed=trial.seed),
+        start_from=first_class.extractor if first_class else None,
+        rehearsal=first_class.rehearsal if first_class else None,
+    )
+    ended = time.process_time()
+    kept: dict[str, Any] = {
+        "numbers": json.dumps(
+            {
+                "seconds_features": round(middle - began, 2),
+                "seconds_class": round(ended - middle, 2),
+                "weights": sum(own.parameters_count for own in features.networks.values()),
+                "weights_class": classes.networks[CLASS].parameters_count,
+            }
+        )
+    }
+    for part, own in pixels.items():
+        for key, found in features.probabilities(own).items():
+            kept[f"{part}/{key}"] = found
+        kept[f"{part}-{CLASS}"] = classes.probabilities(own)[CLASS]
+    with whole_file(file) as temporary, temporary.open("wb") as stream:
+        np.savez_compressed(stream, **kept)
+
+
+def class_options(domain: Domain, *, seed: int) -> TrainingOptions:
+    """How the network of the class is trained: as the network of the hardest feature is.
+
+    It is as wide as the widest and must be as accurate as the most accurate; where all start as
+    deep as can be and many features make up the class, its dense layer is wider, so that it has
+    about as many weights as they have together.
+    """
+    from seewhy.perception.domain_options import training_options
+
+    options = training_options(domain, seed=seed).values()
+    largest = max(options, key=lambda own: (sum(own.channels), own.dense))
+    wider = 1 if len(domain.classes) == 2 else 2
+    return replace(
+        largest,
+        threshold=max(own.threshold for own in options),
+        dense=wider * largest.dense,
+    )
+
+
+def _class_network(
+    scenes: Dataset,
+    options: TrainingOptions,
+    *,
+    start_from: FeatureExtractor | None = None,
+    rehearsal: Rehearsal | None = None,
+) -> FeatureExtractor:
+    """Train one network from the picture to the class, like the network of a feature."""
+    return fit_extractor(
+        scenes.pictures(scenes.domain.pictures.size),
+        {CLASS: scenes.labels},
+        values={CLASS: tuple(scenes.domain.classes)},
+        options=options,
+        groups=scenes.groups,
+        start_from=start_from,
+        rehearsal=rehearsal,
+        workers=1,
+    )
+
+
+def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
+    """Return what both architectures learned from drawings; train them where nobody did.
+
+    The networks of the features, and that of the class, on pictures of the domain's source; once
+    for all trials.
+    """
+    domain = setting.domain
+    folder = setting.out / f"{_DRAWN}-{setting.drawn}"
+    while not (folder / CLASS).is_dir():
+        with claimed(folder / CLASS) as ours:
+            if not ours:
+                time.sleep(1.0)  # another process trains them
+            elif not (folder / CLASS).is_dir():
+                _pretrain(setting, folder)
+    scenes = Dataset.load(folder / "drawn", domain)
+    pixels = scenes.pictures(domain.pictures.size)
+    columns = {
+        key: [str(value) for value in column]
+        for key, column in zip(domain.features, zip(*scenes.vectors, strict=True), strict=True)
+    }
+    vectors, labels = tuple(scenes.vectors), tuple(scenes.labels)
+    return (
+        Pretrained(
+            FeatureExtractor.load(folder / _FEATURES), Rehearsal(pixels, columns), vectors, labels
+        ),
+        Pretrained(
+            FeatureExtractor.load(folder / CLASS),
+            Rehearsal(pixels, {CLASS: scenes.labels}),
+            vectors,
+            labels,
+        ),
+    )
+
+
+def _pretrain(setting: Setting, folder: Path) -> None:
+    """Draw pictures, and train both on them; what was finished before is not done again."""
+    domain = setting.domain
+    if not (folder / _FEATURES).is_dir():
+        first = pretrained(
+            domain,
+            count=setting.drawn,
+            together=domain.reading == "consistent",
+            workers=1,
+            checkpoints=folder,
+        )
+        _save(first.extractor, folder / _FEATURES)
+    scenes = Dataset.load(folder / "drawn", domain)
+    _save(_class_network(scenes, class_options(domain, seed=0)), folder / CLASS)
+
+
+def _save(networks: FeatureExtractor, folder: Path) -> None:
+    """Write networks to a folder that is there when it is whole."""
+    begun = folder.with_name(f"{folder.name}-begun")
+    begun.mkdir(parents=True, exist_ok=True)
+    networks.save(begun)
+    begun.rename(folder)

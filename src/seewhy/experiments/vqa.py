@@ -1,0 +1,192 @@
+"""H1 and H2: classes and answers against the number of training pictures, beside end to end."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+
+from seewhy.agent import Agent
+from seewhy.dataset import Dataset
+from seewhy.dialogue.reference import ReferenceAnswers, experience_of
+from seewhy.experiments.experiment import Claim, Experiment, Measure, Plan, Row, Setting, Trial
+from seewhy.experiments.questioning import Asked, answer_scores, draw_questions
+from seewhy.experiments.seeing import Remembered, Seen, pretrain, see
+from seewhy.pictures import determined_share
+
+__all__ = [
+    "MEASURES",
+    "VQA",
+    "agent_of",
+    "annotator",
+    "common_columns",
+    "scenes_to_learn",
+    "score_agent",
+]
+
+MEASURES = (
+    Measure("accuracy", "classified rightly"),
+    Measure("answers", "answers, every relevant attribute"),
+    Measure("answers_strict", "answers, those and no other"),
+    Measure("explanations", "explanatory answers, every relevant attribute"),
+    Measure("explanations_strict", "explanatory answers, those and no other"),
+)
+
+
+def annotator(scenes: Dataset) -> ReferenceAnswers:
+    """Who annotates questions with answers: knows the full knowledge and all annotated scenes.
+
+    The same answers train all systems and judge them.
+    """
+    agent = Agent(scenes.domain)
+    experience = experience_of(scenes.vectors, scenes.labels)
+    return ReferenceAnswers(scenes.domain, agent.reasoned, experience)
+
+
+def score_agent(
+    agent: Agent, test: Dataset, asked: list[Asked], reference: ReferenceAnswers
+) -> dict[str, Any]:
+    """The measures of an agent on pictures and questions about them."""
+    found = agent.classify_all(test.pictures(test.domain.pictures.size))
+    replies = agent.answer_all([(found[own.picture], own.question) for own in asked])
+    labels = [own.label for own in found]
+    vectors = [own.vector for own in found]
+    return {
+        "accuracy": _agreement(labels, test.labels),
+        **answer_scores(
+            asked,
+            [reply.kind for reply in replies],
+            test,
+            reference,
+            vectors=vectors,
+            labels=labels,
+        ),
+        "features": _feature_accuracy(vectors, test),
+        "by_knowledge": float(np.mean([own.method == "knowledge" for own in found])),
+    }
+
+
+def _agreement(found: list[str | None] | list[str], true: list[str]) -> float:
+    return float(np.mean([own == label for own, label in zip(found, true, strict=True)]))
+
+
+def _feature_accuracy(vectors: list[Any], test: Dataset) -> float:
+    pairs = zip(vectors, test.vectors, strict=True)
+    return float(np.mean([a == b for own, true in pairs for a, b in zip(own, true, strict=True)]))
+
+
+def agent_of(
+    setting: Setting,
+    seen: Seen,
+    *,
+    seed: int,
+    gate: float | None = None,
+    reading: str | None = None,
+) -> Agent:
+    """An agent that sees what a trial's networks saw in the pictures to test on."""
+    agent = Agent(setting.domain, seed=seed, known_share=1.0, gate=gate, reading=reading)
+    agent.extractor = Remembered(seen.test)  # type: ignore[assignment]
+    return agent
+
+
+def scenes_to_learn(setting: Setting, train: Dataset) -> tuple[list[Any], list[str]]:
+    """The annotated scenes that the tree and the answers are learned from.
+
+    Those of the training pictures, and of the drawings that networks saw before.
+    """
+    vectors, labels = list(train.vectors), list(train.labels)
+    if setting.drawn:
+        first, _ = pretrain(setting)
+        vectors, labels = [*vectors, *first.vectors], [*labels, *first.labels]
+    return vectors, labels
+
+
+def common_columns(trial: Trial, seen: Seen) -> Row:
+    """What all rows of a trial say."""
+    train, test = seen.train.scenes, seen.test.scenes
+    return {
+        "seed": trial.seed,
+        "size": trial.size,
+        "trained": len(train),
+        "tested": len(test),
+        "determined": determined_share(test.vectors, test.labels),
+    }
+
+
+def run_trial(setting: Setting, trial: Trial) -> list[Row]:
+    """Train both architectures on one drawing of pictures and score them on another."""
+    from seewhy.experiments.end_to_end import EndToEnd
+
+    seen = see(setting, trial)
+    train, test = seen.train.scenes, seen.test.scenes
+    reference = annotator(setting.scenes)
+    agent = agent_of(setting, seen, seed=trial.seed)
+    asked = draw_questions(agent.questions, test.labels, seed=trial.seed)
+    common = common_columns(trial, seen)
+
+    began = time.process_time()
+    agent.fit_induction(*scenes_to_learn(setting, train), reference=reference)
+    fitted = time.process_time()
+    ours = score_agent(agent, test, asked, reference)
+    scored = time.process_time()
+    baseline = EndToEnd(setting.domain, seen.train)
+    baseline.fit_answers(agent.questions, reference, seed=trial.seed)
+    answering = time.process_time()
+    theirs = baseline.score(seen.test, asked, reference)
+    ended = time.process_time()
+    return [
+        {
+            **common,
+            "system": "seewhy",
+            **ours,
+            "weights": seen.weights,
+            "seconds_networks": seen.seconds_features,
+            "seconds_answers": round(fitted - began, 2),
+            "seconds_test": round(scored - fitted, 2),
+        },
+        {
+            **common,
+            "system": "end_to_end",
+            **theirs,
+            "weights": seen.weights + seen.weights_class,
+            "seconds_networks": round(seen.seconds_features + seen.seconds_class, 2),
+            "seconds_answers": round(answering - scored, 2),
+            "seconds_test": round(ended - answering, 2),
+        },
+    ]
+
+
+VQA = Experiment(
+    name="vqa",
+    title="Classes and answers against the number of training pictures",
+    hypothesis=(
+        "H1: with up to 1,000 training pictures the architecture classifies better than a network "
+        "trained end to end, with more no worse; structures at least as well at every size. "
+        "H2: it answers questions better at every size."
+    ),
+    systems={"seewhy": "SeeWhy", "end_to_end": "end to end"},
+    measures=MEASURES,
+    claims=(
+        Claim(
+            "accuracy",
+            "seewhy",
+            "end_to_end",
+            equal_in=("structure_stability",),
+            significant_to=1000,
+        ),
+        Claim("answers", "seewhy", "end_to_end"),
+        Claim("answers_strict", "seewhy", "end_to_end"),
+        Claim("explanations", "seewhy", "end_to_end"),
+        Claim("explanations_strict", "seewhy", "end_to_end"),
+    ),
+    trial=run_trial,
+    full={
+        "structure_stability": Plan(trials=50, sizes=(100, 200, 400, 800, 1667)),
+        "traffic_signs": Plan(trials=50, sizes=(100, 200, 500, 1000, 2000, 0)),
+        "": Plan(trials=50, sizes=(100, 200, 400, 800), pictures=2000, tested=500),
+    },
+    quick={
+        "": Plan(trials=3, sizes=(100, 300), pictures=900, tested=400),
+    },
+)

@@ -1,0 +1,165 @@
+"""The page of an experiment: figures, tables, tests and conclusions in one HTML file."""
+
+from __future__ import annotations
+
+import math
+import platform
+from collections.abc import Sequence
+from importlib import resources
+from importlib.metadata import PackageNotFoundError, version
+
+from jinja2 import Environment
+
+from seewhy.experiments.catalogue import experiment
+from seewhy.experiments.conclusions import Compared, Finding, summary, values_of
+from seewhy.experiments.effort import efforts
+from seewhy.experiments.experiment import Experiment, Measure, Row, say_size
+from seewhy.experiments.rows import is_timing
+from seewhy.experiments.running import Run
+from seewhy.experiments.statistics import interval
+from seewhy.report.line_chart import Line, Point, draw_lines
+
+__all__ = ["experiment_page"]
+
+_LIBRARIES = ("seewhy", "torch", "clingo", "scikit-learn", "scipy", "numpy", "mujoco-core")
+
+
+def experiment_page(
+    run: Run, rows: Sequence[Row], findings: Sequence[Finding], *, command: str
+) -> str:
+    """Return the page as the text of an HTML file that opens with no network.
+
+    Parameters
+    ----------
+    run : Run
+    rows : sequence of rows
+        Of the trials that are finished.
+    findings : sequence of Finding
+        See :func:`seewhy.experiments.conclusions.conclude`.
+    command : str
+        What makes the page, for its last lines.
+    """
+    own = experiment(run.experiment)
+    sizes = list(dict.fromkeys(row["size"] for row in rows))
+    finished = len({(row["seed"], row["size"]) for row in rows})
+    template = resources.files("seewhy.report").joinpath("experiment.html")
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    return environment.from_string(template.read_text(encoding="utf-8")).render(
+        experiment=own,
+        domain=run.domain,
+        finished=finished,
+        planned=len(run.trials),
+        measures=[_measure(own, measure, rows, sizes) for measure in own.measures],
+        summary=summary(findings),
+        findings=[_tested(own, finding) for finding in findings],
+        efforts=_efforts(own, rows),
+        timings=_timings(own, rows, sizes),
+        seeds=_span(sorted({int(row["seed"]) for row in rows})),
+        tested=_span(sorted({int(row["tested"]) for row in rows if "tested" in row})),
+        libraries=[(name, _version(name)) for name in _LIBRARIES],
+        python=platform.python_version(),
+        command=command,
+    )
+
+
+def _measure(
+    own: Experiment, measure: Measure, rows: Sequence[Row], sizes: Sequence[int]
+) -> dict[str, object]:
+    lines, table = [], []
+    for system, name in own.systems.items():
+        points, cells = [], []
+        for size in sizes:
+            values = list(values_of(rows, system, size, measure.key).values())
+            if not values:
+                cells.append("–")
+                continue
+            found = interval(values)
+            points.append(Point(say_size(size), found.mean, found.low, found.high))
+            cells.append(
+                f"{100 * found.mean:.1f} ({100 * found.low:.1f} to {100 * found.high:.1f})"
+            )
+        if points:
+            lines.append(Line(name, tuple(points)))
+            table.append({"name": name, "cells": cells})
+    labels = [say_size(size) for size in sizes]
+    return {
+        "name": measure.name,
+        "sizes": labels,
+        "systems": table,
+        "figure": draw_lines(lines, labels, across=own.across, up=measure.name).svg,
+    }
+
+
+def _tested(own: Experiment, finding: Finding) -> dict[str, object]:
+    claim = finding.claim
+    return {
+        "measure": own.measure(claim.measure).name,
+        "system": own.systems[claim.system],
+        "against": own.systems[claim.against],
+        "text": finding.text,
+        "supported": finding.supported,
+        "sizes": [_cells(compared) for compared in finding.compared],
+    }
+
+
+def _cells(compared: Compared) -> list[str]:
+    paired = compared.paired
+    difference = paired.difference
+    return [
+        say_size(compared.size),
+        str(paired.trials),
+        f"{100 * difference.mean:+.2f}",
+        f"{100 * difference.low:+.2f} to {100 * difference.high:+.2f}",
+        "–" if not math.isfinite(paired.effect) else f"{paired.effect:+.2f}",
+        _p(paired.p_t),
+        _p(compared.corrected_t),
+        _p(paired.p_wilcoxon),
+        _p(compared.corrected_wilcoxon),
+        compared.verdict,
+    ]
+
+
+def _p(value: float) -> str:
+    if math.isnan(value):
+        return "–"
+    return f"{value:.3f}" if value >= 0.001 else f"{value:.0e}"
+
+
+def _efforts(own: Experiment, rows: Sequence[Row]) -> list[dict[str, object]]:
+    """For every level: what each system needs to classify so many pictures rightly."""
+    found: dict[float, dict[str, object]] = {}
+    for effort in efforts(rows, list(own.systems), own.measures[0].key):
+        line = found.setdefault(effort.level, {"level": f"{100 * effort.level:.0f} %", "cells": []})
+        cells = line["cells"]
+        assert isinstance(cells, list)
+        pictures = "not reached" if effort.pictures is None else f"{effort.pictures:,.0f}"
+        cells.append(pictures + ("" if effort.seconds is None else f" ({effort.seconds:,.0f} s)"))
+    return list(found.values())
+
+
+def _timings(own: Experiment, rows: Sequence[Row], sizes: Sequence[int]) -> dict[str, object]:
+    """Mean processor seconds of every part of a trial, by system and size."""
+    columns = list(dict.fromkeys(name for row in rows for name in row if is_timing(name)))
+    lines = []
+    for system, name in own.systems.items():
+        for size in sizes:
+            cells = []
+            for column in columns:
+                spent = list(values_of(rows, system, size, column).values())
+                cells.append(f"{sum(spent) / len(spent):.1f}" if spent else "–")
+            lines.append([name, say_size(size), *cells])
+    names = [name.removeprefix("seconds_").replace("_", " ") for name in columns]
+    return {"columns": names, "lines": lines if columns else []}
+
+
+def _span(numbers: Sequence[int]) -> str:
+    if not numbers:
+        return "none"
+    return str(numbers[0]) if len(numbers) == 1 else f"{numbers[0]} to {numbers[-1]}"
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "not installed"

@@ -1,0 +1,513 @@
+"""Experiments, on tiles: what is run, what is kept, what is refused, and what is concluded."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from conftest import DOMAIN, Run, write_domain
+from seewhy.agent import Agent
+from seewhy.dataset import Dataset
+from seewhy.dialogue.answer import AnswerType
+from seewhy.dialogue.question import Asks
+from seewhy.domain import Domain
+from seewhy.errors import ExperimentError
+from seewhy.experiments.axioms import agreement, incomplete, learned_again
+from seewhy.experiments.catalogue import NAMES, experiment
+from seewhy.experiments.claims import claimed
+from seewhy.experiments.conclusions import conclude, summary
+from seewhy.experiments.drawing import divide, in_fold
+from seewhy.experiments.effort import Effort, efforts
+from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
+from seewhy.experiments.questioning import answer_scores, draw_questions, suitable
+from seewhy.experiments.vqa import annotator
+from seewhy.learning import AnnotatedScenes
+
+SMALL = ("--trials", 2, "--sizes", "20,30", "--tested", 15, "--jobs", 1)
+
+
+def setting(dataset: Dataset, out: Path, *, tested: int = 20) -> Setting:
+    plain = tuple(replace(scene, split="") for scene in dataset.scenes)
+    return Setting(dataset.domain, replace(dataset, scenes=plain), tested, 0, out)
+
+
+# Networks as deep as can be and trained for one pass see enough here, and soon.
+HASTY = DOMAIN + "\n[networks]\nepochs = 1\ndepth = 3\n"
+
+
+@pytest.fixture(scope="module")
+def hasty(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a domain of tiles that is trained quickly."""
+    return write_domain(tmp_path_factory.mktemp("hasty") / "tiles", domain=HASTY)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _few_epochs() -> Iterator[None]:
+    """Ten passes over the questions, however few they are."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("seewhy.dialogue.recurrent.ENOUGH_EXAMPLES", 1)
+        yield
+
+
+# Running -----------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def finished(hasty: Path, tiles_data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a finished experiment; do not write to it."""
+    from seewhy.cli.experiment import experiment as command
+
+    out = tmp_path_factory.mktemp("experiment") / "out"
+    command(
+        "vqa", out, domain=str(hasty), data=tiles_data, trials=2, sizes="20,30", tested=15,
+        jobs=1,
+    )  # fmt: skip
+    return out
+
+
+def rows_of(folder: Path) -> list[dict[str, str]]:
+    with (folder / "rows.csv").open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_every_trial_has_a_row_for_each_system(finished: Path) -> None:
+    rows = rows_of(finished / "vqa")
+    assert [(row["size"], row["seed"], row["system"]) for row in rows] == [
+        (size, seed, system)
+        for size in ("20", "30")
+        for seed in ("0", "1")
+        for system in ("seewhy", "end_to_end")
+    ]
+    for row in rows:
+        assert (row["trained"], row["tested"]) == (row["size"], "15")
+        for key in ("accuracy", "answers", "answers_strict", "explanations_strict"):
+            assert 0.0 <= float(row[key]) <= 1.0
+        assert float(row["answers_strict"]) <= float(row["answers"])
+    assert not [name for name in rows[0] if name.startswith("seconds")]
+    timings = (finished / "vqa" / "timings.csv").read_text().splitlines()
+    assert timings[0] == "seed,size,system,seconds_networks,seconds_answers,seconds_test"
+    assert len(timings) == 9
+
+
+def test_the_page_is_whole(finished: Path) -> None:
+    page = (finished / "vqa" / "index.html").read_text(encoding="utf-8")
+    for part in (
+        "<title>SeeWhy: Classes and answers against the number of training pictures</title>",
+        "4 of 4 trials are finished, seeds 0 to 1; 15 pictures or scenes tested in each.",
+        "classified rightly: SeeWhy against end to end, 2 trials:",
+        "<th>Cohen&#39;s dz</th>" if "Cohen&#39;s" in page else "<th>Cohen's dz</th>",
+        "<polyline points=",
+        "Processor seconds on one core",
+        "seewhy experiment vqa --domain",
+        "--trials 2 --sizes 20,30 --tested 15",
+    ):
+        assert part in page
+    assert "not complete" not in page
+    for outside in ("http://", "https://", "src=", "@import"):
+        assert outside not in page.replace("http://www.w3.org/2000/svg", "")
+
+
+def test_a_run_adds_only_what_is_missing(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    trials = finished / "vqa" / "trials"
+    before = {file.name: file.stat().st_mtime_ns for file in trials.iterdir()}
+    table = (finished / "vqa" / "rows.csv").read_bytes()
+    lost = trials / "30-1.json"
+    lost.unlink()
+    (finished / "networks" / "0-30-1.npz").unlink()
+    command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+    result = run(*command, "--out", finished, *SMALL, "--json")
+    assert (result.code, result.err) == (0, "")
+    after = {file.name: file.stat().st_mtime_ns for file in trials.iterdir()}
+    assert after.keys() == before.keys()
+    assert [name for name in before if after[name] != before[name]] == ["30-1.json"]
+    assert (finished / "vqa" / "rows.csv").read_bytes() == table
+    findings = json.loads(result.out)["findings"]
+    assert [own["measure"] for own in findings][:2] == ["accuracy", "answers"]
+    assert [own["size"] for own in findings[0]["sizes"]] == ["20", "30"]
+
+
+def test_the_same_seeds_give_the_same_rows(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path, tmp_path: Path
+) -> None:
+    command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+    again = ("--trials", 1, "--sizes", "30", "--seed", 1, "--tested", 15, "--jobs", 1)
+    assert run(*command, "--out", tmp_path / "out", *again).code == 0
+    ours = rows_of(tmp_path / "out" / "vqa")
+    assert ours == [
+        row for row in rows_of(finished / "vqa") if (row["size"], row["seed"]) == ("30", "1")
+    ]
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in ("vqa", "planning")])
+def test_other_experiments_use_what_networks_saw(
+    run: Run, name: str, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    command = ("experiment", name, "--domain", hasty, "--data", tiles_data)
+    few = ("--trials", 1, "--sizes", "30", "--tested", 15, "--jobs", 1)
+    result = run(*command, "--out", finished, *few)
+    assert (result.code, result.err) == (0, "")
+    rows = rows_of(finished / name)
+    own = experiment(name)
+    assert [row["system"] for row in rows] == list(own.systems)
+    assert result.out.splitlines()[-1] == f"page: {finished / name / 'index.html'}"
+    if name == "ablation":
+        whole = next(row for row in rows_of(finished / "vqa") if row["size"] == "30")
+        for key in ("accuracy", "answers", "explanations_strict"):
+            assert rows[0][key] == whole[key]
+
+
+def test_pictures_are_drawn_where_none_are_given(
+    tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = (
+        "import numpy as np\n"
+        "def draw(*, seed, index, size):\n"
+        "    colour = ('red', 'green', 'blue')[index % 3]\n"
+        "    picture = np.full((size, size, 3), 40 * (1 + index % 3), dtype=np.uint8)\n"
+        "    return picture, {'colour': colour, 'round': 'no'}, "
+        "'good' if colour == 'red' else 'bad'\n"
+    )
+    folder = write_domain(tmp_path / "tiles", domain=HASTY)
+    text = (folder / "domain.toml").read_text()
+    (folder / "domain.toml").write_text(
+        text.replace('subject = "the tile"', 'subject = "the tile"\nsource = "pictures.py"')
+    )
+    (folder / "pictures.py").write_text(source)
+    out = tmp_path / "out"
+    plan = Plan(trials=1, sizes=(12,), pictures=40, tested=20)
+    small = replace(experiment("reading"), quick={"": plan})
+    monkeypatch.setattr("seewhy.experiments.running.experiment", lambda _: small)
+    command = ("experiment", "reading", "--domain", folder, "--out", out, "--quick", "--jobs", 1)
+    result = run(*command)
+    assert (result.code, result.err) == (0, "")
+    assert len(list((out / "pictures" / "images").glob("*.png"))) == 40
+    assert [row["tested"] for row in rows_of(out / "reading")] == ["20", "20"]
+    # Networks that drawings taught go on from there; the tree knows the drawings, too.
+    more = tmp_path / "more"
+    before = ("experiment", "reading", "--domain", folder, "--data", out / "pictures")
+    result = run(*before, "--out", more, "--quick", "--jobs", 1, "--drawn", 10)
+    assert (result.code, result.err) == (0, "")
+    assert (more / "drawn-10" / "class" / "perception.safetensors").is_file()
+    assert (more / "networks" / "10-12-0.npz").is_file()
+    assert [row["tested"] for row in rows_of(more / "reading")] == ["20", "20"]
+
+
+# What is refused ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (("experiment", "vqaa"), "'vqaa' is no experiment; did you mean 'vqa'?"),
+        (("--sizes", "20,3o"), "--sizes must be numbers of at least 2 or 'all', with commas"),
+        (("--sizes", ","), "--sizes names no size; give some, as in 100,400,all"),
+        (("--jobs", "0"), "--jobs must be -1 or at least 1, got 0"),
+        (("--sizes", "46"), "60 pictures are too few to train on 46 and test on 15 of them"),
+        (("--tested", "60"), "60 pictures are too few to train on 20 and test on 60 of them"),
+        (("--data", None), "the domain 'tiles' has no source of pictures; name a folder of"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_run_is_refused(
+    run: Run,
+    change: tuple[str, str | None],
+    says: str,
+    hasty: Path,
+    tiles_data: Path,
+    tmp_path: Path,
+) -> None:
+    options: dict[str, object] = {
+        "--domain": hasty, "--data": tiles_data, "--out": tmp_path / "out",
+        "--trials": 1, "--sizes": "20", "--tested": 15, "--jobs": 1,
+    }  # fmt: skip
+    name = "vqa"
+    if change[0] == "experiment":
+        name = str(change[1])
+    elif change[1] is None:
+        del options[change[0]]
+    else:
+        options[change[0]] = change[1]
+    result = run("experiment", name, *(part for pair in options.items() for part in pair))
+    assert (result.code, result.out) == (2, "")
+    assert says in result.err
+    assert len(result.err.splitlines()) == 1
+
+
+def test_a_folder_that_cannot_be_written(
+    run: Run, hasty: Path, tiles_data: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "file").write_text("")
+    command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data, *SMALL)
+    for out in (tmp_path / "file", tmp_path / "file" / "below"):
+        result = run(*command, "--out", out)
+        assert result.code == 2
+        remedy = "choose a folder for the results with --out"
+        assert result.err == f"seewhy: {out}: is a file, or lies in one; {remedy}\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "{",
+        '{"trial": "20-0", "rows": []}',
+        '{"trial": "20-0", "rows": [{"seed": 1, "size": 20}]}',
+        "\xff",
+    ],
+)
+def test_a_damaged_trial_is_named(
+    run: Run, text: str, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    file = finished / "vqa" / "trials" / "20-0.json"
+    kept = file.read_bytes()
+    try:
+        file.write_bytes(text.encode("latin-1"))
+        command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+        result = run(*command, "--out", finished, *SMALL)
+    finally:
+        file.write_bytes(kept)
+    assert result.code == 2
+    assert result.err == (
+        f"seewhy: {file}: is not as it was written; delete it, and the same command runs the "
+        "trial again\n"
+    )
+
+
+def test_a_folder_of_other_settings(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+    result = run(*command, "--out", finished, *SMALL, "--tested", 10)
+    assert result.code == 2
+    assert result.err == (
+        f"seewhy: {finished}: holds trials with other settings (tested); choose another folder "
+        "with --out, or delete this one\n"
+    )
+
+
+def test_settings_that_are_damaged(run: Run, finished: Path, hasty: Path, tiles_data: Path) -> None:
+    file = finished / "settings.json"
+    kept = file.read_bytes()
+    try:
+        file.write_bytes(b"[")
+        command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+        result = run(*command, "--out", finished, *SMALL)
+    finally:
+        file.write_bytes(kept)
+    assert result.code == 2
+    assert f"{file}: is not as it was written" in result.err
+
+
+# Drawing -----------------------------------------------------------------------------------------
+
+
+def test_trials_draw_anew_and_test_on_others(dataset: Dataset, tmp_path: Path) -> None:
+    own = setting(dataset, tmp_path)
+    drawn = {}
+    for size in (10, 20, ALL):
+        for seed in (0, 1):
+            train, test = divide(own, Trial(seed, size))
+            assert len(train) == (size or 40)
+            assert len(test) == 20
+            assert not {s.picture for s in train.scenes} & {s.picture for s in test.scenes}
+            drawn[seed, size] = [s.picture for s in train.scenes], [s.picture for s in test.scenes]
+    assert drawn[0, 10][1] == drawn[0, 20][1] != drawn[1, 10][1]
+    assert not set(drawn[0, 10][0]) <= set(drawn[0, 20][0])
+    assert divide(own, Trial(0, 10))[0].scenes == divide(own, Trial(0, 10))[0].scenes
+
+
+def test_groups_stay_whole_and_all_are_tested(dataset: Dataset, tmp_path: Path) -> None:
+    grouped = tuple(replace(s, split="", group=str(n // 2)) for n, s in enumerate(dataset.scenes))
+    scenes = replace(dataset, scenes=grouped)
+    folds = np.array([in_fold(scenes, fold) for fold in range(5)])
+    assert (folds.sum(axis=0) == 1).all()
+    own = replace(setting(dataset, tmp_path), scenes=scenes)
+    train, test = divide(own, Trial(3, ALL))
+    # A group is one of a class: what differs in class is no one thing.
+    pairs = {(s.label, s.group) for s in train.scenes} & {(s.label, s.group) for s in test.scenes}
+    assert not pairs
+
+
+def test_work_is_claimed_once(tmp_path: Path) -> None:
+    work = tmp_path / "result.json"
+    claim = tmp_path / "result.json.claim"
+    with claimed(work) as first, claimed(work) as second:
+        assert (first, second) == (True, False)
+    assert not claim.exists()
+    gone = {"host": os.uname().nodename, "process": 2**22 + 1}
+    for text, ours in (
+        (json.dumps(gone), True),
+        (json.dumps({**gone, "process": os.getpid()}), False),
+        (json.dumps({**gone, "host": "elsewhere"}), False),
+        ("", False),
+    ):
+        claim.write_text(text)
+        with claimed(work) as found:
+            assert found is ours
+        claim.unlink(missing_ok=True)
+    claim.write_text(json.dumps({**gone, "host": "elsewhere"}))
+    os.utime(claim, (1.0, 1.0))
+    with claimed(work) as found:
+        assert found
+
+
+# Questions ---------------------------------------------------------------------------------------
+
+
+def test_questions_suit_the_class(dataset: Dataset) -> None:
+    agent = Agent(dataset.domain)
+    asked = draw_questions(agent.questions, dataset.labels, seed=0, count=5)
+    assert asked == draw_questions(agent.questions, dataset.labels, seed=0, count=5)
+    assert asked != draw_questions(agent.questions, dataset.labels, seed=1, count=5)
+    assert len(asked) == 5 * len(dataset)
+    for own in asked:
+        assert suitable(own.question, dataset.labels[own.picture])
+    for number in range(len(dataset)):
+        queries = [own.question.query for own in asked if own.picture == number]
+        assert len(set(queries)) == 5
+    assert Asks.EXPLAIN not in {own.question.asks for own in asked}
+    assert {Asks.WHY_CLASS, Asks.CHANGE_TO_CLASS} <= {own.question.asks for own in asked}
+
+
+def test_right_answers_score_one(dataset: Dataset) -> None:
+    reference = annotator(dataset)
+    asked = draw_questions(Agent(dataset.domain).questions, dataset.labels, seed=0, count=4)
+    right = [
+        reference.answer(own.question, dataset.vectors[own.picture], dataset.labels[own.picture])
+        for own in asked
+    ]
+    seen = {"vectors": dataset.vectors, "labels": dataset.labels}
+    scores = answer_scores(asked, right, dataset, reference, **seen)
+    assert set(scores.values()) == {1.0}
+    more = [replace(own, mentions=("colour", "round")) for own in right]
+    scores = answer_scores(asked, more, dataset, reference, **seen)
+    assert scores["answers"] == 1.0 > scores["answers_strict"]
+    wrong = [AnswerType("unknown") for _ in asked]
+    assert set(answer_scores(asked, wrong, dataset, reference, **seen).values()) == {0.0}
+
+
+# Axioms ------------------------------------------------------------------------------------------
+
+
+def test_axioms_that_are_removed_are_learned_again(structures: Domain) -> None:
+    full = Agent(structures)
+    space = [
+        (number, base, lean, displaced)
+        for number in "12345"
+        for base in ("wide", "narrow")
+        for lean in ("yes", "no")
+        for displaced in ("yes", "no")
+    ]
+    decided = [v for v in space if full.decide(dict(zip(structures.features, v, strict=True)))]
+    labels = [str(full.reasoner.decide(v).label) for v in decided]
+    scenes = AnnotatedScenes(tuple(decided * 10), tuple(labels * 10), ("",) * 10 * len(decided))
+    less = incomplete(structures, seed=0)
+    assert len(less.knowledge.axioms) == 4
+    assert less.knowledge.axioms != incomplete(structures, seed=1).knowledge.axioms
+    assert agreement(Agent(less).reasoner, full.reasoner, space) < 1.0
+    axioms, aside = learned_again(less, scenes)
+    more = Agent(less, learned=axioms, withdrawn=aside)
+    assert agreement(more.reasoner, full.reasoner, space) == 1.0
+
+
+# Conclusions -------------------------------------------------------------------------------------
+
+
+def made(ours: list[float], theirs: list[float], *, size: int = 100) -> list[Row]:
+    keys = ("accuracy", "answers", "answers_strict", "explanations", "explanations_strict")
+    return [
+        {"seed": seed, "size": size, "system": system, **dict.fromkeys(keys, value)}
+        for seed, pair in enumerate(zip(ours, theirs, strict=True))
+        for system, value in zip(("seewhy", "end_to_end"), pair, strict=True)
+    ]
+
+
+def test_conclusions_are_drawn_from_the_numbers() -> None:
+    rng = np.random.default_rng(0)
+    low = (0.5 + 0.01 * rng.random(12)).tolist()
+    high = [own + 0.1 + 0.001 * n for n, own in enumerate(low)]
+    rows = [*made(high, low, size=100), *made(low, low, size=200), *made(low, high, size=0)]
+    finding = conclude("vqa", rows, domain="tiles")[0]
+    assert [own.verdict for own in finding.compared] == ["better", "open", "worse"]
+    assert not finding.supported
+    assert finding.text == (
+        "classified rightly: SeeWhy against end to end, 12 trials: significantly better at 100 "
+        "(+10.5 points); significantly worse at all (-10.5 points); not told apart at 200 "
+        "(+0.0 points). What is claimed does not hold at 200, all."
+    )
+    (first, *_) = conclude("vqa", made(high, low), domain="tiles")
+    assert first.supported
+    assert first.text.endswith("What is claimed holds.")
+    assert json.dumps(first.to_dict(), allow_nan=False)
+    (none, *_) = conclude("vqa", [], domain="tiles")
+    assert none.text.endswith("there is no finished trial yet.")
+
+
+def test_less_is_claimed_of_some_sizes_and_domains() -> None:
+    rng = np.random.default_rng(0)
+    low = (0.5 + 0.01 * rng.random(12)).tolist()
+    high = [own + 0.1 + 0.001 * n for n, own in enumerate(low)]
+    mixed = [own + 0.02 * (n % 2) - 0.009 for n, own in enumerate(low)]
+    rows = [
+        *made(high, low, size=1000),
+        *made(mixed, low, size=1001),
+        *made([own - 0.002 for own in mixed], low, size=ALL),
+    ]
+    accuracy, answers, *_ = conclude("vqa", rows, domain="traffic_signs")
+    assert [own.verdict for own in accuracy.compared] == ["better", "open", "open"]
+    assert (accuracy.failed, answers.failed) == ((ALL,), (1001, ALL))
+    equal, *_ = conclude("vqa", rows, domain="structure_stability")
+    assert equal.supported
+    worse, *_ = conclude("vqa", made(low, high), domain="structure_stability")
+    assert worse.failed == (100,)
+    assert summary([equal, worse, answers]) == (
+        "1 of 3 claims hold at every size that was tried. The hypothesis is not supported for "
+        "accuracy (seewhy against end to end) at 100; answers (seewhy against end to end) at "
+        "1001, all."
+    )
+
+
+def test_what_it_takes_to_reach_a_level() -> None:
+    rows = [*made([0.6, 0.7], [0.5, 0.5], size=100), *made([0.9, 0.9], [0.7, 0.8], size=200)]
+    for row in rows:
+        row |= {"trained": row["size"], "seconds_networks": row["size"] / 10, "seconds_test": 9.0}
+    found = efforts(rows, ["seewhy", "end_to_end"], "accuracy")
+    assert [own for own in found if own.level in (0.7, 0.8)] == [
+        Effort("seewhy", 0.7, 120.0, 12.0),
+        Effort("end_to_end", 0.7, 180.0, 18.0),
+        Effort("seewhy", 0.8, 160.0, 16.0),
+        Effort("end_to_end", 0.8, None, None),
+    ]
+    assert {own.level for own in found} == {0.7, 0.8, 0.85, 0.9}
+
+
+def test_one_trial_proves_nothing() -> None:
+    finding = conclude("vqa", made([0.9], [0.1]), domain="tiles")[0]
+    assert finding.compared[0].verdict == "open"
+    assert summary([finding]).startswith("There are too few trials for any difference to be")
+    # Six of six at one size: Wilcoxon's p is 2/64.
+    few = conclude("vqa", made([0.9] * 5, [0.1] * 5), domain="tiles")
+    enough = conclude("vqa", made([0.9] * 6, [0.1] * 6), domain="tiles")
+    assert summary(few).startswith("There are too few")
+    assert summary(enough) == "5 of 5 claims hold at every size that was tried."
+    assert json.dumps(finding.to_dict(), allow_nan=False)
+
+
+def test_an_experiment_is_found_by_name() -> None:
+    assert [experiment(name).name for name in NAMES] == list(NAMES)
+    for name in NAMES:
+        own = experiment(name)
+        keys = {measure.key for measure in own.measures}
+        for claim in own.claims:
+            assert claim.measure in keys
+            assert {claim.system, claim.against} <= own.systems.keys()
+    with pytest.raises(ExperimentError, match="did you mean 'axioms'"):
+        experiment("axiom")
