@@ -46,12 +46,12 @@ def make_run(out: Path, number: int, before: int | None) -> None:
         write_whole(file, history_text(recorded_run(number, before=before), title=f"run {number}"))
 
 
-def make_trial(out: Path, seed: int, before: int | None) -> None:
+def make_trial(out: Path, seed: int, before: int | None, answer_sets: bool) -> None:
     """Write the rows of a trial, unless they are there."""
     file = trial_file(out, seed)
     if not file.is_file():
         axioms, _ = read_learned(out / "learned.al", robot_before().knowledge.signature)
-        rows = trial(seed=seed, learned=axioms, before=before)
+        rows = trial(seed=seed, learned=axioms, before=before, answer_sets=answer_sets)
         write_whole(file, json.dumps({"trial": seed, "rows": rows}, indent=1))
 
 
@@ -98,13 +98,19 @@ def main() -> None:
         type=int,
         help="steps that people may walk about before the robot begins (else as planning.toml)",
     )
+    parser.add_argument(
+        "--answer-sets", action="store_true", help="plan by answer sets alone, as in the paper"
+    )
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
     work = Parallel(n_jobs=options.jobs)
     work(delayed(make_run)(options.out, number, options.before) for number in range(options.runs))
     learn(options.out, options.runs)
     print((options.out / "learned.al").read_text(encoding="utf-8"))
-    work(delayed(make_trial)(options.out, seed, options.before) for seed in range(options.trials))
+    work(
+        delayed(make_trial)(options.out, seed, options.before, options.answer_sets)
+        for seed in range(options.trials)
+    )
     rows = [
         row
         for seed in range(options.trials)

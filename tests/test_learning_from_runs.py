@@ -284,6 +284,12 @@ def test_learning_from_runs_asks(run: Run, runs: Path, tmp_path: Path) -> None:
     done = run(*learn, "--out", str(out), stdin="n\n")
     assert "learned from 40 observations, 85.0 % of them rightly" in done.out
     assert not out.exists()
+    done = run(*learn, "--out", str(out), stdin="")
+    assert (done.code, done.err) == (
+        2,
+        "seewhy: no answer to 'add this axiom?', nothing is written; answer y or n, or give --yes "
+        "to agree to everything\n",
+    )
     done = run(*learn, "--out", str(out), "--json")
     found = json.loads(done.out)
     assert (found["runs"], found["observations"], found["added"]) == (20, 320, [])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from seewhy.knowledge.axiom import Axiom
     from seewhy.knowledge.learned_file import Withdrawn
     from seewhy.learning import Learning
+
+
+_MODEL_STAYS = "the model stays as it was"
 
 
 def learn(
@@ -163,17 +167,17 @@ def _from_runs(
         support=support,
         tolerance=tolerance,
         seed=seed,
-        accept=None if yes else _none if json else _ask,
+        accept=None if yes else _none if json else partial(_ask, else_="nothing is written"),
         json=json,
     )
 
 
-def _ask(axioms: Sequence[Axiom]) -> list[Axiom]:
+def _ask(axioms: Sequence[Axiom], *, else_: str = _MODEL_STAYS) -> list[Axiom]:
     chosen = []
     for axiom in axioms:
         say(f"{axiom.text}")
         say(f"  {axiom}  learned from {_rests(axiom)}")
-        if _confirmed("add this axiom?"):
+        if _confirmed("add this axiom?", else_=else_):
             chosen.append(axiom)
     return chosen
 
@@ -188,13 +192,13 @@ def _ask_aside(refuted: Sequence[Withdrawn]) -> list[Withdrawn]:
     return chosen
 
 
-def _confirmed(question: str) -> bool:
+def _confirmed(question: str, *, else_: str = _MODEL_STAYS) -> bool:
     try:
         return typer.confirm(f"  {question}", default=True)
     except typer.Abort:
         raise SeeWhyError(
-            f"no answer to '{question}', everything stays as it was; answer y or n, or give --yes "
-            "to agree to everything"
+            f"no answer to '{question}', {else_}; answer y or n, or give --yes to agree to "
+            "everything"
         ) from None
 
 

@@ -96,16 +96,21 @@ def learned_from(record: Sequence[History]) -> LearnedFromRuns:
 
 
 def trial(
-    *, seed: int, learned: Sequence[Axiom], before: int | None = None
+    *,
+    seed: int,
+    learned: Sequence[Axiom],
+    before: int | None = None,
+    answer_sets: bool = False,
 ) -> list[dict[str, Any]]:
     """Return a row for the robot before and one for the robot after learning.
 
-    ``before`` is as in :func:`recorded_run`.
+    ``before`` is as in :func:`recorded_run`; with ``answer_sets`` both plan as the paper's robot
+    does, by answer sets alone.
 
     The arm that goes first changes with the seed: who goes second finds some things of clingo's
     already in memory.
     """
-    robot = robot_before()
+    robot = replace(robot_before(), answer_sets=answer_sets)
     arms = {"before": robot, "after": robot.knowing(learned)}
     order = list(arms) if seed % 2 == 0 else list(reversed(arms))
     rows = {arm: _row(arm, arms[arm], seed, before) for arm in order}

@@ -44,6 +44,8 @@ class PlanningDomain:
         The term that stands for whoever acts.
     horizon : int
         The greatest number of actions that planning tries.
+    answer_sets : bool
+        Whether answer sets alone are asked for plans, as in the paper.
     sensing, simulation
         What the robot senses, and what may happen, in simulation.
     shows : mapping of str to Sensing
@@ -69,6 +71,7 @@ class PlanningDomain:
     words: PlanningWords
     robot: str | None
     horizon: int
+    answer_sets: bool
     sensing: tuple[Sensing, ...]
     shows: Mapping[str, Sensing]
     simulation: SimulationTable
@@ -231,6 +234,7 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         ),
         robot=table.planning.robot,
         horizon=table.planning.horizon,
+        answer_sets=table.planning.answer_sets,
         sensing=tuple(sensing),
         shows=MappingProxyType(shows),
         simulation=table.simulation,

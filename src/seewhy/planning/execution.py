@@ -244,7 +244,7 @@ class _Robot:
                 if where is None:
                     continue
                 aim = read_goal(where, self.domain.knowledge)
-                found = plan(self.domain.knowledge, aim, start=start, horizon=self.domain.horizon)
+                found = self._plan(start, aim)
                 if found.actions and len(found.actions) < (len(shortest.actions) or math.inf):
                     shortest = found
         return shortest
@@ -291,9 +291,14 @@ class _Robot:
         unusual = [own for own in found if complement_of(own) in usual]
         return tuple(unusual or found)
 
-    def _plan(self, start: State) -> Plan:
-        horizon = self.domain.horizon
-        return plan(self.domain.knowledge, self.goal, start=start, horizon=horizon)
+    def _plan(self, start: State, goal: Goal | None = None) -> Plan:
+        return plan(
+            self.domain.knowledge,
+            self.goal if goal is None else goal,
+            start=start,
+            horizon=self.domain.horizon,
+            answer_sets=self.domain.answer_sets,
+        )
 
 
 def _last_seen(history: History) -> dict[clingo.Symbol, int]:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
@@ -114,6 +115,7 @@ def plan(
     start: State,
     horizon: int = HORIZON,
     seconds: float | None = None,
+    answer_sets: bool = False,
 ) -> Plan:
     """Return a shortest plan from a state to a goal.
 
@@ -130,6 +132,9 @@ def plan(
         The greatest number of actions to try.
     seconds : float, optional
         Give up after this time.
+    answer_sets : bool, default False
+        Ask answer sets alone, one step more each time, as the paper does: plans are as short, and
+        take longer to find.
 
     Examples
     --------
@@ -153,9 +158,11 @@ def plan(
     begun = time.perf_counter()
     until = None if seconds is None else begun + seconds
     aimed = with_goal(knowledge, goal)
-    try:
-        problem = ground_problem(relevant(aimed), start, whole=aimed)
-    except PlanningError:
+    problem = None
+    if not answer_sets:
+        with suppress(PlanningError):
+            problem = ground_problem(relevant(aimed), start, whole=aimed)
+    if problem is None:
         found = _by_answer_sets(aimed, start, horizon=horizon, until=until)
     else:
         found = _forwards(aimed, start, problem, horizon=horizon, until=until)

@@ -17,13 +17,15 @@ class _Table(BaseModel):
 class PlanningTable(_Table):
     """``[planning]``: what the domain is called, and who acts.
 
-    ``robot`` is the term that stands for whoever acts, if the knowledge has one.
+    ``robot`` is the term that stands for whoever acts, if the knowledge has one. With
+    ``answer_sets`` plans are sought by answer sets alone, as in the paper.
     """
 
     name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
     title: str
     robot: str | None = None
     horizon: int = Field(default=50, ge=1, le=10_000)
+    answer_sets: bool = False
 
 
 class FluentTable(_Table):
