@@ -17,7 +17,6 @@ from joblib import Parallel, delayed
 
 from seewhy.experiments.planning import (
     RECORDED,
-    Interval,
     Ratio,
     learned_from,
     recipients_elsewhere,
@@ -26,6 +25,7 @@ from seewhy.experiments.planning import (
     summary,
     trial,
 )
+from seewhy.experiments.statistics import Interval
 from seewhy.files import write_whole
 from seewhy.knowledge.history import history_text, read_history_file
 from seewhy.knowledge.learned_file import learned_text, read_learned
@@ -33,9 +33,9 @@ from seewhy.knowledge.learned_file import learned_text, read_learned
 NAMES = {
     "plans": "plans in a trial",
     "actions": "actions",
-    "execution_seconds": "execution time",
-    "planning_seconds": "planning time of a trial",
-    "planning_seconds_per_plan": "planning time of a plan",
+    "execution": "execution time",
+    "seconds_planning": "planning time of a trial",
+    "seconds_per_plan": "planning time of a plan",
 }
 
 
@@ -75,7 +75,7 @@ def learn(out: Path, runs: int) -> None:
 
 def shown(own: Interval) -> str:
     """A figure with its interval."""
-    return f"{own.value:.2f} ({own.low:.2f} to {own.high:.2f})"
+    return f"{own.mean:.2f} ({own.low:.2f} to {own.high:.2f})"
 
 
 def line(own: Ratio) -> str:
@@ -121,8 +121,8 @@ def main() -> None:
     for own in summary(rows):
         print(line(own))
     for arm in ("before", "after"):
-        ended = [row["outcome"] for row in rows if row["arm"] == arm]
-        reached = sum(row["achieved"] for row in rows if row["arm"] == arm)
+        ended = [row["outcome"] for row in rows if row["system"] == arm]
+        reached = sum(row["achieved"] for row in rows if row["system"] == arm)
         counts = ", ".join(f"{own} {ended.count(own)}" for own in sorted(set(ended)))
         print(f"\n{arm}: {counts}; goal truly reached in {reached} of {len(ended)}", end="")
     elsewhere = recipients_elsewhere(range(options.trials), before=options.before)

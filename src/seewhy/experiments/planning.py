@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seewhy.experiments.experiment import ALL, Row
+from seewhy.experiments.statistics import Interval, interval, ratio_interval
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.history import History
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
@@ -28,7 +29,7 @@ __all__ = [
     "FIRST_RECORDED",
     "MEASURES",
     "PAPER",
-    "Interval",
+    "SYSTEMS",
     "Ratio",
     "learned_from",
     "recipients_elsewhere",
@@ -46,17 +47,10 @@ FIRST_RECORDED = 1_000_000
 """The seed of the first recorded run; trials have smaller ones."""
 MOST_STEPS = 60
 
-MEASURES = (
-    "plans",
-    "actions",
-    "execution_seconds",
-    "planning_seconds",
-    "planning_seconds_per_plan",
-)
+SYSTEMS = ("before", "after")
+MEASURES = ("plans", "actions", "execution", "seconds_planning", "seconds_per_plan")
 PAPER = dict(zip(MEASURES, (4.0, 2.3, 1.6, 6.0, 1.6), strict=True))
 """The ratios before to after that the paper reports (table 5)."""
-
-_RESAMPLES = 10_000
 
 
 def robot_before() -> PlanningDomain:
@@ -101,7 +95,7 @@ def trial(
     learned: Sequence[Axiom],
     before: int | None = None,
     answer_sets: bool = False,
-) -> list[dict[str, Any]]:
+) -> list[Row]:
     """Return a row for the robot before and one for the robot after learning.
 
     ``before`` is as in :func:`recorded_run`; with ``answer_sets`` both plan as the paper's robot
@@ -155,32 +149,24 @@ def _run(robot: PlanningDomain, *, seed: int, before: int | None) -> Simulation:
     return last
 
 
-def _row(arm: str, robot: PlanningDomain, seed: int, before: int | None) -> dict[str, Any]:
+def _row(arm: str, robot: PlanningDomain, seed: int, before: int | None) -> Row:
     last = _run(robot, seed=seed, before=before)
     run = last.run
     plans = len(run.plans)
     planning = sum(own.planning_seconds for own in run.steps)
     return {
         "seed": seed,
-        "arm": arm,
+        "size": ALL,
+        "system": arm,
         "plans": plans,
         "actions": len(run.actions),
-        "execution_seconds": execution_seconds(robot, run),
-        "planning_seconds": planning,
-        "planning_seconds_per_plan": planning / plans if plans else None,
+        "execution": execution_seconds(robot, run),
         "outcome": run.outcome.value if run.outcome else "",
         "achieved": last.achieved,
         "goal": str(run.goal),
+        "seconds_planning": planning,
+        "seconds_per_plan": planning / plans if plans else None,
     }
-
-
-@dataclass(frozen=True)
-class Interval:
-    """A figure with its 95 % interval by bootstrap over the pairs (percentiles)."""
-
-    value: float
-    low: float
-    high: float
 
 
 @dataclass(frozen=True)
@@ -209,8 +195,8 @@ class Ratio:
     paper: float
 
 
-def summary(rows: Iterable[dict[str, Any]], *, seed: int = 0) -> list[Ratio]:
-    """Return the ratios of all measures, with intervals by bootstrap over the pairs.
+def summary(rows: Iterable[Row]) -> list[Ratio]:
+    """Return the ratios of all measures, with 95 % intervals by bootstrap over the pairs.
 
     Pairs count whatever their outcome: who gives up or runs out of steps has made so many plans
     and actions until then.
@@ -218,15 +204,15 @@ def summary(rows: Iterable[dict[str, Any]], *, seed: int = 0) -> list[Ratio]:
     Examples
     --------
     >>> numbers = dict.fromkeys(MEASURES, 1.0)
-    >>> rows = [{"seed": s, "arm": a, **numbers} for s in range(3) for a in ("before", "after")]
+    >>> rows = [{"seed": s, "system": a, **numbers} for s in range(3) for a in SYSTEMS]
     >>> rows[0]["plans"] = 4.0
     >>> own = summary(rows)[0]
-    >>> own.measure, own.trials, own.mean_of_ratios.value, own.ratio_of_means.value
+    >>> own.measure, own.trials, own.mean_of_ratios.mean, own.ratio_of_means.mean
     ('plans', 3, 2.0, 2.0)
     """
-    arms: dict[str, dict[int, dict[str, Any]]] = {"before": {}, "after": {}}
+    arms: dict[str, dict[int, Row]] = {own: {} for own in SYSTEMS}
     for row in rows:
-        arms[row["arm"]][row["seed"]] = row
+        arms[row["system"]][row["seed"]] = row
     seeds = sorted(arms["before"].keys() & arms["after"].keys())
     found = []
     for measure in MEASURES:
@@ -235,30 +221,22 @@ def summary(rows: Iterable[dict[str, Any]], *, seed: int = 0) -> list[Ratio]:
             for own in seeds
             if arms["before"][own][measure] is not None and arms["after"][own][measure]
         ]
-        found.append(_ratio(measure, np.array(pairs, dtype=np.float64).reshape(-1, 2), seed))
+        found.append(_ratio(measure, np.array(pairs, dtype=np.float64).reshape(-1, 2)))
     return found
 
 
-def _ratio(measure: str, pairs: NDArray[np.float64], seed: int) -> Ratio:
+def _ratio(measure: str, pairs: NDArray[np.float64]) -> Ratio:
     if not len(pairs):
         nan = float("nan")
         nothing = Interval(nan, nan, nan)
         return Ratio(measure, 0, nan, nan, nothing, nothing, PAPER[measure])
-    rng = np.random.default_rng(seed)
-    drawn = pairs[rng.integers(len(pairs), size=(_RESAMPLES, len(pairs)))]
-    means = drawn.mean(axis=1)
     before, after = map(float, pairs.mean(axis=0))
     return Ratio(
         measure,
         len(pairs),
         before,
         after,
-        _interval((pairs[:, 0] / pairs[:, 1]).mean(), (drawn[:, :, 0] / drawn[:, :, 1]).mean(1)),
-        _interval(before / after, means[:, 0] / means[:, 1]),
+        interval((pairs[:, 0] / pairs[:, 1]).tolist()),
+        ratio_interval(pairs[:, 0].tolist(), pairs[:, 1].tolist()),
         PAPER[measure],
     )
-
-
-def _interval(value: float, resampled: NDArray[np.float64]) -> Interval:
-    low, high = np.percentile(resampled, (2.5, 97.5))
-    return Interval(float(value), float(low), float(high))

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-__all__ = ["LEVEL", "Interval", "Paired", "compare", "holm", "interval"]
+__all__ = ["LEVEL", "Interval", "Paired", "compare", "holm", "interval", "ratio_interval"]
 
 LEVEL = 0.05
 """Level of significance."""
@@ -73,6 +74,35 @@ def interval(values: Sequence[float], *, seed: int = 0) -> Interval:
         (own,), np.mean, n_resamples=_RESAMPLES, rng=np.random.default_rng(seed), method="BCa"
     ).confidence_interval
     return Interval(mean, float(found.low), float(found.high))
+
+
+def ratio_interval(values: Sequence[float], others: Sequence[float], *, seed: int = 0) -> Interval:
+    """Return the ratio of the means of paired values with its 95 % interval by bootstrap.
+
+    Examples
+    --------
+    >>> ratio_interval([2.0, 4.0], [1.0, 2.0])
+    Interval(mean=2.0, low=2.0, high=2.0)
+    """
+    from scipy.stats import bootstrap
+
+    one, other = np.asarray(values, np.float64), np.asarray(others, np.float64)
+    ratio = float(one.mean() / other.mean())
+    if len(one) < 2 or float(np.ptp(one / other)) < _EQUAL:
+        return Interval(ratio, ratio, ratio)
+
+    def of_means(first: Any, second: Any, axis: int) -> Any:
+        return np.mean(first, axis=axis) / np.mean(second, axis=axis)
+
+    found = bootstrap(
+        (one, other),
+        of_means,
+        paired=True,
+        n_resamples=_RESAMPLES,
+        rng=np.random.default_rng(seed),
+        method="BCa",
+    ).confidence_interval
+    return Interval(ratio, float(found.low), float(found.high))
 
 
 def compare(system: Sequence[float], against: Sequence[float], *, seed: int = 0) -> Paired:
