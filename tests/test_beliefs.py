@@ -13,7 +13,7 @@ import pytest
 from conftest import seen
 from seewhy.agent import Agent
 from seewhy.dialogue.answer import AnswerType, answer_templates, word_answer
-from seewhy.dialogue.learned import MOST_EXAMPLES, _drawn
+from seewhy.dialogue.learned import MOST_EXAMPLES, dealt
 from seewhy.dialogue.question import Asks, Question, Questions
 from seewhy.domain import load_domain
 from seewhy.errors import DomainError
@@ -409,9 +409,9 @@ def test_questions_that_are_drawn_leave_no_query_out(many: Agent) -> None:
         by_query.setdefault(question.query, []).append(question)
     labels = [OPEN[n % 3] for n in range(40)]
     most = 2 * len(by_query)
-    drawn = list(_drawn(by_query, labels, most=most, seed=4))
-    assert drawn == list(_drawn(by_query, labels, most=most, seed=4))
-    assert drawn != list(_drawn(by_query, labels, most=most, seed=5))
+    drawn = list(dealt(by_query, labels, most=most, seed=4))
+    assert drawn == list(dealt(by_query, labels, most=most, seed=4))
+    assert drawn != list(dealt(by_query, labels, most=most, seed=5))
     assert sum(len(queries) for _, queries in drawn) <= most
     assert {query for _, queries in drawn for query in queries} == set(by_query)
     assert {scene for scene, _ in drawn} == set(range(40))
@@ -420,6 +420,6 @@ def test_questions_that_are_drawn_leave_no_query_out(many: Agent) -> None:
         own = {query for query in by_query if query[1] == labels[scene]}
         assert own <= set(queries)
     # More scenes than examples, and few enough questions to ask them all.
-    assert sum(len(own) for _, own in _drawn(by_query, labels, most=7, seed=0)) == 7
-    every = list(_drawn(by_query, labels[:2], most=MOST_EXAMPLES, seed=0))
+    assert sum(len(own) for _, own in dealt(by_query, labels, most=7, seed=0)) == 7
+    every = list(dealt(by_query, labels[:2], most=MOST_EXAMPLES, seed=0))
     assert every == [(0, list(by_query)), (1, list(by_query))]
