@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
@@ -13,7 +14,8 @@ from seewhy.cli.screen import print_json, progress, say
 ExperimentName = Annotated[
     str,
     typer.Argument(
-        metavar="NAME", help="The experiment: vqa, axioms, confidence, reading or ablation."
+        metavar="NAME",
+        help="The experiment: vqa, axioms, planning, confidence, reading or ablation.",
     ),
 ]
 
@@ -22,8 +24,13 @@ def experiment(
     name: ExperimentName,
     out: Annotated[Path, typer.Option("--out", help="The folder for rows, tables and the page.")],
     domain: Annotated[
-        str, typer.Option("--domain", help="A bundled domain's name or a domain folder.")
-    ] = "structure_stability",
+        str | None,
+        typer.Option(
+            "--domain",
+            help="A bundled domain's name or a domain folder (structure_stability; planning is of "
+            "robot_assistant).",
+        ),
+    ] = None,
     data: Annotated[
         Path | None,
         typer.Option(
@@ -56,6 +63,18 @@ def experiment(
             "--drawn", min=0, help="Pictures of the domain's source that networks see before."
         ),
     ] = 0,
+    before: Annotated[
+        int | None,
+        typer.Option(
+            "--before",
+            min=0,
+            help="With planning: steps that people may walk about before the robot begins.",
+        ),
+    ] = None,
+    answer_sets: Annotated[
+        bool,
+        typer.Option("--answer-sets", help="With planning: plan by answer sets alone."),
+    ] = False,
     json: Json = False,
 ) -> None:
     """Run an experiment, or what is missing of it, and write its tables and its page.
@@ -72,6 +91,24 @@ def experiment(
 
     if jobs == 0:
         raise ExperimentError("--jobs must be -1 or at least 1, got 0")
+    pictures = {"--domain": domain, "--data": data, "--sizes": sizes, "--tested": tested}
+    of_robot = {"--before": before is not None, "--answer-sets": answer_sets}
+    if name == "planning":
+        for option, given in {**pictures, "--drawn": drawn or None}.items():
+            if given is not None and (option, given) != ("--domain", "robot_assistant"):
+                raise ExperimentError(
+                    f"{option} goes with the other experiments; planning is of robot_assistant, "
+                    "which needs no pictures for it"
+                )
+        _planning(
+            out, trials=trials, seed=seed, quick=quick, jobs=jobs, before=before,
+            answer_sets=answer_sets, json=json,
+        )  # fmt: skip
+        return
+    for option, asked in of_robot.items():
+        if asked:
+            raise ExperimentError(f"{option} goes with the experiment planning only")
+    domain = domain or "structure_stability"
     with progress() as bars:
         drawing = bars.add_task("drawing pictures", total=None, visible=False)
         run = prepare(
@@ -118,6 +155,52 @@ def experiment(
     for own in findings:
         say(own.text)
     say(summary(findings))
+    say(f"page: {page}")
+
+
+def _planning(
+    out: Path,
+    *,
+    trials: int | None,
+    seed: int,
+    quick: bool,
+    jobs: int,
+    before: int | None,
+    answer_sets: bool,
+    json: bool,
+) -> None:
+    """Run the experiment that needs no pictures."""
+    from seewhy.experiments.planning import summary
+    from seewhy.experiments.planning_run import FULL, QUICK, PlanningRun, run_planning
+    from seewhy.files import write_whole
+    from seewhy.report.planning_page import conclusions, planning_page
+
+    count, records = QUICK if quick else FULL
+    run = PlanningRun(
+        out,
+        trials=count if trials is None else trials,
+        first_seed=seed,
+        records=records,
+        before=before,
+        answer_sets=answer_sets,
+    )
+    with progress() as bars:
+        task = bars.add_task("trials", total=run.trials)
+        rows = run_planning(run, jobs=jobs, on_trial=lambda done: bars.update(task, completed=done))
+    command = "seewhy experiment planning"
+    command += f" --trials {trials}" if trials is not None else ""
+    command += f" --seed {seed}" if seed else ""
+    command += " --quick" if quick else ""
+    command += f" --before {before}" if before is not None else ""
+    command += " --answer-sets" if answer_sets else ""
+    page = run.folder / "index.html"
+    write_whole(page, planning_page(run, rows, command=f"{command} --out {out}"))
+    found = summary(rows)
+    if json:
+        print_json({"page": str(page), "ratios": [asdict(own) for own in found]})
+        return
+    for sentence in conclusions(found):
+        say(sentence)
     say(f"page: {page}")
 
 

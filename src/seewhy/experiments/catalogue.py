@@ -18,11 +18,11 @@ _HOMES = {
     "ablation": ("seewhy.experiments.coupling", "ABLATION"),
 }
 
-NAMES = tuple(_HOMES)
+NAMES = (*_HOMES, "planning")
 
 
 def experiment(name: str) -> Experiment:
-    """Return the experiment with a name.
+    """Return the experiment with a name; planning, which needs no pictures, is another kind.
 
     Raises
     ------

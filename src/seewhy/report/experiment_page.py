@@ -19,9 +19,9 @@ from seewhy.experiments.running import Run
 from seewhy.experiments.statistics import interval
 from seewhy.report.line_chart import Line, Point, draw_lines
 
-__all__ = ["experiment_page"]
+__all__ = ["LIBRARIES", "experiment_page", "installed"]
 
-_LIBRARIES = ("seewhy", "torch", "clingo", "scikit-learn", "scipy", "numpy", "mujoco-core")
+LIBRARIES = ("seewhy", "torch", "clingo", "scikit-learn", "scipy", "numpy", "mujoco-core")
 
 
 def experiment_page(
@@ -56,7 +56,7 @@ def experiment_page(
         timings=_timings(own, rows, sizes),
         seeds=_span(sorted({int(row["seed"]) for row in rows})),
         tested=_span(sorted({int(row["tested"]) for row in rows if "tested" in row})),
-        libraries=[(name, _version(name)) for name in _LIBRARIES],
+        libraries=[(name, installed(name)) for name in LIBRARIES],
         python=platform.python_version(),
         command=command,
     )
@@ -158,7 +158,8 @@ def _span(numbers: Sequence[int]) -> str:
     return str(numbers[0]) if len(numbers) == 1 else f"{numbers[0]} to {numbers[-1]}"
 
 
-def _version(name: str) -> str:
+def installed(name: str) -> str:
+    """Return the version of a library that is installed."""
     try:
         return version(name)
     except PackageNotFoundError:

@@ -1,0 +1,148 @@
+"""Run the trials of the planning experiment that are missing, and what they learn from."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from joblib import Parallel, delayed
+
+from seewhy.errors import ExperimentError
+from seewhy.experiments.claims import claimed
+from seewhy.experiments.experiment import ALL, Row, Trial
+from seewhy.experiments.planning import RECORDED, learned_from, recorded_run, robot_before, trial
+from seewhy.experiments.rows import read_trial, trial_file, write_table, write_trial
+from seewhy.experiments.running import ROWS, SETTINGS, TIMINGS
+from seewhy.files import write_whole
+from seewhy.knowledge.history import history_text, read_history_file
+from seewhy.knowledge.learned_file import LEARNED, learned_text, read_learned
+
+__all__ = ["FULL", "QUICK", "PlanningRun", "run_planning"]
+
+FULL, QUICK = (100, RECORDED), (6, 12)
+"""How many trials, and earlier runs to learn from."""
+
+_RUNS = "runs"
+
+
+@dataclass(frozen=True)
+class PlanningRun:
+    """The experiment as it is asked for.
+
+    Attributes
+    ----------
+    out : Path
+        The folder for the results of experiments; those of this one lie in ``planning``.
+    trials, first_seed : int
+    records : int
+        How many earlier runs are learned from.
+    before : int or None
+        Steps that people may walk about before the robot begins; None: as planning.toml says.
+    answer_sets : bool
+        Whether both robots plan by answer sets alone.
+    """
+
+    out: Path
+    trials: int = 100
+    first_seed: int = 0
+    records: int = RECORDED
+    before: int | None = None
+    answer_sets: bool = False
+
+    @property
+    def folder(self) -> Path:
+        """Where the results lie."""
+        return self.out / "planning"
+
+    @property
+    def seeds(self) -> range:
+        """The seeds of the trials."""
+        return range(self.first_seed, self.first_seed + self.trials)
+
+
+def run_planning(
+    run: PlanningRun, *, jobs: int = -1, on_trial: Callable[[int], None] | None = None
+) -> list[Row]:
+    """Record runs, learn from them, run the trials that are missing; return all rows.
+
+    What is finished is kept: the same call goes on from there.
+
+    Raises
+    ------
+    ExperimentError
+        If the folder holds trials with other settings.
+    """
+    _check_settings(run)
+    work = Parallel(n_jobs=jobs, return_as="generator_unordered")
+    for _ in work(delayed(_record)(run, number) for number in range(run.records)):
+        pass
+    _learn(run)
+    for done, _ in enumerate(work(delayed(_try)(run, seed) for seed in run.seeds), start=1):
+        if on_trial is not None:
+            on_trial(done)
+    rows = [row for seed in run.seeds for row in read_trial(run.folder, Trial(seed, ALL)) or ()]
+    write_table(run.folder / ROWS, rows, timings=False)
+    write_table(run.folder / TIMINGS, rows, timings=True)
+    return rows
+
+
+def _record_file(run: PlanningRun, number: int) -> Path:
+    return run.folder / _RUNS / f"{number:04}.al"
+
+
+def _record(run: PlanningRun, number: int) -> None:
+    file = _record_file(run, number)
+    if not file.is_file():
+        history = recorded_run(number, before=run.before)
+        write_whole(file, history_text(history, title=f"run {number}"))
+
+
+def _learn(run: PlanningRun) -> None:
+    file = run.folder / LEARNED
+    if file.is_file():
+        return
+    signature = robot_before().knowledge.signature
+    record = [read_history_file(_record_file(run, n), signature) for n in range(run.records)]
+    found = learned_from(record)
+    write_whole(file, learned_text(found.axioms, source=f"the record of {run.records} runs"))
+
+
+def _try(run: PlanningRun, seed: int) -> None:
+    file = trial_file(run.folder, Trial(seed, ALL))
+    if file.exists():
+        return
+    with claimed(file) as ours:
+        if not ours or file.exists():
+            return
+        axioms, _ = read_learned(run.folder / LEARNED, robot_before().knowledge.signature)
+        rows = trial(seed=seed, learned=axioms, before=run.before, answer_sets=run.answer_sets)
+        write_trial(run.folder, Trial(seed, ALL), rows)
+
+
+def _check_settings(run: PlanningRun) -> None:
+    folder = robot_before().folder
+    known = b"\0".join((folder / own).read_bytes() for own in ("knowledge.al", "planning.toml"))
+    settings = {
+        **{key: asdict(run)[key] for key in ("records", "before", "answer_sets")},
+        "knowledge": hashlib.sha256(known).hexdigest()[:16],
+    }
+    file = run.folder / SETTINGS
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        write_whole(file, json.dumps(settings, indent=1))
+        return
+    except NotADirectoryError:
+        raise ExperimentError(
+            f"{run.out}: is a file, or lies in one; choose a folder for the results with --out"
+        ) from None
+    except ValueError:
+        found = {}
+    if found != settings:
+        raise ExperimentError(
+            f"{run.folder}: holds trials with other settings; choose another folder with --out, "
+            "or delete this one"
+        )

@@ -1,0 +1,92 @@
+"""`seewhy experiment planning`: small runs of the real thing."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from conftest import Run
+from seewhy.experiments.planning import MEASURES
+
+SMALL = ("--quick", "--trials", 1, "--seed", 3, "--jobs", 1)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder for one pair of trials; what tests lose of it they make again."""
+    return tmp_path_factory.mktemp("planning") / "out"
+
+
+@pytest.fixture
+def finished(run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr("seewhy.experiments.planning_run.QUICK", (1, 7))
+    done = run("experiment", "planning", "--out", folder, *SMALL)
+    assert (done.code, done.err) == (0, "")
+    assert done.out.splitlines()[-1] == f"page: {folder / 'planning' / 'index.html'}"
+    return folder
+
+
+def test_both_arms_are_rows_and_a_page(finished: Path) -> None:
+    folder = finished / "planning"
+    with (folder / "rows.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [row["system"] for row in rows] == ["before", "after"]
+    assert rows[0]["goal"] == rows[1]["goal"]
+    assert int(rows[0]["actions"]) > int(rows[1]["actions"])
+    assert not any(name.startswith("seconds") for name in rows[0])
+    learned = (folder / "learned.al").read_text(encoding="utf-8")
+    assert "loc(P, L) if work_place(P, L), not -loc(P, L).\n" in learned
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    for part in (
+        "1 of 1 pairs of trials are finished, seeds 3 to 3.",
+        "All trials (1 pairs)",
+        "<pre>% Axioms that",
+        "seewhy experiment planning --trials 1 --seed 3 --quick --out",
+    ):
+        assert part in page
+    assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
+
+
+def test_a_run_adds_only_what_is_missing(run: Run, finished: Path) -> None:
+    folder = finished / "planning"
+    lost, kept = folder / "runs" / "0003.al", folder / "runs" / "0004.al"
+    record, times = lost.read_bytes(), kept.stat().st_mtime_ns
+    rows = (folder / "rows.csv").read_bytes()
+    lost.unlink()
+    (folder / "trials" / "all-3.json").unlink()
+    done = run("experiment", "planning", "--out", finished, *SMALL, "--json")
+    assert (done.code, done.err) == (0, "")
+    assert [own["measure"] for own in json.loads(done.out)["ratios"]] == list(MEASURES)
+    # The same seeds make the same record and the same rows.
+    assert (lost.read_bytes(), (folder / "rows.csv").read_bytes()) == (record, rows)
+    assert kept.stat().st_mtime_ns == times
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "says"),
+    [
+        ("planning", ("--sizes", "100"), "--sizes goes with the other experiments; planning is of"),
+        ("planning", ("--domain", "tower_building"), "--domain goes with the other experiments"),
+        ("vqa", ("--answer-sets",), "--answer-sets goes with the experiment planning only"),
+        ("vqa", ("--before", "0"), "--before goes with the experiment planning only"),
+    ],
+)
+def test_options_of_other_experiments_are_refused(
+    run: Run, tmp_path: Path, name: str, options: tuple[str, ...], says: str
+) -> None:
+    done = run("experiment", name, "--out", tmp_path / "out", *options)
+    assert (done.code, done.out) == (2, "")
+    assert done.err.startswith(f"seewhy: {says}")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_of_other_settings_is_refused(run: Run, finished: Path, tmp_path: Path) -> None:
+    done = run("experiment", "planning", "--out", finished, *SMALL, "--answer-sets")
+    assert (done.code, "holds trials with other settings" in done.err) == (2, True)
+    file = tmp_path / "file"
+    file.write_text("", encoding="utf-8")
+    done = run("experiment", "planning", "--out", file, *SMALL)
+    assert (done.code, "choose a folder for the results" in done.err) == (2, True)
