@@ -433,6 +433,8 @@ def test_plans_are_as_short_as_can_be_in_random_worlds(
         return
     found = plan(known, read_goal(goal, known), start=start, horizon=4)
     assert (len(found.actions) if found.found else None) == least_actions(known, goal, start, 4)
+    alone = plan(known, read_goal(goal, known), start=start, horizon=4, answer_sets=True)
+    assert (alone.found, len(alone.actions)) == (found.found, len(found.actions))
     assert len(found.states) == (len(found.actions) + 1 if found.found else 0)
     for before, action, after in zip(found.states, found.actions, found.states[1:], strict=False):
         # What stays unknown may be either way.
