@@ -84,6 +84,7 @@ def experiment(
     """
     from seewhy.domain import load_domain
     from seewhy.errors import ExperimentError
+    from seewhy.experiments.catalogue import PLANNING
     from seewhy.experiments.conclusions import conclude, summary
     from seewhy.experiments.running import prepare, run_missing, write_tables
     from seewhy.files import write_whole
@@ -93,7 +94,7 @@ def experiment(
         raise ExperimentError("--jobs must be -1 or at least 1, got 0")
     pictures = {"--domain": domain, "--data": data, "--sizes": sizes, "--tested": tested}
     of_robot = {"--before": before is not None, "--answer-sets": answer_sets}
-    if name == "planning":
+    if name == PLANNING:
         for option, given in {**pictures, "--drawn": drawn or None}.items():
             if given is not None and (option, given) != ("--domain", "robot_assistant"):
                 raise ExperimentError(

@@ -8,7 +8,7 @@ from seewhy.errors import ExperimentError
 from seewhy.experiments.experiment import Experiment
 from seewhy.nearest import did_you_mean
 
-__all__ = ["NAMES", "experiment"]
+__all__ = ["NAMES", "PLANNING", "experiment"]
 
 _HOMES = {
     "vqa": ("seewhy.experiments.vqa", "VQA"),
@@ -18,11 +18,13 @@ _HOMES = {
     "ablation": ("seewhy.experiments.coupling", "ABLATION"),
 }
 
-NAMES = (*_HOMES, "planning")
+NAMES = tuple(_HOMES)
+PLANNING = "planning"
+"""The experiment that needs no pictures; see :mod:`seewhy.experiments.planning_run`."""
 
 
 def experiment(name: str) -> Experiment:
-    """Return the experiment with a name; planning, which needs no pictures, is another kind.
+    """Return the experiment with a name; :data:`PLANNING` is of another kind.
 
     Raises
     ------
@@ -35,7 +37,9 @@ def experiment(name: str) -> Experiment:
     {'seewhy': 'SeeWhy', 'end_to_end': 'end to end'}
     """
     if name not in _HOMES:
-        raise ExperimentError(f"'{name}' is no experiment; {did_you_mean(name, NAMES)}")
+        raise ExperimentError(
+            f"'{name}' is no experiment; {did_you_mean(name, (*NAMES, PLANNING))}"
+        )
     module, own = _HOMES[name]
     found: Experiment = getattr(import_module(module), own)
     return found

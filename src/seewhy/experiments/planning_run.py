@@ -11,6 +11,7 @@ from pathlib import Path
 from joblib import Parallel, delayed
 
 from seewhy.errors import ExperimentError
+from seewhy.experiments.catalogue import PLANNING
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import ALL, Row, Trial
 from seewhy.experiments.planning import RECORDED, learned_from, recorded_run, robot_before, trial
@@ -55,7 +56,7 @@ class PlanningRun:
     @property
     def folder(self) -> Path:
         """Where the results lie."""
-        return self.out / "planning"
+        return self.out / PLANNING
 
     @property
     def seeds(self) -> range:
