@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from joblib import Parallel, delayed
 
-from seewhy.errors import ExperimentError
 from seewhy.experiments.catalogue import PLANNING
-from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import ALL, Row, Trial
 from seewhy.experiments.planning import RECORDED, learned_from, recorded_run, robot_before, trial
-from seewhy.experiments.rows import read_trial, trial_file, write_table, write_trial
-from seewhy.experiments.running import ROWS, SETTINGS, TIMINGS
+from seewhy.experiments.rows import finish, read_trial, write_table
+from seewhy.experiments.running import ROWS, TIMINGS
+from seewhy.experiments.settings import check_settings, digest
 from seewhy.files import write_whole
 from seewhy.knowledge.history import history_text, read_history_file
 from seewhy.knowledge.learned_file import LEARNED, learned_text, read_learned
@@ -112,38 +109,19 @@ def _learn(run: PlanningRun) -> None:
 
 
 def _try(run: PlanningRun, seed: int) -> None:
-    file = trial_file(run.folder, Trial(seed, ALL))
-    if file.exists():
-        return
-    with claimed(file) as ours:
-        if not ours or file.exists():
-            return
+    def rows() -> list[Row]:
         axioms, _ = read_learned(run.folder / LEARNED, robot_before().knowledge.signature)
-        rows = trial(seed=seed, learned=axioms, before=run.before, answer_sets=run.answer_sets)
-        write_trial(run.folder, Trial(seed, ALL), rows)
+        return trial(seed=seed, learned=axioms, before=run.before, answer_sets=run.answer_sets)
+
+    finish(run.folder, Trial(seed, ALL), rows)
 
 
 def _check_settings(run: PlanningRun) -> None:
     folder = robot_before().folder
-    known = b"\0".join((folder / own).read_bytes() for own in ("knowledge.al", "planning.toml"))
-    settings = {
-        **{key: asdict(run)[key] for key in ("records", "before", "answer_sets")},
-        "knowledge": hashlib.sha256(known).hexdigest()[:16],
-    }
-    file = run.folder / SETTINGS
-    try:
-        found = json.loads(file.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        write_whole(file, json.dumps(settings, indent=1))
-        return
-    except NotADirectoryError:
-        raise ExperimentError(
-            f"{run.out}: is a file, or lies in one; choose a folder for the results with --out"
-        ) from None
-    except ValueError:
-        found = {}
-    if found != settings:
-        raise ExperimentError(
-            f"{run.folder}: holds trials with other settings; choose another folder with --out, "
-            "or delete this one"
-        )
+    check_settings(
+        run.folder,
+        {
+            **{key: asdict(run)[key] for key in ("records", "before", "answer_sets")},
+            "knowledge": digest(folder / "knowledge.al", folder / "planning.toml"),
+        },
+    )

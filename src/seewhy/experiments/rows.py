@@ -5,15 +5,16 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 from seewhy.errors import ExperimentError
+from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import Row, Trial
 from seewhy.files import write_whole
 
-__all__ = ["is_timing", "read_trial", "trial_file", "write_table", "write_trial"]
+__all__ = ["finish", "is_timing", "read_trial", "trial_file", "write_table", "write_trial"]
 
 _FOLDER = "trials"
 
@@ -37,6 +38,16 @@ def trial_file(out: Path, trial: Trial) -> Path:
 def write_trial(out: Path, trial: Trial, rows: Sequence[Row]) -> None:
     """Write the rows of a finished trial, whole or not at all."""
     write_whole(trial_file(out, trial), json.dumps({"trial": trial.name, "rows": rows}, indent=1))
+
+
+def finish(out: Path, trial: Trial, make: Callable[[], Sequence[Row]]) -> None:
+    """Make a trial's rows and write them, unless somebody else does or did."""
+    file = trial_file(out, trial)
+    if file.exists():
+        return
+    with claimed(file) as ours:
+        if ours and not file.exists():
+            write_trial(out, trial, make())
 
 
 def read_trial(out: Path, trial: Trial) -> list[Row] | None:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import hashlib
-import json
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -17,15 +15,13 @@ from seewhy.dataset import TABLE
 from seewhy.domain import FILES, load_domain
 from seewhy.errors import ExperimentError
 from seewhy.experiments.catalogue import experiment
-from seewhy.experiments.claims import claimed
 from seewhy.experiments.drawing import load_pictures, pool_of, require_enough
 from seewhy.experiments.experiment import Plan, Row, Setting, Trial
-from seewhy.experiments.rows import read_trial, trial_file, write_table, write_trial
-from seewhy.files import write_whole
+from seewhy.experiments.rows import finish, read_trial, write_table
+from seewhy.experiments.settings import check_settings, digest
 
 __all__ = ["Run", "finished_rows", "prepare", "run_missing", "write_tables"]
 
-SETTINGS = "settings.json"
 ROWS, TIMINGS = "rows.csv", "timings.csv"
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # glibc's numbers for what mallopt sets
@@ -203,16 +199,13 @@ def _run_one(run: Run, trial: Trial) -> None:
     """Run one trial and write its rows, unless somebody else does or did."""
     import torch
 
-    file = trial_file(run.folder, trial)
-    if file.exists():
-        return
-    with claimed(file) as ours:
-        if not ours or file.exists():
-            return
+    def rows() -> list[Row]:
         # Networks this small gain nothing from a second thread; trials run beside each other.
         torch.set_num_threads(1)
         _keep_memory()
-        write_trial(run.folder, trial, experiment(run.experiment).trial(_setting(run), trial))
+        return experiment(run.experiment).trial(_setting(run), trial)
+
+    finish(run.folder, trial, rows)
 
 
 def _keep_memory() -> None:
@@ -228,33 +221,14 @@ def _keep_memory() -> None:
 
 
 def _check_settings(run: Run) -> None:
-    """Keep what the trials depend on beside them; refuse a folder of other settings."""
     domain = load_domain(run.domain)
-    settings = {
-        "domain": domain.name,
-        "knowledge": _digest(*(domain.folder / name for name in FILES)),
-        "pictures": _digest(run.pictures / TABLE),
-        "tested": run.tested,
-        "drawn": run.drawn,
-    }
-    file = run.out / SETTINGS
-    try:
-        found = json.loads(file.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        write_whole(file, json.dumps(settings, indent=1))
-        return
-    except ValueError:
-        raise ExperimentError(
-            f"{file}: is not as it was written; choose another folder with --out, or delete this "
-            "one"
-        ) from None
-    wrong = [key for key, value in settings.items() if found.get(key) != value]
-    if wrong:
-        raise ExperimentError(
-            f"{run.out}: holds trials with other settings ({', '.join(wrong)}); choose another "
-            "folder with --out, or delete this one"
-        )
-
-
-def _digest(*files: Path) -> str:
-    return hashlib.sha256(b"\0".join(file.read_bytes() for file in files)).hexdigest()[:16]
+    check_settings(
+        run.out,
+        {
+            "domain": domain.name,
+            "knowledge": digest(*(domain.folder / name for name in FILES)),
+            "pictures": digest(run.pictures / TABLE),
+            "tested": run.tested,
+            "drawn": run.drawn,
+        },
+    )
