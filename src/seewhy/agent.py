@@ -620,10 +620,7 @@ class Agent:
         if question.asks is Asks.EXPLAIN:
             return self._explain(scene, question, previous)
         kind, justification = self._answer(scene, question)
-        justification = justification.with_probabilities(
-            {key: (own.value, own.probability) for key, own in scene.features.items()},
-            {key: own.overruled for key, own in scene.features.items() if own.overruled},
-        )
+        justification = scene.read_in(justification)
         text = word_answer(self.domain, question, kind, vector=scene.vector, label=scene.label)
         return Reply(question, text, scene.method, justification, kind, scene)
 
@@ -714,14 +711,19 @@ class Agent:
 
     def _not_asked(self, scene: Classification) -> Node:
         """Why the knowledge is not asked about a scene whose reading is below the gate."""
-        least = min(scene.features, key=lambda key: scene.features[key].certainty)
         return Node(
             literal="undecided",
-            text=f"the knowledge is not asked: the {self.domain.features[least].name} is seen "
-            f"with a probability of {scene.features[least].certainty:.2f} only, and "
-            f"{self.gate or 0.0:.2f} is demanded",
+            text=f"the knowledge is not asked: {self.say_uncertain(scene)}",
             basis=Basis.ABSENCE,
             holds=False,
+        )
+
+    def say_uncertain(self, scene: Classification) -> str:
+        """Say of which feature a network is too little sure for the gate."""
+        least = scene.least_certain
+        return (
+            f"the {self.domain.features[least].name} is seen with a probability of "
+            f"{scene.features[least].certainty:.2f} only, and {self.gate or 0.0:.2f} is demanded"
         )
 
     def _unknown(self, scene: Classification) -> Node:

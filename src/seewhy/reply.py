@@ -77,6 +77,18 @@ class Classification:
     probability: float | None = None
     score: float | None = None
 
+    @property
+    def least_certain(self) -> str:
+        """The feature of which its network is least sure."""
+        return min(self.features, key=lambda key: self.features[key].certainty)
+
+    def read_in(self, justification: Node) -> Node:
+        """Return a justification that says how surely each feature was read."""
+        return justification.with_probabilities(
+            {key: (own.value, own.probability) for key, own in self.features.items()},
+            {key: own.overruled for key, own in self.features.items() if own.overruled},
+        )
+
 
 @dataclass(frozen=True)
 class Reply:

@@ -260,20 +260,12 @@ def _concluded(agent: Agent, scene: Classification) -> Concluded:
     if scene.verdict == UNKNOWN:
         return Concluded(None, None, not_asked="the picture is like none that is known")
     if scene.verdict == UNCERTAIN:
-        least = min(scene.features, key=lambda key: scene.features[key].certainty)
-        reason = (
-            f"the {agent.domain.features[least].name} is seen with a probability of "
-            f"{scene.features[least].certainty:.2f} only, and {agent.gate or 0.0:.2f} is demanded"
-        )
-        return Concluded(None, None, not_asked=reason)
+        return Concluded(None, None, not_asked=agent.say_uncertain(scene))
     label = agent.reasoner.decide(scene.vector).label
-    why = (
+    why = scene.read_in(
         agent.reasoned.undecided(scene.vector)
         if label is None
         else agent.reasoned.why_class(scene.vector, label)
-    ).with_probabilities(
-        {key: (own.value, own.probability) for key, own in scene.features.items()},
-        {key: own.overruled for key, own in scene.features.items() if own.overruled},
     )
     beliefs = agent.reasoner.answer_set(scene.vector)
     names = {name for name, _ in beliefs.exceptions} if beliefs else set()
