@@ -223,6 +223,26 @@ def test_a_talk_ends_with_its_input(run: Run) -> None:
     assert asked.err.startswith("seewhy: 'what do you sing' is not understood; ask for instance: ")
 
 
+def test_a_domain_can_ask_answer_sets_alone(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "own"
+    shutil.copytree(load_planning_domain("robot_assistant").folder, folder)
+    asked = ("plan", str(folder), "--goal", "loc(rob1, kitchen)")
+    text = (folder / "planning.toml").read_text(encoding="utf-8")
+    robot = 'robot = "rob1"\n'
+    (folder / "planning.toml").write_text(text.replace(robot, f"{robot}answer_sets = true\n"))
+
+    def searched(*_: object, **__: object) -> None:
+        raise RuntimeError("the states were searched")
+
+    monkeypatch.setattr("seewhy.planning.planner.ground_problem", searched)
+    assert run(*asked).out.startswith("  1. move to the kitchen\n1 action, ")
+    (folder / "planning.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(RuntimeError, match="were searched"):
+        run(*asked)
+
+
 def test_a_domain_that_plans_is_checked(run: Run, tmp_path: Path) -> None:
     done = run("check", "tower_building")
     assert done.out.splitlines()[1:] == [

@@ -65,11 +65,11 @@ def plan(
     past = read_history_file(history, knowledge.signature) if history else own.history
     seen = [read_ground_literal(text, knowledge.signature, of="fluent") for text in observed or ()]
     past = past.with_observations(seen, step=past.last_step)
-    known = diagnose(knowledge, past)
+    known = diagnose(knowledge, past, sensors_err=own.sensors_err)
     if pddl is not None:
         _write_pddl(to_pddl(knowledge, aim, start=known.now), pddl)
     most = own.horizon if horizon is None else horizon
-    found = find_plan(knowledge, aim, start=known.now, horizon=most)
+    found = find_plan(knowledge, aim, start=known.now, horizon=most, answer_sets=own.answer_sets)
     supposed = suppositions(knowledge, aim, found.actions, start=known.now)
     if json:
         print_json(_to_dict(found, goal, supposed))

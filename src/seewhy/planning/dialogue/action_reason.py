@@ -150,5 +150,11 @@ class Intentions:
         return doubt.applied(step.believed, seen, before=step.number)
 
     def _plan(self, start: State) -> Plan:
-        horizon = self.domain.horizon
-        return plan(self.domain.knowledge, self.run.goal, start=start, horizon=horizon)
+        domain = self.domain
+        return plan(
+            domain.knowledge,
+            self.run.goal,
+            start=start,
+            horizon=domain.horizon,
+            answer_sets=domain.answer_sets,
+        )
