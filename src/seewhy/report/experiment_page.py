@@ -5,10 +5,7 @@ from __future__ import annotations
 import math
 import platform
 from collections.abc import Sequence
-from importlib import resources
 from importlib.metadata import PackageNotFoundError, version
-
-from jinja2 import Environment
 
 from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.conclusions import Compared, Finding, summary, values_of
@@ -18,6 +15,7 @@ from seewhy.experiments.rows import is_timing
 from seewhy.experiments.running import Run
 from seewhy.experiments.statistics import interval
 from seewhy.report.line_chart import Line, Point, draw_lines
+from seewhy.report.rendering import rendered
 
 __all__ = ["LIBRARIES", "experiment_page", "installed"]
 
@@ -42,9 +40,8 @@ def experiment_page(
     own = experiment(run.experiment)
     sizes = list(dict.fromkeys(row["size"] for row in rows))
     finished = len({(row["seed"], row["size"]) for row in rows})
-    template = resources.files("seewhy.report").joinpath("experiment.html")
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    return environment.from_string(template.read_text(encoding="utf-8")).render(
+    return rendered(
+        "experiment.html",
         experiment=own,
         domain=run.domain,
         finished=finished,

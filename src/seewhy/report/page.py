@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib import resources
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
-
-from jinja2 import Environment
 
 from seewhy.dataset import Scene
 from seewhy.dialogue.question import Asks
@@ -15,6 +12,7 @@ from seewhy.evaluation import Evaluation
 from seewhy.induction.sentence import say_path
 from seewhy.report.card import embedded
 from seewhy.report.justification import draw_justification
+from seewhy.report.rendering import rendered
 from seewhy.report.tree import draw_tree
 
 if TYPE_CHECKING:
@@ -44,9 +42,8 @@ def report_page(
     summary = agent.extractor.summary() if agent.extractor else {}
     left = sum(path.support for path in agent.tree.paths())
     total = sum(sum(counts.values()) for counts in agent.experience.values())
-    template = resources.files("seewhy.report").joinpath("report.html").read_text(encoding="utf-8")
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    return environment.from_string(template).render(
+    return rendered(
+        "report.html",
         domain=domain,
         evaluation=evaluation,
         headline=_headline(evaluation),

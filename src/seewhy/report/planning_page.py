@@ -5,9 +5,6 @@ from __future__ import annotations
 import platform
 from collections.abc import Sequence
 from html import escape
-from importlib import resources
-
-from jinja2 import Environment
 
 from seewhy.experiments.experiment import Row
 from seewhy.experiments.planning import NAMES, SYSTEMS, Ratio, recipients_elsewhere, summary
@@ -16,6 +13,7 @@ from seewhy.experiments.statistics import Interval
 from seewhy.knowledge.learned_file import LEARNED
 from seewhy.report.experiment_page import LIBRARIES, installed
 from seewhy.report.figure import Figure
+from seewhy.report.rendering import rendered
 
 __all__ = ["conclusions", "draw_ratios", "planning_page"]
 
@@ -32,10 +30,9 @@ def planning_page(run: PlanningRun, rows: Sequence[Row], *, command: str) -> str
         ("The recipients are at first where they work", at_work),
         ("A recipient is at first elsewhere", away),
     ]
-    template = resources.files("seewhy.report").joinpath("planning.html")
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
     found = summary(rows)
-    return environment.from_string(template.read_text(encoding="utf-8")).render(
+    return rendered(
+        "planning.html",
         figure=draw_ratios(found).svg,
         sentences=conclusions(found),
         learned=(run.folder / LEARNED).read_text(encoding="utf-8"),

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import resources
 from importlib.metadata import version
 from typing import Any
 
 import clingo
-from jinja2 import Environment
 
 from seewhy.knowledge.ground import complement_of
 from seewhy.planning.domain import PlanningDomain
@@ -18,6 +16,7 @@ from seewhy.planning.words import PlanningWords
 from seewhy.planning.world import World
 from seewhy.report.card import embedded
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
+from seewhy.report.rendering import rendered
 
 _PICTURE = 192
 """Side of the robot's pictures on the page, in pixels."""
@@ -48,9 +47,8 @@ def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) ->
                 "picture": _picture(words, simulation, number),
             }
         )
-    template = resources.files("seewhy.report").joinpath("run.html").read_text(encoding="utf-8")
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    return environment.from_string(template).render(
+    return rendered(
+        "run.html",
         title=domain.title,
         goal=run.goal.text,
         steps=steps,
