@@ -14,8 +14,8 @@ from seewhy.experiments.experiment import Experiment, Measure, Row, say_size
 from seewhy.experiments.rows import is_timing
 from seewhy.experiments.running import Run
 from seewhy.experiments.statistics import interval
+from seewhy.report.html import rendered
 from seewhy.report.line_chart import Line, Point, draw_lines
-from seewhy.report.rendering import rendered
 
 __all__ = ["LIBRARIES", "experiment_page", "installed"]
 

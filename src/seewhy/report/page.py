@@ -11,8 +11,8 @@ from seewhy.dialogue.question import Asks
 from seewhy.evaluation import Evaluation
 from seewhy.induction.sentence import say_path
 from seewhy.report.card import embedded
+from seewhy.report.html import rendered
 from seewhy.report.justification import draw_justification
-from seewhy.report.rendering import rendered
 from seewhy.report.tree import draw_tree
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from seewhy.experiments.statistics import Interval
 from seewhy.knowledge.learned_file import LEARNED
 from seewhy.report.experiment_page import LIBRARIES, installed
 from seewhy.report.figure import Figure
-from seewhy.report.rendering import rendered
+from seewhy.report.html import rendered
 
 __all__ = ["conclusions", "draw_ratios", "planning_page"]
 

@@ -16,7 +16,7 @@ from seewhy.planning.words import PlanningWords
 from seewhy.planning.world import World
 from seewhy.report.card import embedded
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
-from seewhy.report.rendering import rendered
+from seewhy.report.html import rendered
 
 _PICTURE = 192
 """Side of the robot's pictures on the page, in pixels."""
