@@ -1,6 +1,6 @@
 """Learn axioms about what is usually so at first from the record of earlier runs.
 
-The paper's robot learns so that people are usually where they work (section 4.3, hypothesis H4).
+The paper's robot learns so that people are usually where they work (hypothesis H4).
 The learner is that of pictures (:mod:`seewhy.induction.learning`); what is a picture there is here
 a fluent as a run first saw it, and its features are what is fixed about the fluent's arguments.
 """
@@ -28,7 +28,8 @@ from seewhy.planning.learning.features import NO, YES, FluentFeatures, features_
 from seewhy.planning.learning.preference import preferred
 from seewhy.planning.learning.relations import Facts
 from seewhy.planning.learning.tolerance import suggested_tolerance
-from seewhy.planning.learning.usual import single, usual_sentence, usual_statement
+from seewhy.planning.learning.usual import single, usual_statement
+from seewhy.planning.learning.usual_sentence import usual_sentence
 from seewhy.planning.learning.validation import Rejected, at_first, check_explained, validated
 from seewhy.planning.state import State
 

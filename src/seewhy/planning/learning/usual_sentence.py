@@ -1,0 +1,107 @@
+"""What is usually so, as sentences in the words of planning.toml."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from seewhy.induction.candidate import Candidate
+from seewhy.planning.learning.features import YES, FluentFeatures
+from seewhy.planning.learning.usual import narrowest_sorts, things_left_out, things_named
+from seewhy.planning.tables import FluentTable
+from seewhy.planning.words import PlanningWords, in_sequence
+
+__all__ = ["usual_sentence"]
+
+_ARTICLE_AND_SLOT = re.compile(r"(?:\b(?:an?|the) )?\{(\d+)\}")
+
+
+def usual_sentence(candidate: Candidate, features: FluentFeatures, words: PlanningWords) -> str:
+    """Return what is usually so as "if a person works in a place, then usually …".
+
+    ``candidate`` is one of :func:`seewhy.planning.learning.usual.single`.
+
+    Examples
+    --------
+    >>> import clingo
+    >>> from seewhy.induction.tree import PathCondition
+    >>> from seewhy.planning.domain import load_planning_domain
+    >>> from seewhy.planning.learning.cases import Case
+    >>> from seewhy.planning.learning.features import features_of
+    >>> from seewhy.planning.learning.relations import Facts
+    >>> office = load_planning_domain("robot_assistant")
+    >>> texts = ("loc(sally,kitchen)", "loc(bob,bobs_office)", "loc(sarah,library)")
+    >>> cases = [Case(clingo.parse_term(own), True, 0) for own in texts]
+    >>> features = features_of(office.knowledge.signature, Facts(office.knowledge), cases)
+    >>> at_work = PathCondition("work_place(0, 1)", ("yes",))
+    >>> not_bob = PathCondition("argument 0", ("sally", "sarah"))
+    >>> usual_sentence(Candidate("yes", (at_work, not_bob)), features, office.words)
+    'if a person other than Bob works in a place, then usually the person is in the place'
+    """
+    things = _Things(candidate, features, words)
+    clauses = []
+    for condition in candidate.conditions:
+        relation = features.relations.get(condition.feature)
+        if relation is None or (relation.is_sort and condition.values == (YES,)):
+            continue  # said by what the argument is called
+        yes = condition.values == (YES,)
+        if relation.is_sort:
+            clauses.append(f"{things.say(relation.places[0])} is no {_noun(relation.predicate)}")
+        else:
+            clauses.append(things.filled(words.statics, relation.predicate, relation.places, yes))
+    holds = candidate.label == YES
+    places = tuple(range(len(features.sorts)))
+    said = things.filled(words.fluents, features.fluent, places, holds)
+    return f"if {in_sequence(clauses)}, then usually {said}" if clauses else f"usually {said}"
+
+
+class _Things:
+    """What arguments are called: "a person other than Bob" at first, "the person" then."""
+
+    def __init__(
+        self, candidate: Candidate, features: FluentFeatures, words: PlanningWords
+    ) -> None:
+        self.words = words
+        self.named = things_named(candidate, features)
+        self.sorts = narrowest_sorts(candidate, features)
+        self.besides = {
+            features.places[own.feature]: things_left_out(own, features)
+            for own in candidate.conditions
+            if own.feature in features.places and len(own.values) > 1
+        }
+        self.said: set[int] = set()
+
+    def say(self, place: int | None, sort: str = "thing") -> str:
+        if place is None:
+            return f"some {_noun(sort)}"
+        if place in self.named:
+            return self.words.name(self.named[place])
+        noun = _noun(self.sorts[place])
+        alike = [own for own in sorted(self.said) if self.sorts[own] == self.sorts[place]]
+        if place in self.said:
+            return f"the {'other ' if alike and alike[0] != place else ''}{noun}"
+        other = [self.words.name(own) for own in self.besides.get(place, ())]
+        besides = f" other than {' or '.join(other)}" if other else ""
+        article = "another" if alike else "an" if noun[0] in "aeiou" else "a"
+        self.said.add(place)
+        return f"{article} {noun}{besides}"
+
+    def filled(
+        self,
+        tables: Mapping[str, FluentTable],
+        predicate: str,
+        places: tuple[int | None, ...],
+        holds: bool,
+    ) -> str:
+        table = tables.get(predicate)
+        if table is None:
+            about = ", ".join(self.say(own) for own in places)
+            said = predicate.replace("_", " ") + (f" ({about})" if about else "")
+            return said if holds else f"not: {said}"
+        text = table.say if holds or table.deny is None else table.deny
+        said = _ARTICLE_AND_SLOT.sub(lambda own: self.say(places[int(own.group(1))]), text)
+        return f"it is not so that {said}" if not holds and table.deny is None else said
+
+
+def _noun(sort: str) -> str:
+    return sort.replace("_", " ")
