@@ -137,8 +137,7 @@ def pretrain(out: Path, *, drawn: int) -> tuple[Pretrained, Pretrained]:
     folder = out / f"drawn-{drawn}"
     domain = load_domain(DOMAIN)
     if not (folder / "features").is_dir():
-        together = domain.reading == "consistent"
-        first = pretrained(domain, count=drawn, together=together, checkpoints=folder)
+        first = pretrained(domain, count=drawn, checkpoints=folder)
         (folder / "features").mkdir()
         first.extractor.save(folder / "features")
     scenes = Dataset.load(folder / "drawn", domain)

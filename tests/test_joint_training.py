@@ -43,7 +43,7 @@ def fit(n: int = 60, **changes: object) -> FeatureExtractor:
         "labels": labels,
         "values": VALUES,
         "options": OPTIONS,
-        "together": True,
+        "together": tuple(VALUES),
         "workers": 1,
         **changes,
     }
@@ -133,7 +133,7 @@ def test_unknown_values_are_left_out() -> None:
         "light": [None if n % 3 == 1 else own for n, own in enumerate(labels["light"])],
     }
     extractor = fit_extractor(
-        pictures, gaps, values=VALUES, options=OPTIONS, together=True, workers=1
+        pictures, gaps, values=VALUES, options=OPTIONS, together=VALUES, workers=1
     )
     assert all(bool(tensor.isfinite().all()) for tensor in tensors(extractor))
     truth = list(zip(*labels.values(), strict=True))
@@ -148,7 +148,7 @@ def test_no_scene_whose_values_are_all_known() -> None:
         "light": [None if n % 2 else own for n, own in enumerate(labels["light"])],
     }
     extractor = fit_extractor(
-        pictures, halves, values=VALUES, options=OPTIONS, together=True, workers=1
+        pictures, halves, values=VALUES, options=OPTIONS, together=VALUES, workers=1
     )
     assert all(bool(tensor.isfinite().all()) for tensor in tensors(extractor))
 

@@ -12,13 +12,14 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from conftest import draw_tile, write_domain
+from conftest import draw_tile, one_process, write_domain
 from knowledge_builders import VALUES, Rule, World, worlds
 from seewhy.agent import Agent
 from seewhy.cli.ask import print_reply
 from seewhy.dataset import Dataset
 from seewhy.domain import Domain, load_domain
-from seewhy.errors import DomainError
+from seewhy.domain_tables import CLASS
+from seewhy.errors import DomainError, ModelError
 from seewhy.knowledge.candidates import decided_vectors, most_probable_decided
 from seewhy.knowledge.justification import Basis
 from seewhy.knowledge.reasoner import Reasoner
@@ -198,21 +199,29 @@ def test_contradictory_vectors_are_never_read(tmp_path: Path) -> None:
 class Networks:
     """Gives the probabilities that it is told, one row a picture."""
 
-    def __init__(self, colour: list[float], is_round: list[float]) -> None:
+    def __init__(
+        self, colour: list[float], is_round: list[float], classes: list[float] | None = None
+    ) -> None:
         self.rows = {"colour": np.array([colour]), "round": np.array([is_round])}
+        if classes is not None:
+            self.rows[CLASS] = np.array([classes])
 
     def probabilities(self, pictures: np.ndarray[Any, Any]) -> dict[str, np.ndarray[Any, Any]]:
         return {key: own.repeat(len(pictures), axis=0) for key, own in self.rows.items()}
 
 
 def agent_seeing(
-    domain: Domain, colour: list[float], is_round: list[float], **options: Any
+    domain: Domain,
+    colour: list[float],
+    is_round: list[float],
+    classes: list[float] | None = None,
+    **options: Any,
 ) -> Agent:
     agent = Agent(domain, **options)
     agent.fit_induction(
         [("red", "yes"), ("green", "yes"), ("green", "no")], ["good", "good", "bad"]
     )
-    agent.extractor = Networks(colour, is_round)  # type: ignore[assignment]
+    agent.extractor = Networks(colour, is_round, classes)  # type: ignore[assignment]
     return agent
 
 
@@ -295,7 +304,8 @@ def test_the_domain_says_how_it_is_read(tmp_path: Path, tiles: Domain) -> None:
     with pytest.raises(DomainError) as problem:
         load_domain(folder)
     assert str(problem.value) == (
-        f"{path}:2: 'domain.reading': input should be 'argmax' or 'consistent', got 'best'"
+        f"{path}:2: 'domain.reading': input should be 'argmax', 'consistent' or 'with_class', got "
+        "'best'"
     )
 
 
@@ -314,6 +324,165 @@ def test_options_that_are_none(tiles: Domain, options: dict[str, Any], said: str
     with pytest.raises(DomainError) as problem:
         Agent(tiles, **options)
     assert str(problem.value) == said
+
+
+# With a network of the class ------------------------------------------------------------------
+
+
+@many
+@given(
+    world=worlds(),
+    sure=distributions(),
+    weights=st.lists(st.integers(0, 5), min_size=3, max_size=3).filter(any),
+    shown=st.sets(st.integers(0, 2)),
+    opened=st.lists(st.sampled_from(SPACE), max_size=2),
+    listed=st.sampled_from([1000, -1]),
+    tried=st.sampled_from([0, 3, 1000]),
+)
+@example(world=CHOICE, sure=EVEN, weights=[0, 1, 5], shown={0, 1, 2}, opened=[], listed=-1, tried=0)
+def test_the_class_that_is_seen_is_one_more_witness(
+    world: World,
+    sure: dict[str, np.ndarray[Any, Any]],
+    weights: list[int],
+    shown: set[int],
+    opened: list[FeatureVector],
+    listed: int,
+    tried: int,
+) -> None:
+    """A vector counts as its features do, times its class; a class never shown is not judged."""
+    names = list(world.schema.classes)
+    chances = np.array([weights[: len(names)]], dtype=float) + 1e-3
+    chances /= chances.sum()
+    witnessed = [name for n, name in enumerate(names) if n in shown]
+    reasoner = Reasoner(world.knowledge, world.schema)
+    reader = ConsistentReading(
+        reasoner,
+        opened,
+        label_of=lambda vector: reasoner.decide(vector).label,
+        witnessed=witnessed,
+        listed=listed,
+        tried=tried,
+    )
+    (found,) = reader.read({**sure, CLASS: chances})
+
+    def score(vector: FeatureVector) -> float:
+        label = world.decision(vector)[0]
+        if label not in witnessed:
+            return logarithm(sure, vector)
+        chance = chances[0, names.index(label or "")] / chances.max()
+        return logarithm(sure, vector) + float(np.log(chance))
+
+    candidates = [v for v in SPACE if world.decision(v)[0] is not None or v in opened]
+    if not candidates:
+        assert logarithm(sure, found.vector) == pytest.approx(
+            max(logarithm(sure, vector) for vector in SPACE)
+        )
+        return
+    assert found.vector in candidates
+    assert score(found.vector) == pytest.approx(max(map(score, candidates)), abs=1e-5)
+    assert found.score == pytest.approx(logarithm(sure, found.vector), abs=1e-5)
+    if witnessed:
+        assert found.class_seen == (names[int(chances.argmax())], float(chances.max()))
+    else:
+        assert found.class_seen is None
+
+
+GOOD_SEEN = [0.99, 0.01]
+
+
+def test_a_witness_changes_what_is_read(certain_reds: Domain) -> None:
+    """Red and round, good, is less probable than blue with corners, bad, but good is seen."""
+    sure = ([0.3, 0.1, 0.6], [0.6, 0.4])
+    alone = agent_seeing(certain_reds, *sure, reading="consistent")
+    with_class = agent_seeing(certain_reds, *sure, GOOD_SEEN, reading="with_class")
+    picture = draw_tile("red", "yes", 0)
+    assert alone.classify(picture).vector == ("blue", "no")
+    scene = with_class.classify(picture)
+    assert (scene.vector, scene.label) == (("red", "yes"), "good")
+    assert scene.class_seen == ("good", 0.99)
+    # By hand, every candidate times its class: green and round is good by the tree, without bad.
+    good, bad = 0.99 * (0.3 * 0.6 + 0.1 * 0.6), 0.01 * (0.3 * 0.4 + 0.1 * 0.4 + 0.6 * 0.4)
+    assert scene.probability is not None
+    assert scene.probability > good / (good + bad) - 0.02
+    assert scene.score == pytest.approx(np.log(0.3 * 0.6))
+
+
+def test_a_reply_says_what_the_witness_saw(
+    certain_reds: Domain, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sure = ([0.3, 0.1, 0.6], [0.6, 0.4])
+    agent = agent_seeing(certain_reds, *sure, GOOD_SEEN, reading="with_class")
+    picture = draw_tile("red", "yes", 0)
+    reply = agent.ask(picture, "why is it good?")
+    print_reply(reply)
+    assert capsys.readouterr().out == (
+        "The tile is red.\n"
+        "\n"
+        "asked: why is the tile good?\n"
+        "seen: colour red (0.30), round yes (0.60), class good (0.99)\n"
+        "the knowledge and the class seen overruled: colour read as blue (p = 0.60), "
+        "red (0.30) is what fits\n"
+        "by: knowledge\n"
+        "because:\n"
+        '  the tile is good: "a red tile is good" (knowledge.al:8)\n'
+        "  └─ the tile is red (p = 0.30; the network alone saw blue, p = 0.60)\n"
+    )
+    assert reply.to_dict()["class_seen"] == {"class": "good", "probability": 0.99}
+    assert "class: good (p = 0.99), a witness to the features" in draw_card(reply, picture).svg
+
+
+@pytest.fixture(scope="module")
+def agent_with_class(tiles: Domain, dataset: Dataset) -> Agent:
+    with one_process():
+        return Agent(tiles, seed=3, reading="with_class").fit(dataset)
+
+
+def test_the_network_of_the_class_is_trained_and_kept(
+    agent_with_class: Agent, agent: Agent, dataset: Dataset, tmp_path: Path
+) -> None:
+    assert agent_with_class.extractor is not None
+    assert agent.extractor is not None
+    assert list(agent_with_class.extractor.networks) == ["colour", "round", "class"]
+    assert agent_with_class.extractor.values["class"] == ("good", "bad")
+    pictures = dataset.pictures(16)
+    own, plain = (each.extractor.probabilities(pictures) for each in (agent_with_class, agent))
+    assert all(np.array_equal(own[key], plain[key]) for key in plain)
+    agent_with_class.save(tmp_path / "model")
+    loaded = Agent.load(tmp_path / "model")
+    assert loaded.classify_all(pictures) == agent_with_class.classify_all(pictures)
+    # The witness can be left out afterwards, but not called where there is none.
+    without = Agent.load(tmp_path / "model", reading="argmax")
+    assert without.classify_all(pictures) == agent.classify_all(pictures)
+
+
+def test_a_model_without_a_witness_cannot_call_one(model_folder: Path) -> None:
+    with pytest.raises(ModelError) as problem:
+        Agent.load(model_folder, reading="with_class")
+    assert str(problem.value) == (
+        f"{model_folder}: the model has no network of the class; train it with --reading "
+        "with_class, or read its pictures in another way"
+    )
+
+
+def test_a_class_left_out_is_not_voted_down(tiles: Domain) -> None:
+    """The network of the class never saw it; what it says is held against no vector of it."""
+    agent = agent_seeing(tiles, [0.9, 0.05, 0.05], [0.9, 0.1], [0.001, 0.999], reading="with_class")
+    agent.fit_induction([("blue", "no"), ("green", "no")], ["bad", "bad"])
+    scene = agent.classify(draw_tile("red", "yes", 0))
+    assert (scene.vector, scene.label) == (("red", "yes"), "good")
+
+
+@pytest.mark.parametrize("name", ["class", "together"])
+def test_names_of_other_networks_are_no_features(tmp_path: Path, name: str) -> None:
+    folder = write_domain(tmp_path / "tiles")
+    for file in ("domain.toml", "knowledge.al", "questions.toml"):
+        text = (folder / file).read_text()
+        (folder / file).write_text(text.replace("round", name))
+    with pytest.raises(DomainError) as problem:
+        load_domain(folder)
+    assert str(problem.value).endswith(
+        f": '{name}' is what other networks than a feature's are called; call the feature otherwise"
+    )
 
 
 # The gate -----------------------------------------------------------------------------------

@@ -201,6 +201,23 @@ def test_what_is_overruled(agent: Agent) -> None:
     }
 
 
+def test_what_the_witness_saw(agent: Agent) -> None:
+    overruled = FeatureReading("red", 0.3, ("blue", 0.6))
+    scene = seen(agent, "red", "no")
+    scene = replace(
+        scene, features={**scene.features, "colour": overruled}, class_seen=("good", 0.97)
+    )
+    found = trace_of(agent, scene)
+    assert part(found, "networks").splitlines() == [
+        "  colour: red (p = 0.30); overruled: the network alone saw blue (p = 0.60), which does "
+        "not fit what is known and the class that is seen",
+        "  shape: no (p = 0.90)",
+        "  class: good (p = 0.97), seen by a network of its own; a witness to what the features "
+        "are",
+    ]
+    assert found.to_dict()["networks"]["class_seen"] == {"class": "good", "probability": 0.97}
+
+
 def test_a_picture_that_is_not_known(agent: Agent) -> None:
     scene = replace(
         seen(agent, "red", "no"), label=None, method="none", verdict=UNKNOWN, score=0.41

@@ -278,7 +278,7 @@ def test_what_training_says_of_refusal(
         (("--known-share", "0"), "seewhy: known_share must be above 0, at most 1, got 0.0\n"),
         (("--gate", "7"), "seewhy: gate must be 0 to 1, got 7.0\n"),
         (("--reading", "best"), "seewhy: 'best' is no way to read features; it must be one of: "
-         "argmax, consistent\n"),
+         "argmax, consistent, with_class\n"),
     ],
 )  # fmt: skip
 def test_wrong_options(

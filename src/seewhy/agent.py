@@ -16,7 +16,8 @@ from seewhy.dialogue.question import Asks, Question, Questions
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience, ReferenceAnswers, experience_of
 from seewhy.domain import Domain
-from seewhy.errors import DatasetError, DomainError, KnowledgeError, NotFittedError
+from seewhy.domain_tables import CLASS
+from seewhy.errors import DatasetError, DomainError, KnowledgeError, ModelError, NotFittedError
 from seewhy.induction.learning import DEFAULTS, LearningOptions
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree, TreePath
@@ -79,10 +80,11 @@ class Agent:
         :class:`~seewhy.knowledge.reasoner.Reasoner`.
     seed : int
         Two agents with the same seed and data agree.
-    reading : {"argmax", "consistent"}, optional
-        How the features of a picture are read: each its most probable value, as in the paper, or
+    reading : {"argmax", "consistent", "with_class"}, optional
+        How the features of a picture are read: each its most probable value, as in the paper,
         together the most probable vector that fits what is known
-        (:class:`~seewhy.reading.ConsistentReading`). What the domain says where left out.
+        (:class:`~seewhy.reading.ConsistentReading`), or that with a network of the class as one
+        more witness. What the domain says where left out.
     gate : float, optional
         Scenes of which some network is less sure than this (0 to 1) are classified by the tree,
         whatever the knowledge says of them, and also train it: the paper's threshold on the
@@ -164,7 +166,7 @@ class Agent:
             self.domain.knowledge, self.domain.schema, minimality=self.minimality
         )
         self.reasoned = ReasonedAnswers(self.domain, self.reasoner)
-        self._consistent: ConsistentReading | None = None
+        self._readers: dict[ReadingRule, ConsistentReading] = {}
 
     # Training -------------------------------------------------------------------------------
 
@@ -216,7 +218,7 @@ class Agent:
             If the dataset is of another domain or of one class only, or if a class to leave out
             is none of the domain's.
         """
-        from seewhy.perception.domain_options import training_options
+        from seewhy.perception.domain_options import seen_labels, seen_values, training_options
         from seewhy.perception.extractor import fit_extractor
         from seewhy.perception.options import TrainingOptions
         from seewhy.perception.validation import split
@@ -225,10 +227,8 @@ class Agent:
         self._require_own(dataset)
         scenes = dataset.of_split("train").without_classes(without)
         scenes.require_two_classes()
-        pictures = self.domain.pictures
-        pixels = scenes.pictures(pictures.size)
-        values = {key: feature.values for key, feature in self.domain.features.items()}
-        columns = list(zip(*scenes.vectors, strict=True))
+        pixels = scenes.pictures(self.domain.pictures.size)
+        with_class = self.reading == "with_class"
         validation = None
         if self.known_share < 1.0:
             # Only of pictures that no network was trained on is it known how well such fit.
@@ -248,7 +248,7 @@ class Agent:
                 count=drawn,
                 seed=self.seed,
                 without=without,
-                together=self.reading == "consistent",
+                with_class=with_class,
                 workers=workers,
                 checkpoints=checkpoints,
                 on_picture=on_picture,
@@ -257,15 +257,15 @@ class Agent:
             earlier = first.extractor
         self.extractor = fit_extractor(
             pixels,
-            dict(zip(values, columns, strict=True)),
-            values=values,
-            options=training_options(self.domain, seed=self.seed),
+            seen_labels(self.domain, scenes.vectors, scenes.labels, with_class=with_class),
+            values=seen_values(self.domain, with_class=with_class),
+            options=training_options(self.domain, seed=self.seed, with_class=with_class),
             groups=scenes.groups,
             validation=validation,
             checkpoints=checkpoints,
             start_from=earlier,
             rehearsal=first.rehearsal if first else None,
-            together=self.reading == "consistent",
+            together=tuple(self.domain.features) if self.domain.networks.together else (),
             workers=workers,
             on_progress=on_progress,
         )
@@ -293,12 +293,14 @@ class Agent:
         known = np.setdiff1d(np.arange(len(vectors)), validation)
         columns = zip(*(vectors[n] for n in known), strict=True)
         self.familiarity = fit_familiarity(
-            {key: own[known] for key, own in seen.embeddings.items()},
-            dict(zip(seen.embeddings, columns, strict=True)),
+            {key: seen.embeddings[key][known] for key in self.domain.features},
+            dict(zip(self.domain.features, columns, strict=True)),
             seed=self.seed,
         )
         kept = seen.of(validation)
         for rule in READINGS:
+            if rule == "with_class" and CLASS not in seen.probabilities:
+                continue
             self.validation_scores[rule] = self._scores(kept, self._read(kept.probabilities, rule))
 
     def fit_induction(
@@ -319,7 +321,7 @@ class Agent:
         from seewhy.dialogue.learned import fit_learned_answers
 
         self.experience = experience_of(vectors, labels)
-        self._consistent = None
+        self._readers = {}
         decisions = self.reasoner.decide_all(vectors)
         more = frozenset(uncertain)
         left = [n for n, own in enumerate(decisions) if own.label != labels[n] or n in more]
@@ -492,13 +494,15 @@ class Agent:
     ) -> list[Reading]:
         if rule == "argmax":
             return read_separately(self.reasoner.schema, probabilities)
-        if self._consistent is None:
-            self._consistent = ConsistentReading(
+        if rule not in self._readers:
+            known = {label for counts in self.experience.values() for label in counts}
+            self._readers[rule] = ConsistentReading(
                 self.reasoner,
                 open_vectors(self.reasoner, self.experience),
                 label_of=lambda vector: self._decide(vector)[0],
+                witnessed=known if rule == "with_class" else (),
             )
-        return self._consistent.read(probabilities)
+        return self._readers[rule].read(probabilities)
 
     def _read_and_score(self, pictures: np.ndarray[Any, Any]) -> tuple[list[Reading], list[float]]:
         if self.extractor is None or self.familiarity is None:
@@ -514,14 +518,16 @@ class Agent:
         values = {
             key: [own.features[key].value for own in readings] for key in self.domain.features
         }
-        return [float(own) for own in self.familiarity.likeness(seen.embeddings, values)]
+        embeddings = {key: seen.embeddings[key] for key in self.domain.features}
+        return [float(own) for own in self.familiarity.likeness(embeddings, values)]
 
     def _uncertain(self, pictures: np.ndarray[Any, Any]) -> list[int]:
         """The positions of the pictures of which some network is less sure than the gate."""
         if self.gate is None or self.extractor is None:
             return []
         probabilities = self.extractor.probabilities(pictures)
-        certainty = np.min([own.max(axis=1) for own in probabilities.values()], axis=0)
+        own = [probabilities[key].max(axis=1) for key in self.domain.features]
+        certainty = np.min(own, axis=0)
         return [int(n) for n in np.flatnonzero(certainty < self.gate)]
 
     @property
@@ -581,7 +587,16 @@ class Agent:
             elif by_tree and self._below_gate(own):
                 label, method, said, probability = by_tree[own.vector], "tree", UNCERTAIN, None
             found.append(
-                Classification(label, method, own.vector, own.features, said, probability, score)
+                Classification(
+                    label,
+                    method,
+                    own.vector,
+                    own.features,
+                    said,
+                    probability,
+                    score,
+                    own.class_seen,
+                )
             )
         return found
 
@@ -800,7 +815,8 @@ class Agent:
         Raises
         ------
         ModelError
-            If the folder is incomplete, was edited, or was made by another version.
+            If the folder is incomplete, was edited, or was made by another version; or if pictures
+            are to be read with a network of the class, and it has none.
         DomainError
             If an option is out of its range.
         """
@@ -817,6 +833,11 @@ class Agent:
             learned=model.learned,
             withdrawn=model.withdrawn,
         )
+        if agent.reading == "with_class" and CLASS not in model.extractor.networks:
+            raise ModelError(
+                f"{folder}: the model has no network of the class; train it with --reading "
+                "with_class, or read its pictures in another way"
+            )
         agent.extractor, agent.tree, agent.answerer = model.extractor, model.tree, model.answerer
         agent.experience, agent.trained_on = model.experience, model.trained_on
         agent.familiarity = model.familiarity

@@ -8,6 +8,8 @@ from pathlib import Path
 from types import MappingProxyType
 
 from seewhy.domain_tables import (
+    CLASS,
+    TOGETHER,
     BeliefTable,
     ClassTable,
     DomainFile,
@@ -95,7 +97,7 @@ class Domain:
     folder : Path
     source : str or None
         The importable module that makes pictures (``draw(seed=, index=, size=)``).
-    reading : {"argmax", "consistent"}
+    reading : {"argmax", "consistent", "with_class"}
         How the features of a picture are read, see :mod:`seewhy.reading`.
     known_share : float
         The share of pictures like those of training that is answered, see
@@ -295,6 +297,11 @@ def _feature(
         return place.at("features", key)
 
     scene = file.domain.scene
+    if key in (CLASS, TOGETHER):
+        raise DomainError(
+            f"{here()}: '{key}' is what other networks than a feature's are called; call the "
+            "feature otherwise"
+        )
     if predicate is None:
         raise DomainError(
             f"{here()}: the feature '{key}' is not declared in knowledge.al; "

@@ -7,10 +7,16 @@ from typing import Literal as OneOf
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-ReadingRule = OneOf["argmax", "consistent"]
+ReadingRule = OneOf["argmax", "consistent", "with_class"]
 """How a picture's features are read; see :mod:`seewhy.reading`."""
 
 READINGS: tuple[ReadingRule, ...] = get_args(ReadingRule)
+
+CLASS = "class"
+"""What the network of the class is called among those of the features."""
+
+TOGETHER = "together"
+"""What all networks of features are called where they are trained together."""
 
 
 class _Table(BaseModel):
@@ -60,9 +66,10 @@ Channels = Annotated[tuple[Annotated[int, Field(ge=1, le=4096)], ...], Field(min
 
 
 class NetworkTable(_Table):
-    """``[networks]``: how large the networks become and how long they are trained.
+    """``[networks]``: how large the networks become and how they are trained.
 
-    See :class:`seewhy.perception.options.TrainingOptions`.
+    See :class:`seewhy.perception.options.TrainingOptions`, and for ``together``
+    :func:`seewhy.perception.extractor.fit_extractor`.
     """
 
     depth: int = Field(default=1, ge=1, le=16)
@@ -71,6 +78,7 @@ class NetworkTable(_Table):
     epochs: int = Field(default=18, ge=1, le=10_000)
     patience: int = Field(default=6, ge=1, le=10_000)
     batch: int = Field(default=64, ge=1, le=65_536)
+    together: bool = False
 
 
 def _with_letters(word: str) -> str:

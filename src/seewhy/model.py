@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from seewhy.dialogue.reference import Experience
 from seewhy.domain import FILES, Domain, load_domain
-from seewhy.domain_tables import ReadingRule
+from seewhy.domain_tables import CLASS, ReadingRule
 from seewhy.errors import ModelError, SeeWhyError
 from seewhy.files import write_whole
 from seewhy.induction.tree import DecisionTree
@@ -141,12 +141,13 @@ def read_model(folder: Path) -> Model:
             f"{folder}: the model was trained for the domain '{manifest['domain']}', but its "
             f"domain folder is '{domain.name}'; train it again"
         )
+    from seewhy.perception.domain_options import seen_values
     from seewhy.perception.extractor import FeatureExtractor
     from seewhy.perception.familiarity import FAMILIARITY, Familiarity
 
     extractor = FeatureExtractor.load(folder / "perception")
-    expected = {key: feature.values for key, feature in domain.features.items()}
-    if dict(extractor.values) != expected:
+    with_class = CLASS in extractor.values
+    if dict(extractor.values) != seen_values(domain, with_class=with_class):
         raise ModelError(
             f"{folder}: the networks recognise other features than the model's domain names; "
             "train it again"

@@ -41,7 +41,7 @@ def pretrained(
     count: int,
     seed: int = 0,
     without: Sequence[str] = (),
-    together: bool = False,
+    with_class: bool = False,
     workers: int = -1,
     checkpoints: Path | None = None,
     on_picture: Callable[[int], None] | None = None,
@@ -61,8 +61,8 @@ def pretrained(
     seed : int, default 0
     without : sequence of str
         Classes of which no drawing is used.
-    together : bool, default False
-        See :func:`seewhy.perception.extractor.fit_extractor`.
+    with_class : bool, default False
+        Whether a network of the class is trained as well.
     workers : int, default -1
         Processes that draw and train; -1: one a core.
     checkpoints : Path, optional
@@ -77,7 +77,7 @@ def pretrained(
     DomainError
         If the domain has no source of pictures.
     """
-    from seewhy.perception.domain_options import training_options
+    from seewhy.perception.domain_options import seen_labels, seen_values, training_options
     from seewhy.perception.extractor import fit_extractor
     from seewhy.perception.rehearsal import Rehearsal
 
@@ -95,19 +95,15 @@ def pretrained(
             on_progress=on_picture,
         )
         scenes = Dataset.load(folder / "drawn", domain).without_classes(without)
-        columns = list(zip(*scenes.vectors, strict=True))
-        labels = {
-            key: [str(value) for value in column]
-            for key, column in zip(domain.features, columns, strict=True)
-        }
+        columns = seen_labels(domain, scenes.vectors, scenes.labels, with_class=with_class)
+        labels = {key: [str(value) for value in column] for key, column in columns.items()}
         pixels = scenes.pictures(domain.pictures.size)
-        values = {key: feature.values for key, feature in domain.features.items()}
         extractor = fit_extractor(
             pixels,
             labels,
-            values=values,
-            options=training_options(domain, seed=seed),
-            together=together,
+            values=seen_values(domain, with_class=with_class),
+            options=training_options(domain, seed=seed, with_class=with_class),
+            together=tuple(domain.features) if domain.networks.together else (),
             workers=workers,
             checkpoints=folder / "drawn.training",
             on_progress=on_progress,

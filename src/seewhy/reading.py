@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seewhy.domain_tables import READINGS, ReadingRule
+from seewhy.domain_tables import CLASS, READINGS, ReadingRule
 from seewhy.errors import DomainError
 from seewhy.knowledge.candidates import TRIED, decided_vectors, most_probable_decided
 from seewhy.knowledge.reasoner import Reasoner, Verdict
@@ -34,7 +34,10 @@ _SMALLEST = 1e-300  # a network's 0.0 is a number too small for its type, not an
 _AT_ONCE = 1 << 21  # (picture, candidate) pairs of one NumPy operation: 16 MiB
 
 Probabilities = Mapping[str, NDArray[np.float64]]
-"""Feature → probabilities of its values, of shape (pictures, values)."""
+"""Feature → probabilities of its values, of shape (pictures, values).
+
+Where a network sees the class as well, its probabilities are here under "class".
+"""
 
 
 @dataclass(frozen=True)
@@ -55,12 +58,16 @@ class Reading:
         Of the class: where features are read separately, the probability that all of them are
         read rightly. Where the reading is consistent, the share of the candidates of that class
         in the probability of all.
+    class_seen : (str, float) or None
+        The most probable class that a network of its own saw, and its probability, where such a
+        network has a say in the reading.
     """
 
     vector: FeatureVector
     features: dict[str, FeatureReading]
     score: float
     probability: float
+    class_seen: tuple[str, float] | None = None
 
 
 def reading_rule(name: str) -> ReadingRule:
@@ -114,6 +121,10 @@ class ConsistentReading:
     probability is the product of its values' probabilities. Where there is no candidate at all,
     features are read separately.
 
+    Where a network sees the class as well, it is one more witness: a vector's probability is
+    multiplied with that of its class. It says nothing of vectors without a class, or of a class
+    of which it was shown no picture: these count like its most probable class.
+
     Departure from the paper, in which every feature is read by itself; the results are the
     paper's with :func:`read_separately`.
 
@@ -124,6 +135,8 @@ class ConsistentReading:
         Vectors with unknown values are left out.
     label_of : callable
         The class of a candidate, or None.
+    witnessed : collection of str
+        The classes that the network of the class was shown; none where there is no such network.
     listed : int
         With more vectors that the knowledge decides than this, the best one is searched for every
         picture: the reading is the same, but the class's probability is then that of the one
@@ -152,12 +165,14 @@ class ConsistentReading:
         open_vectors: Sequence[FeatureVector],
         *,
         label_of: Callable[[FeatureVector], str | None],
+        witnessed: Collection[str] = (),
         listed: int = LISTED,
         tried: int = TRIED,
     ) -> None:
         self.schema = reasoner.schema
         self.reasoner = reasoner
         self.label_of = label_of
+        self.witnessed = frozenset(witnessed)
         self.listed = listed
         self.tried = tried
         self._open = [v for v in dict.fromkeys(open_vectors) if None not in v]
@@ -178,10 +193,10 @@ class ConsistentReading:
 
     @cached_property
     def _classes(self) -> NDArray[np.intp]:
-        """A number for the class of every listed candidate."""
-        numbers: dict[str | None, int] = {}
+        """The place of every listed candidate's class; beyond the last for one without."""
+        places: dict[str | None, int] = {own: n for n, own in enumerate(self.schema.classes)}
         labels = (self.label_of(_vector(self.schema, row)) for row in self._candidates.tolist())
-        return np.array([numbers.setdefault(own, len(numbers)) for own in labels], dtype=np.intp)
+        return np.array([places.get(own, len(places)) for own in labels], dtype=np.intp)
 
     @cached_property
     def _values(self) -> list[tuple[str, ...]]:
@@ -193,6 +208,7 @@ class ConsistentReading:
         Parameters
         ----------
         probabilities : mapping of str to ndarray of float, shape (pictures, values)
+            Of every feature, and under "class" of the classes where they are ``witnessed``.
 
         Returns
         -------
@@ -205,33 +221,53 @@ class ConsistentReading:
         if not searched and not len(self._candidates):
             return read_separately(self.schema, probabilities)
         logarithms = [_logarithms(own) for own in tables]
+        classes = self._class_scores(probabilities, len(tables[0]))
+        seen = self._classes_seen(probabilities, len(tables[0]))
         pictures = len(tables[0])
         step = max(1, _AT_ONCE // max(1, len(self._candidates)))
         found: list[Reading] = []
         for start in range(0, pictures, step):
             part = [own[start : start + step] for own in logarithms]
-            best, scores, shares = self._search(part) if searched else self._choose(part)
+            choose = self._search if searched else self._choose
+            best, scores, shares = choose(part, classes[start : start + step])
             features = _features(self.schema, [own[start : start + step] for own in tables], best)
             found += [
-                Reading(_vector(self.schema, columns), own, float(score), float(share))
-                for columns, own, score, share in zip(
-                    best.tolist(), features, scores, shares, strict=True
+                Reading(_vector(self.schema, columns), own, float(score), float(share), witness)
+                for columns, own, score, share, witness in zip(
+                    best.tolist(), features, scores, shares, seen[start : start + step], strict=True
                 )
             ]
         return found
 
+    def _class_scores(self, probabilities: Probabilities, pictures: int) -> NDArray[np.float64]:
+        """What is added for a vector of every class, or of none: shape (pictures, classes + 1)."""
+        scores = np.zeros((pictures, len(self.schema.classes) + 1))
+        if self.witnessed:
+            seen = _logarithms(np.asarray(probabilities[CLASS], dtype=np.float64))
+            relative = seen - seen.max(axis=1, keepdims=True)
+            own = [n for n, name in enumerate(self.schema.classes) if name in self.witnessed]
+            scores[:, own] = relative[:, own]
+        return scores
+
+    def _classes_seen(
+        self, probabilities: Probabilities, pictures: int
+    ) -> list[tuple[str, float] | None]:
+        if not self.witnessed:
+            return [None] * pictures
+        names, table = tuple(self.schema.classes), np.asarray(probabilities[CLASS])
+        return [(names[int(row.argmax())], float(row.max())) for row in table]
+
     def _choose(
-        self, logarithms: Sequence[NDArray[np.float64]]
+        self, logarithms: Sequence[NDArray[np.float64]], class_scores: NDArray[np.float64]
     ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
-        """The best candidate of every picture, the score, and the share of its class."""
-        joint = self._joint(logarithms)
+        """The best candidate of every picture, its score, and the share of its class."""
+        alone = self._joint(logarithms)
+        joint = alone + class_scores[:, self._classes]
         best = joint.argmax(axis=1)
-        most = joint.max(axis=1)
-        relative = np.exp(joint - most[:, None])
-        total = relative.sum(axis=1)
+        relative = np.exp(joint - joint.max(axis=1, keepdims=True))
         same = self._classes[None, :] == self._classes[best][:, None]
-        share = (relative * same).sum(axis=1) / total
-        return self._candidates[best], most, share
+        share = (relative * same).sum(axis=1) / relative.sum(axis=1)
+        return self._candidates[best], alone[np.arange(len(best)), best], share
 
     def _joint(self, logarithms: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
         joint = np.zeros((len(logarithms[0]), len(self._candidates)))
@@ -240,27 +276,32 @@ class ConsistentReading:
         return joint
 
     def _search(
-        self, logarithms: Sequence[NDArray[np.float64]]
+        self, logarithms: Sequence[NDArray[np.float64]], class_scores: NDArray[np.float64]
     ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
         """The same for candidates that are not listed; without any, the separate reading."""
         best = np.stack([own.argmax(axis=1) for own in logarithms], axis=1)
-        scores = np.stack([own.max(axis=1) for own in logarithms], axis=1).sum(axis=1)
         places = [{value: n for n, value in enumerate(own)} for own in self._values]
-        opened = self._joint(logarithms)
+        opened = self._joint(logarithms) + class_scores[:, self._classes]
         for number in range(len(best)):
             above = -np.inf
             if len(self._candidates):
                 nearest = int(opened[number].argmax())
                 above = opened[number, nearest]
-                best[number], scores[number] = self._candidates[nearest], above
+                best[number] = self._candidates[nearest]
+            scores = zip(self.schema.classes, class_scores[number].tolist(), strict=False)
             found = most_probable_decided(
-                self.reasoner, [own[number] for own in logarithms], above=above, tried=self.tried
+                self.reasoner,
+                [own[number] for own in logarithms],
+                class_scores={label: own for label, own in scores if own},
+                above=above,
+                tried=self.tried,
             )
             if found is not None:
                 chosen = zip(places, found[0], strict=True)
                 best[number] = [place[value or ""] for place, value in chosen]
-                scores[number] = found[1]
-        return best, scores, np.exp(scores)
+        rows = np.arange(len(best))
+        alone = np.sum([own[rows, n] for own, n in zip(logarithms, best.T, strict=True)], axis=0)
+        return best, alone, np.exp(alone)
 
 
 def open_vectors(

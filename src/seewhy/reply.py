@@ -67,6 +67,9 @@ class Classification:
         :class:`~seewhy.perception.familiarity.Familiarity`), compared with
         :attr:`seewhy.Agent.unknown_below`; where the agent answers every picture because it was
         trained to, the log-probability of what is read.
+    class_seen : (str, float) or None
+        The most probable class that a network of its own saw, and its probability, where such a
+        network has a say in the reading.
     """
 
     label: str | None
@@ -76,6 +79,7 @@ class Classification:
     verdict: str
     probability: float | None = None
     score: float | None = None
+    class_seen: tuple[str, float] | None = None
 
     @property
     def least_certain(self) -> str:
@@ -134,6 +138,12 @@ class Reply:
             "class": self.label,
             "method": self.method,
             "class_probability": _rounded(self.classification.probability),
+            "class_seen": None
+            if self.classification.class_seen is None
+            else {
+                "class": self.classification.class_seen[0],
+                "probability": _rounded(self.classification.class_seen[1]),
+            },
             "verdict": self.classification.verdict,
             "features": {
                 name: {

@@ -100,6 +100,9 @@ class Trace:
             "method": scene.method,
             "networks": {
                 "features": {key: _reading(own) for key, own in scene.features.items()},
+                "class_seen": None
+                if scene.class_seen is None
+                else {"class": scene.class_seen[0], "probability": _rounded(scene.class_seen[1])},
                 "score": _rounded(scene.score),
                 "least_score": _rounded(self.least_likeness),
                 "known": scene.verdict != UNKNOWN,
@@ -151,7 +154,15 @@ class Trace:
                     f"; overruled: the network alone saw {alone.replace('_', ' ')} "
                     f"(p = {probability:.2f}), which does not fit what is known"
                 )
+                if self.scene.class_seen is not None:
+                    line += " and the class that is seen"
             yield line
+        if self.scene.class_seen is not None:
+            label, probability = self.scene.class_seen
+            yield (
+                f"class: {self.domain.classes[label].say} (p = {probability:.2f}), seen by a "
+                "network of its own; a witness to what the features are"
+            )
         if self.least_likeness is not None:
             refused = self.scene.verdict == UNKNOWN
             yield (

@@ -47,16 +47,18 @@ def print_reply(reply: Reply) -> None:
     """Print an answer, what was seen, and the justification."""
     say(reply.text)
     say()
-    seen = ", ".join(
-        f"{name} {own.value} ({own.probability:.2f})" for name, own in reply.features.items()
-    )
+    seen = [f"{name} {own.value} ({own.probability:.2f})" for name, own in reply.features.items()]
+    witness = reply.classification.class_seen
+    if witness is not None:
+        seen.append(f"class {witness[0]} ({witness[1]:.2f})")
+    judge = "the knowledge" if witness is None else "the knowledge and the class seen"
     say(f"asked: {reply.question.text}?")
-    say(f"seen: {seen}")
+    say(f"seen: {', '.join(seen)}")
     for name, own in reply.features.items():
         if own.overruled is not None:
             value, probability = own.overruled
             say(
-                f"the knowledge overruled: {name} read as {value} (p = {probability:.2f}), "
+                f"{judge} overruled: {name} read as {value} (p = {probability:.2f}), "
                 f"{own.value} ({own.probability:.2f}) is what fits"
             )
     say(f"by: {reply.method}")

@@ -24,8 +24,8 @@ Reading = Annotated[
     str | None,
     typer.Option(
         "--reading",
-        help="How features are read: each its most probable value (argmax), or together as fits "
-        "the knowledge best (consistent).",
+        help="How features are read: each its most probable value (argmax), together as fits the "
+        "knowledge best (consistent), or so with a network of the class as a witness (with_class).",
     ),
 ]
 Gate = Annotated[

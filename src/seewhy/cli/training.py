@@ -62,8 +62,8 @@ def train_model(
     """
     from seewhy.agent import Agent
     from seewhy.dataset import Dataset
+    from seewhy.domain_tables import CLASS, TOGETHER
     from seewhy.model import check_target
-    from seewhy.perception.joint_training import TOGETHER
 
     check_target(out)
     dataset = Dataset.load(data, domain)
@@ -72,10 +72,12 @@ def train_model(
     agent = Agent(domain, seed=seed, reading=reading, gate=gate, known_share=known_share)
     with progress() as bars:
         drawing = bars.add_task("drawing pictures", total=None, visible=False)
-        together = agent.reading == "consistent"
+        at_first = {TOGETHER} if domain.networks.together else set(domain.features)
+        if agent.reading == "with_class":
+            at_first.add(CLASS)
         tasks = {
-            key: bars.add_task(key, total=None, visible=together == (key == TOGETHER))
-            for key in (*domain.features, TOGETHER)
+            key: bars.add_task(key, total=None, visible=key in at_first)
+            for key in (*domain.features, CLASS, TOGETHER)
         }
 
         def on_progress(event: TrainingEvent) -> None:

@@ -88,13 +88,14 @@ def fit_answers(
     for question in questions.all:
         if question.asks is not Asks.EXPLAIN:
             by_query.setdefault(question.query, []).append(question)
+    vectors, labels = scenes.vectors, scenes.labels
     asked: list[tuple[Question, int]] = []
     answers: list[str] = []
-    for number, queries in dealt(by_query, scenes.labels, most=most_examples, seed=seed):
+    for number, queries in dealt(by_query, labels, most=most_examples, seed=seed):
         for query in queries:
             same = by_query[query]
             asked.append((same[number % len(same)], number))
-            kind = reference.answer(same[0], scenes.vectors[number], scenes.labels[number])
+            kind = reference.answer(same[0], vectors[number], labels[number])
             answers.append(kind.identifier)
     options = RecurrentOptions(seed=seed, width=WIDTH)
     numbers = [number for _, number in asked]

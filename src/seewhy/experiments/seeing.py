@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from seewhy.dataset import Dataset
-from seewhy.domain import Domain
+from seewhy.domain_tables import CLASS
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.drawing import divide
 from seewhy.experiments.experiment import Setting, Trial
@@ -23,10 +23,7 @@ from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.pretraining import Pretrained, pretrained
 
-__all__ = ["CLASS", "Remembered", "Seen", "Shown", "class_options", "pretrain", "see"]
-
-CLASS = "class"
-"""The name under which the network of the class is trained."""
+__all__ = ["Remembered", "Seen", "Shown", "pretrain", "see"]
 
 _FOLDER = "networks"
 _DRAWN, _FEATURES = "drawn", "features"
@@ -71,9 +68,12 @@ class Remembered:
         self._shown = shown
 
     def probabilities(self, pictures: npt.NDArray[np.uint8]) -> dict[str, Any]:
-        """The probabilities of each feature's values; the pictures are always the same."""
+        """The probabilities of each feature's values, and of the classes.
+
+        The pictures are always the same.
+        """
         assert len(pictures) == len(self._shown.scenes)
-        return dict(self._shown.features)
+        return {**self._shown.features, CLASS: self._shown.classes}
 
 
 def see(setting: Setting, trial: Trial) -> Seen:
@@ -100,7 +100,12 @@ def see(setting: Setting, trial: Trial) -> Seen:
 
 
 def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: Path) -> None:
-    from seewhy.perception.domain_options import training_options
+    from seewhy.perception.domain_options import (
+        class_options,
+        seen_labels,
+        seen_values,
+        training_options,
+    )
 
     domain = setting.domain
     pixels = {
@@ -111,13 +116,13 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
     began = time.process_time()
     features = fit_extractor(
         pixels["train"],
-        dict(zip(domain.features, zip(*train.vectors, strict=True), strict=True)),
-        values={key: own.values for key, own in domain.features.items()},
+        seen_labels(domain, train.vectors, train.labels),
+        values=seen_values(domain),
         options=training_options(domain, seed=trial.seed),
         groups=train.groups,
         start_from=first.extractor if first else None,
         rehearsal=first.rehearsal if first else None,
-        together=domain.reading == "consistent",
+        together=tuple(domain.features) if domain.networks.together else (),
         workers=1,
     )
     middle = time.process_time()
@@ -144,25 +149,6 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
         kept[f"{part}-{CLASS}"] = classes.probabilities(own)[CLASS]
     with whole_file(file) as temporary, temporary.open("wb") as stream:
         np.savez_compressed(stream, **kept)
-
-
-def class_options(domain: Domain, *, seed: int) -> TrainingOptions:
-    """How the network of the class is trained: as the network of the hardest feature is.
-
-    It is as wide as the widest and must be as accurate as the most accurate; where all start as
-    deep as can be and many features make up the class, its dense layer is wider, so that it has
-    about as many weights as they have together.
-    """
-    from seewhy.perception.domain_options import training_options
-
-    options = training_options(domain, seed=seed).values()
-    largest = max(options, key=lambda own: (sum(own.channels), own.dense))
-    wider = 1 if len(domain.classes) == 2 else 2
-    return replace(
-        largest,
-        threshold=max(own.threshold for own in options),
-        dense=wider * largest.dense,
-    )
 
 
 def _class_network(
@@ -221,12 +207,13 @@ def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
 
 def _pretrain(setting: Setting, folder: Path) -> None:
     """Draw pictures, and train both on them; what was finished before is not done again."""
+    from seewhy.perception.domain_options import class_options
+
     domain = setting.domain
     if not (folder / _FEATURES).is_dir():
         first = pretrained(
             domain,
             count=setting.drawn,
-            together=domain.reading == "consistent",
             workers=1,
             checkpoints=folder,
         )

@@ -124,6 +124,7 @@ def run_trial(setting: Setting, trial: Trial) -> list[Row]:
     agent = agent_of(setting, seen, seed=trial.seed)
     asked = draw_questions(agent.questions, test.labels, seed=trial.seed)
     common = common_columns(trial, seen)
+    with_class = agent.reading == "with_class"
 
     began = time.process_time()
     agent.fit_induction(*scenes_to_learn(setting, train), reference=reference)
@@ -140,8 +141,8 @@ def run_trial(setting: Setting, trial: Trial) -> list[Row]:
             **common,
             "system": "seewhy",
             **ours,
-            "weights": seen.weights,
-            "seconds_networks": seen.seconds_features,
+            "weights": seen.weights + with_class * seen.weights_class,
+            "seconds_networks": round(seen.seconds_features + with_class * seen.seconds_class, 2),
             "seconds_answers": round(fitted - began, 2),
             "seconds_test": round(scored - fitted, 2),
         },

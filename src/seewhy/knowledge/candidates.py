@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 from typing import Any
 
@@ -69,10 +69,13 @@ def most_probable_decided(
     reasoner: Reasoner,
     probabilities: LogProbabilities,
     *,
+    class_scores: Mapping[str, float] | None = None,
     above: float = -np.inf,
     tried: int = TRIED,
 ) -> tuple[FeatureVector, float] | None:
-    """Return the most probable feature vector that the knowledge decides.
+    """Return the feature vector that the knowledge decides and that has the highest score.
+
+    The score is the vector's log-probability, and that of its class where there are such scores.
 
     For knowledge that decides too many vectors to list. They are tried in falling order of
     probability; if ``tried`` of them are not decided, clingo minimises the cost over those that
@@ -83,8 +86,10 @@ def most_probable_decided(
     reasoner : Reasoner
     probabilities : sequence of ndarray
         Finite log-probabilities of every feature's values; features count as independent.
+    class_scores : mapping of str to float, optional
+        What is added for a vector of a class, at most 0; 0 for a class without.
     above : float
-        Vectors of at most this log-probability are of no interest.
+        Vectors of at most this score are of no interest.
     tried : int
         How many are tried before clingo searches. What is returned does not depend on it, but
         for vectors whose log-probabilities differ by less than a millionth a feature.
@@ -92,7 +97,7 @@ def most_probable_decided(
     Returns
     -------
     (FeatureVector, float) or None
-        The vector and its log-probability; None where there is none above ``above``.
+        The vector and its score; None where there is none above ``above``.
 
     Examples
     --------
@@ -104,14 +109,17 @@ def most_probable_decided(
     >>> vector, round(float(np.exp(joint)), 4)
     (('2', 'wide', 'yes', 'no'), 0.1344)
     """
-    refuted: list[FeatureVector] = []
+    scores = class_scores or {}
+    best: tuple[FeatureVector, float] | None = None
+    seen: list[FeatureVector] = []
     for vector, joint in islice(_falling(reasoner.schema, probabilities), tried):
         if joint <= above:
-            return None
-        if reasoner.decide(vector).label is not None:
-            return vector, joint
-        refuted.append(vector)
-    return _cheapest(reasoner, probabilities, above, refuted)
+            return best
+        label = reasoner.decide(vector).label
+        if label is not None and (score := joint + scores.get(label, 0.0)) > above:
+            best, above = (vector, score), score
+        seen.append(vector)
+    return _cheapest(reasoner, probabilities, scores, above, seen) or best
 
 
 def _falling(
@@ -145,10 +153,15 @@ def _falling(
 def _cheapest(
     reasoner: Reasoner,
     probabilities: LogProbabilities,
+    class_scores: Mapping[str, float],
     above: float,
-    refuted: Sequence[FeatureVector],
+    seen: Sequence[FeatureVector],
 ) -> tuple[FeatureVector, float] | None:
-    """Minimise the cost of the vectors that may be decided until one of them is."""
+    """Minimise the cost of the vectors that may be decided until none can be better.
+
+    The classes that an answer set holds need not be what the vector is decided as; its cost is a
+    bound of what the vector's can be.
+    """
     schema = reasoner.schema
     places = [{value: n for n, value in enumerate(own)} for own in schema.features.values()]
     control = _control(reasoner, "--opt-mode=opt")
@@ -159,23 +172,35 @@ def _cheapest(
             f":~ observed({feature}, {value}). [{round(_SCALE * (own.max() - own[n]))}, {feature}]"
             for feature, own in zip(schema.features, probabilities, strict=True)
             for n, value in enumerate(schema.features[feature])
+        )
+        + "".join(
+            f":~ holds({schema.classes[label]}). [{round(-_SCALE * score)}, class({number})]"
+            for number, (label, score) in enumerate(class_scores.items())
         ),
     )
     control.ground([("costs", [])])
     _solve_for(control, models=0)
-    for number, vector in enumerate(refuted):
+    for number, vector in enumerate(seen):
         _rule_out(control, schema, vector, number)
-    number = len(refuted)
-    while (vector_found := _optimum(control, schema)) is not None:
-        chosen = zip(probabilities, places, vector_found, strict=True)
+    number = len(seen)
+    best: tuple[FeatureVector, float] | None = None
+    most = sum(float(own.max()) for own in probabilities)
+    rounded = (len(probabilities) + 1) / _SCALE
+    while (optimum := _optimum(control, schema)) is not None:
+        vector, cost = optimum
+        bound = most - cost / _SCALE
+        if bound + rounded <= above or (best is not None and bound - rounded <= above):
+            break
+        chosen = zip(probabilities, places, vector, strict=True)
         joint = sum(float(own[place[value or ""]]) for own, place, value in chosen)
-        if joint <= above:
-            return None
-        if reasoner.decide(vector_found).label is not None:
-            return vector_found, joint
-        _rule_out(control, schema, vector_found, number)
+        label = reasoner.decide(vector).label
+        if label is not None and (score := joint + class_scores.get(label, 0.0)) > above:
+            best, above = (vector, score), score
+            if bound - rounded <= above:
+                break
+        _rule_out(control, schema, vector, number)
         number += 1
-    return None
+    return best
 
 
 def _control(reasoner: Reasoner, *arguments: str) -> clingo.Control:
@@ -204,9 +229,9 @@ def _vector(model: clingo.Model, schema: SceneSchema) -> FeatureVector:
     return tuple(shown[feature] for feature in schema.features)
 
 
-def _optimum(control: clingo.Control, schema: SceneSchema) -> FeatureVector | None:
-    found: list[FeatureVector] = []
-    control.solve(on_model=lambda model: found.append(_vector(model, schema)))
+def _optimum(control: clingo.Control, schema: SceneSchema) -> tuple[FeatureVector, int] | None:
+    found: list[tuple[FeatureVector, int]] = []
+    control.solve(on_model=lambda model: found.append((_vector(model, schema), sum(model.cost))))
     return found[-1] if found else None
 
 

@@ -2,14 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from seewhy.domain import Domain
+from seewhy.domain_tables import CLASS
+from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception.options import TrainingOptions
 
-__all__ = ["training_options"]
+__all__ = ["class_options", "seen_labels", "seen_values", "training_options"]
 
 
-def training_options(domain: Domain, *, seed: int = 0) -> dict[str, TrainingOptions]:
+def seen_values(domain: Domain, *, with_class: bool = False) -> dict[str, tuple[str, ...]]:
+    """The values that each network tells apart: one network a feature, and one for the class.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> seen_values(load_domain("structure_stability"), with_class=True)["class"]
+    ('stable', 'unstable')
+    """
+    found = {key: tuple(feature.values) for key, feature in domain.features.items()}
+    return {**found, CLASS: tuple(domain.classes)} if with_class else found
+
+
+def seen_labels(
+    domain: Domain,
+    vectors: Sequence[FeatureVector],
+    labels: Sequence[str],
+    *,
+    with_class: bool = False,
+) -> dict[str, Sequence[str | None]]:
+    """What each network is to see in annotated scenes; see :func:`seen_values`."""
+    columns: dict[str, Sequence[str | None]] = dict(
+        zip(domain.features, zip(*vectors, strict=True), strict=True)
+    )
+    return {**columns, CLASS: labels} if with_class else columns
+
+
+def training_options(
+    domain: Domain, *, seed: int = 0, with_class: bool = False
+) -> dict[str, TrainingOptions]:
     """The options of each feature's network, from ``[pictures]``, ``[networks]`` and the feature.
+
+    ``with_class`` adds those of the network of the class; see :func:`class_options`.
 
     Examples
     --------
@@ -20,7 +56,7 @@ def training_options(domain: Domain, *, seed: int = 0) -> dict[str, TrainingOpti
     """
     variations = domain.pictures.model_dump(exclude={"size", "fit", "drawn"})
     networks = domain.networks
-    return {
+    found = {
         key: TrainingOptions(
             threshold=feature.threshold,
             max_epochs=networks.epochs,
@@ -34,3 +70,27 @@ def training_options(domain: Domain, *, seed: int = 0) -> dict[str, TrainingOpti
         )
         for key, feature in domain.features.items()
     }
+    return {**found, CLASS: class_options(domain, seed=seed)} if with_class else found
+
+
+def class_options(domain: Domain, *, seed: int = 0) -> TrainingOptions:
+    """How the network of the class is trained: as the network of the hardest feature is.
+
+    It is as wide as the widest and must be as accurate as the most accurate; where all start as
+    deep as can be and many features make up the class, its dense layer is wider, so that it has
+    about as many weights as they have together.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> class_options(load_domain("structure_stability")).threshold
+    0.98
+    """
+    options = training_options(domain, seed=seed).values()
+    largest = max(options, key=lambda own: (sum(own.channels), own.dense))
+    wider = 1 if len(domain.classes) == 2 else 2
+    return replace(
+        largest,
+        threshold=max(own.threshold for own in options),
+        dense=wider * largest.dense,
+    )

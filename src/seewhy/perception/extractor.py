@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import nullcontext
 from copy import deepcopy
 from dataclasses import asdict
@@ -236,7 +236,7 @@ def fit_extractor(
     checkpoints: Path | None = None,
     start_from: FeatureExtractor | None = None,
     rehearsal: Rehearsal | None = None,
-    together: bool = False,
+    together: Collection[str] = (),
     workers: int = -1,
     on_progress: Progress | None = None,
 ) -> FeatureExtractor:
@@ -263,9 +263,9 @@ def fit_extractor(
         Earlier networks to train on instead of growing new ones; features that it lacks grow.
     rehearsal : Rehearsal, optional
         Pictures that ``start_from`` was trained on, to go over again.
-    together : bool, default False
-        Train the networks of all features together, to tell annotated feature vectors apart; see
-        :func:`seewhy.perception.joint_training.train_jointly`. Those that have to grow are
+    together : collection of str
+        The features whose networks are trained together, to tell annotated feature vectors apart;
+        see :func:`seewhy.perception.joint_training.train_jointly`. Those that have to grow are
         trained by themselves before.
     workers : int, default -1
         Features trained at the same time, each in a process of its own; -1: one a core. The
@@ -323,9 +323,8 @@ def fit_extractor(
         for name in labels
     }
     earlier = {} if start_from is None else start_from.networks
-    ready: dict[str, GrowingNetwork] = {}
-    if together:
-        ready = _ready(labels, values, chosen, earlier, size=batch.shape[1])
+    shared = {name: column for name, column in labels.items() if name in together}
+    ready = _ready(shared, values, chosen, earlier, size=batch.shape[1])
     trained = train_networks(
         batch,
         {name: column for name, column in labels.items() if name not in ready},
@@ -339,16 +338,16 @@ def fit_extractor(
         workers=workers,
         on_progress=on_progress,
     )
-    if together:
-        grown = {name: own for name, (own, record) in trained.items() if record.epochs}
-        joint = {**ready, **grown}
+    grown = {name: trained[name][0] for name in shared if name in trained}
+    joint = ready | {name: own for name, own in grown.items() if trained[name][1].epochs}
+    if joint:
         trained |= train_jointly(
-            {name: joint[name] for name in labels if name in joint},
+            {name: joint[name] for name in shared if name in joint},
             batch,
-            labels,
+            shared,
             values=values,
             options=chosen,
-            fine_tune=bool(grown or earlier),
+            fine_tune=joint != ready or bool(earlier),
             groups=groups,
             validation=validation,
             checkpoints=checkpoints,
@@ -383,10 +382,11 @@ def _ready(
             for name, network in earlier.items()
             if name in labels and (network.size, network.values) == (size, len(values[name]))
         }
-    if any(own.depth < deepest(size) for own in options.values()):
+    if any(options[name].depth < deepest(size) for name in labels):
         return {}
     found = {}
-    for name, own in options.items():
+    for name in labels:
+        own = options[name]
         if len({value for value in labels[name] if value is not None}) > 1:
             with seeded(torch.device("cpu"), own.seed, name, "first"):
                 found[name] = new_network(size, len(values[name]), own)

@@ -14,6 +14,7 @@ import numpy.typing as npt
 import torch
 import torch.nn.functional as functional
 
+from seewhy.domain_tables import TOGETHER
 from seewhy.perception import checkpoint
 from seewhy.perception.augmentation import augment
 from seewhy.perception.calibration import fitted_temperature
@@ -33,10 +34,7 @@ from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.training import REHEARSED, Pictures, planned_epochs
 from seewhy.perception.validation import clearly_better, split
 
-__all__ = ["TOGETHER", "train_jointly"]
-
-TOGETHER = "together"
-"""The name under which progress and checkpoints of this training go."""
+__all__ = ["train_jointly"]
 
 VECTOR_SHARE = 0.7  # of the loss; the rest is that of the features each by itself
 UNKNOWN = -1

@@ -52,6 +52,12 @@ def draw_card(
         drawn, lines = text_lines(text, x, y, width=room, fill="#2f6fb3")
         parts.append(drawn)
         y += lines * 15 + 2
+    if reply.classification.class_seen is not None:
+        label, probability = reply.classification.class_seen
+        text = f"class: {label} (p = {probability:.2f}), a witness to the features"
+        drawn, lines = text_lines(text, x, y, width=room, fill="#2f6fb3")
+        parts.append(drawn)
+        y += lines * 15 + 2
     top = max(y, _MARGIN + _SIDE) + 8
     bottom = draw_rows(reply.justification, width=width, top=top, parts=parts)
     return Figure(width=width, height=int(bottom) + 6, content="".join(parts))

@@ -88,6 +88,7 @@ def _scene(agent: Agent, scene: Scene, replies: Sequence[Reply]) -> dict[str, An
         "truth": domain.classes[scene.label].say,
         "right": own.label == scene.label,
         "method": own.method,
+        "class_seen": own.class_seen,
         "features": [
             {
                 "name": domain.features[key].name,
