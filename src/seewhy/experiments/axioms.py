@@ -139,6 +139,7 @@ AXIOMS = Experiment(
         Claim("accuracy", "learned", "incomplete"),
         Claim("answers", "learned", "incomplete"),
         Claim("answers_strict", "learned", "incomplete"),
+        Claim("explanations_sufficient", "learned", "incomplete"),
         Claim("agreement", "learned", "incomplete"),
     ),
     trial=run_trial,

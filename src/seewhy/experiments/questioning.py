@@ -12,6 +12,7 @@ from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks, Query, Question, Questions
 from seewhy.dialogue.reference import ReferenceAnswers
 from seewhy.evaluation import EXPLANATORY, score_answer
+from seewhy.experiments.sufficiency import answer_suffices, sufficiency_of
 from seewhy.knowledge.scene import FeatureVector
 
 __all__ = ["Asked", "answer_scores", "draw_questions", "suitable"]
@@ -81,7 +82,7 @@ def answer_scores(
     vectors: Sequence[FeatureVector],
     labels: Sequence[str | None],
 ) -> dict[str, float]:
-    """Score answers by the paper's measure and by the strict one.
+    """Score answers by the paper's measure, by the strict one, and by whether reasons suffice.
 
     Parameters
     ----------
@@ -90,7 +91,7 @@ def answer_scores(
     scenes : Dataset
         The pictures with their annotation.
     reference : ReferenceAnswers
-        What correct answers say.
+        What correct answers say, and the annotated scenes among which reasons suffice or not.
     vectors, labels : sequence, one a picture
         What the system takes the features and the class to be; its answers name these.
 
@@ -98,28 +99,45 @@ def answer_scores(
     -------
     dict of str to float
         "answers" and "answers_strict" over all questions, "explanations" and
-        "explanations_strict" over those that ask why, why not, and what would have to change.
+        "explanations_strict" over those that ask why, why not, and what would have to change,
+        "explanations_sufficient" over the same, whatever other reasons the annotator gives
+        (:func:`~seewhy.experiments.sufficiency.answer_suffices`).
     """
     features = list(scenes.domain.features)
     seen = [_named(features, own) for own in vectors]
     true = [_named(features, own) for own in scenes.vectors]
-    scored: list[tuple[bool, bool, bool]] = []
+    sufficiency = sufficiency_of(reference)
+    scored: list[tuple[bool, bool]] = []
+    explaining: list[tuple[bool, bool, bool]] = []
     for own, kind in zip(asked, kinds, strict=True):
         scene = scenes.scenes[own.picture]
+        gold = reference.answer(own.question, scene.vector, scene.label)
         enough, exact = score_answer(
             kind,
-            reference.answer(own.question, scene.vector, scene.label),
+            gold,
             seen=seen[own.picture],
             true=true[own.picture],
             right_class=labels[own.picture] == scene.label,
         )
-        scored.append((enough, exact, own.question.asks in EXPLANATORY))
-    explaining = [row for row in scored if row[2]]
+        scored.append((enough, exact))
+        if own.question.asks in EXPLANATORY:
+            suffices = answer_suffices(
+                kind,
+                gold,
+                own.question,
+                scene.vector,
+                scene.label,
+                seen=seen[own.picture],
+                strict=exact,
+                sufficiency=sufficiency,
+            )
+            explaining.append((enough, exact, suffices))
     return {
         "answers": _share([row[0] for row in scored]),
         "answers_strict": _share([row[1] for row in scored]),
         "explanations": _share([row[0] for row in explaining]),
         "explanations_strict": _share([row[1] for row in explaining]),
+        "explanations_sufficient": _share([row[2] for row in explaining]),
     }
 
 

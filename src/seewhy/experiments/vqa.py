@@ -31,6 +31,7 @@ MEASURES = (
     Measure("answers_strict", "answers, those and no other"),
     Measure("explanations", "explanatory answers, every relevant attribute"),
     Measure("explanations_strict", "explanatory answers, those and no other"),
+    Measure("explanations_sufficient", "explanatory answers whose reasons suffice"),
 )
 
 
@@ -180,6 +181,7 @@ VQA = Experiment(
         Claim("answers_strict", "seewhy", "end_to_end"),
         Claim("explanations", "seewhy", "end_to_end"),
         Claim("explanations_strict", "seewhy", "end_to_end"),
+        Claim("explanations_sufficient", "seewhy", "end_to_end"),
     ),
     trial=run_trial,
     full={
