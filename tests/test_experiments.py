@@ -93,7 +93,9 @@ def test_every_trial_has_a_row_for_each_system(finished: Path) -> None:
         assert float(row["answers_strict"]) <= float(row["answers"])
     assert not [name for name in rows[0] if name.startswith("seconds")]
     timings = (finished / "vqa" / "timings.csv").read_text().splitlines()
-    assert timings[0] == "seed,size,system,seconds_networks,seconds_answers,seconds_test"
+    assert timings[0] == (
+        "seed,size,system,machine,commit,seconds_networks,seconds_answers,seconds_test"
+    )
     assert len(timings) == 9
 
 

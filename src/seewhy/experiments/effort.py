@@ -51,15 +51,21 @@ def _curve(
 ) -> list[tuple[float, float, float | None]]:
     """Pictures, mean of the measure, mean seconds of training; size by size."""
     curve: list[tuple[float, float, float | None]] = []
+    timings = {
+        key
+        for row in rows
+        for key in row
+        if row["system"] == system and is_timing(key) and key != "seconds_test"
+    }
     for size in dict.fromkeys(row["size"] for row in rows):
         values = values_of(rows, system, size, measure)
         own = [row for row in rows if row["system"] == system and row["size"] == size]
         if not values:
             continue
         spent = [
-            sum(row[key] for key in row if is_timing(key) and key != "seconds_test")
+            sum(row[key] for key in timings)
             for row in own
-            if any(is_timing(key) for key in row)
+            if timings and timings <= row.keys()  # a part that was not timed is not nothing
         ]
         curve.append(
             (

@@ -6,12 +6,14 @@ import csv
 import io
 import json
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from seewhy.errors import ExperimentError
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import Row, Trial
+from seewhy.experiments.origin import COLUMNS, here
 from seewhy.files import write_whole
 
 __all__ = ["finish", "is_timing", "read_trial", "trial_file", "write_table", "write_trial"]
@@ -36,8 +38,9 @@ def trial_file(out: Path, trial: Trial) -> Path:
 
 
 def write_trial(out: Path, trial: Trial, rows: Sequence[Row]) -> None:
-    """Write the rows of a finished trial, whole or not at all."""
-    write_whole(trial_file(out, trial), json.dumps({"trial": trial.name, "rows": rows}, indent=1))
+    """Write the rows of a finished trial and where they were made, whole or not at all."""
+    content = {"trial": trial.name, "made": asdict(here()), "rows": rows}
+    write_whole(trial_file(out, trial), json.dumps(content, indent=1))
 
 
 def finish(out: Path, trial: Trial, make: Callable[[], Sequence[Row]]) -> None:
@@ -53,6 +56,9 @@ def finish(out: Path, trial: Trial, make: Callable[[], Sequence[Row]]) -> None:
 def read_trial(out: Path, trial: Trial) -> list[Row] | None:
     """Return the rows of a trial; None where it is not finished.
 
+    Rows whose file says so have the columns that tell where they were made
+    (:data:`seewhy.experiments.origin.COLUMNS`).
+
     Raises
     ------
     ExperimentError
@@ -67,16 +73,17 @@ def read_trial(out: Path, trial: Trial) -> list[Row] | None:
         raise _damaged(file) from None
     try:
         found: Any = json.loads(text)
-        rows = found["rows"]
+        rows, made = found["rows"], found.get("made", {})
         sound = found["trial"] == trial.name and all(
             isinstance(row, dict) and (row["seed"], row["size"]) == (trial.seed, trial.size)
             for row in rows
         )
+        made = {key: str(made[key]) for key in COLUMNS if key in made}
     except (ValueError, KeyError, TypeError, RecursionError):
         raise _damaged(file) from None
     if not sound or not rows:
         raise _damaged(file)
-    return list(rows)
+    return [{**row, **made} for row in rows]
 
 
 def _damaged(file: Path) -> ExperimentError:
@@ -88,13 +95,16 @@ def _damaged(file: Path) -> ExperimentError:
 def write_table(path: Path, rows: Iterable[Row], *, timings: bool) -> None:
     """Write rows as CSV: what the trials found, or with ``timings`` how long they took.
 
-    The table without timings is the same whenever the trials are.
+    The table without timings is the same whenever the trials are; where they ran goes with the
+    timings.
     """
     rows = list(rows)
     names = dict.fromkeys(name for row in rows for name in row)
-    keys = ("seed", "size", "system")
-    columns = [name for name in names if (name in keys if timings else not is_timing(name))]
-    columns += [name for name in names if timings and is_timing(name)]
+    if timings:
+        columns = [name for name in ("seed", "size", "system", *COLUMNS) if name in names]
+        columns += [name for name in names if is_timing(name)]
+    else:
+        columns = [name for name in names if not is_timing(name) and name not in COLUMNS]
     text = io.StringIO()
     writer = csv.DictWriter(text, columns, lineterminator="\n", extrasaction="ignore")
     writer.writeheader()

@@ -17,6 +17,7 @@ from seewhy.domain_tables import CLASS
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.drawing import divide
 from seewhy.experiments.experiment import Setting, Trial
+from seewhy.experiments.origin import here
 from seewhy.files import whole_file
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
 from seewhy.perception.options import TrainingOptions
@@ -47,16 +48,17 @@ class Seen:
     Attributes
     ----------
     train, test : Shown
-    seconds_features, seconds_class : float
-        Processor time of training the networks of the features, and that of the class.
+    seconds_features, seconds_class : float or None
+        Processor time of training the networks of the features, and that of the class; None where
+        another kind of machine trained them.
     weights, weights_class : int
         How many weights they have.
     """
 
     train: Shown
     test: Shown
-    seconds_features: float
-    seconds_class: float
+    seconds_features: float | None
+    seconds_class: float | None
     weights: int
     weights_class: int
 
@@ -91,6 +93,8 @@ def see(setting: Setting, trial: Trial) -> Seen:
                 _train(setting, trial, train, test, file)
     with np.load(file) as kept:
         numbers = json.loads(str(kept["numbers"]))
+        if numbers.pop("machine", "") != here().machine:
+            numbers |= {"seconds_features": None, "seconds_class": None}
 
         def shown(part: str, scenes: Dataset) -> Shown:
             features = {key: kept[f"{part}/{key}"] for key in setting.domain.features}
@@ -140,6 +144,7 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
                 "seconds_class": round(ended - middle, 2),
                 "weights": sum(own.parameters_count for own in features.networks.values()),
                 "weights_class": classes.networks[CLASS].parameters_count,
+                "machine": here().machine,
             }
         )
     }

@@ -11,6 +11,7 @@ from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.conclusions import Compared, Finding, summary, values_of
 from seewhy.experiments.effort import efforts
 from seewhy.experiments.experiment import Experiment, Measure, Row, say_size
+from seewhy.experiments.origin import one_machine, say_origins
 from seewhy.experiments.rows import is_timing
 from seewhy.experiments.running import Run
 from seewhy.experiments.statistics import interval
@@ -40,6 +41,7 @@ def experiment_page(
     own = experiment(run.experiment)
     sizes = list(dict.fromkeys(row["size"] for row in rows))
     finished = len({(row["seed"], row["size"]) for row in rows})
+    timed, machine = one_machine(rows)
     return rendered(
         "experiment.html",
         experiment=own,
@@ -49,8 +51,11 @@ def experiment_page(
         measures=[_measure(own, measure, rows, sizes) for measure in own.measures],
         summary=summary(findings),
         findings=[_tested(own, finding) for finding in findings],
-        efforts=_efforts(own, rows),
-        timings=_timings(own, rows, sizes),
+        efforts=_efforts(own, timed),
+        timings=_timings(own, timed, sizes),
+        timed="" if len(timed) == len(rows) else " of the trials that this kind of machine made",
+        machine=machine,
+        origins=say_origins(rows),
         seeds=_span(sorted({int(row["seed"]) for row in rows})),
         tested=_span(sorted({int(row["tested"]) for row in rows if "tested" in row})),
         libraries=[(name, installed(name)) for name in LIBRARIES],

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from html import escape
 
 from seewhy.experiments.experiment import Row
+from seewhy.experiments.origin import say_origins
 from seewhy.experiments.planning import NAMES, SYSTEMS, Ratio, recipients_elsewhere, summary
 from seewhy.experiments.planning_run import PlanningRun
 from seewhy.experiments.statistics import Interval
@@ -46,6 +47,7 @@ def planning_page(run: PlanningRun, rows: Sequence[Row], *, command: str) -> str
         planned=run.trials,
         records=run.records,
         answer_sets=run.answer_sets,
+        origins=say_origins(rows),
         seeds=f"{run.seeds[0]} to {run.seeds[-1]}",
         libraries=[(name, installed(name)) for name in LIBRARIES],
         python=platform.python_version(),

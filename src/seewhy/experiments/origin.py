@@ -1,0 +1,117 @@
+"""Where the rows of a trial come from: version, commit, and the kind of machine."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.metadata import version
+from pathlib import Path
+
+from seewhy.experiments.experiment import Row
+
+__all__ = ["COLUMNS", "Origin", "here", "one_machine", "say_origins"]
+
+COLUMNS = ("machine", "commit")
+"""Columns that say where a row was made; not part of what the trial found."""
+
+_WAIT = 20.0  # seconds for git
+
+
+@dataclass(frozen=True)
+class Origin:
+    """What made a row.
+
+    Attributes
+    ----------
+    machine : str
+        The kind of machine: two of one kind are as fast.
+    commit : str
+        The version of SeeWhy; where it runs from a git checkout, its commit.
+    """
+
+    machine: str
+    commit: str
+
+
+@lru_cache(maxsize=1)
+def here() -> Origin:
+    """Return what makes rows in this process."""
+    return Origin(_machine(), _commit(Path(__file__).resolve().parent))
+
+
+def _machine() -> str:
+    cores = os.cpu_count() or 1
+    return f"{_processor()}, {cores} core{'s' * (cores > 1)}, {platform.system()}"
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+def _commit(folder: Path) -> str:
+    """The commit of the checkout that a folder is part of, or the version."""
+    said = f"version {version('seewhy')}"
+    # A folder that git does not know lies in somebody else's checkout.
+    if _git(folder, "ls-files", "--error-unmatch", "__init__.py") is None:
+        return said
+    commit = _git(folder, "rev-parse", "--short=9", "HEAD")
+    if commit is None:
+        return said
+    changed = _git(folder, "status", "--porcelain", "--untracked-files=no", "--", "..")
+    return f"commit {commit}" + (" with changes" if changed else "")
+
+
+def _git(folder: Path, *arguments: str) -> str | None:
+    try:
+        found = subprocess.run(
+            ["git", "-C", str(folder), *arguments],
+            capture_output=True,
+            text=True,
+            timeout=_WAIT,
+            check=True,
+        )
+    except (OSError, subprocess.SubprocessError):
+        return None
+    return found.stdout.strip()
+
+
+def one_machine(rows: Sequence[Row]) -> tuple[list[Row], str]:
+    """Return the rows of the kind of machine that made most of them, and its name.
+
+    Times of two kinds are never put together. Rows that do not say where they were made count as
+    a kind of their own, "".
+
+    Examples
+    --------
+    >>> rows, machine = one_machine([{"machine": "a"}, {"machine": "b"}, {"machine": "a"}])
+    >>> len(rows), machine
+    (2, 'a')
+    """
+    kinds = Counter(str(row.get("machine", "")) for row in rows)
+    if not kinds:
+        return [], ""
+    machine = kinds.most_common(1)[0][0]
+    return [row for row in rows if row.get("machine", "") == machine], machine
+
+
+def say_origins(rows: Sequence[Row]) -> str:
+    """Say which commits made how many trials.
+
+    Examples
+    --------
+    >>> say_origins([{"seed": 0, "size": 9, "commit": "commit 1ab"}, {"seed": 1, "size": 9}])
+    'commit 1ab (1 trial), not recorded (1 trial)'
+    """
+    made = {(row["seed"], row["size"]): str(row.get("commit", "not recorded")) for row in rows}
+    counts = Counter(made.values())
+    return ", ".join(f"{name} ({n} trial{'s' * (n > 1)})" for name, n in counts.items())

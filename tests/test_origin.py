@@ -1,0 +1,90 @@
+"""Where rows were made: commits are named, times of two kinds of machines never put together."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from seewhy.experiments import origin, rows
+from seewhy.experiments.experiment import Trial
+from seewhy.experiments.origin import Origin, one_machine, say_origins
+from seewhy.experiments.rows import read_trial, trial_file, write_table, write_trial
+
+TRIAL = Trial(0, 9)
+ROW = {"seed": 0, "size": 9, "system": "a", "accuracy": 0.5, "seconds_answers": 1.5}
+
+
+def git(folder: Path, *arguments: str) -> None:
+    subprocess.run(
+        ["git", "-c", "user.name=x", "-c", "user.email=x@y", "-C", str(folder), *arguments],
+        check=True,
+        capture_output=True,
+    )
+
+
+def test_a_row_says_where_it_was_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(rows, "here", lambda: Origin("a machine", "commit 1ab"))
+    write_trial(tmp_path, TRIAL, [ROW])
+    (row,) = read_trial(tmp_path, TRIAL) or ()
+    assert row == {**ROW, "machine": "a machine", "commit": "commit 1ab"}
+    # What a trial found does not depend on it, so the table of rows does not have it.
+    write_table(tmp_path / "rows.csv", [row], timings=False)
+    assert (tmp_path / "rows.csv").read_text() == "seed,size,system,accuracy\n0,9,a,0.5\n"
+    write_table(tmp_path / "timings.csv", [row], timings=True)
+    assert (tmp_path / "timings.csv").read_text() == (
+        "seed,size,system,machine,commit,seconds_answers\n0,9,a,a machine,commit 1ab,1.5\n"
+    )
+
+
+def test_a_trial_that_does_not_say_is_read(tmp_path: Path) -> None:
+    write_trial(tmp_path, TRIAL, [ROW])
+    file = trial_file(tmp_path, TRIAL)
+    content = json.loads(file.read_text())
+    del content["made"]
+    file.write_text(json.dumps(content))
+    assert read_trial(tmp_path, TRIAL) == [ROW]
+
+
+def test_the_commit_is_that_of_the_code(tmp_path: Path) -> None:
+    package = tmp_path / "src" / "package"
+    package.mkdir(parents=True)
+    (package / "__init__.py").write_text("")
+    assert origin._commit(package).startswith("version ")
+    git(tmp_path, "init", "-q")
+    # Installed into a folder inside somebody else's checkout: their commit says nothing.
+    assert origin._commit(package).startswith("version ")
+    git(tmp_path, "add", ".")
+    git(tmp_path, "commit", "-qm", "first")
+    commit = origin._commit(package)
+    assert commit.startswith("commit ")
+    (tmp_path / "notes.txt").write_text("beside the code")
+    assert origin._commit(package) == commit
+    (package / "__init__.py").write_text("changed = True\n")
+    assert origin._commit(package) == f"{commit} with changes"
+
+
+def test_without_git_there_is_a_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert origin._commit(Path(origin.__file__).parent).startswith("version ")
+
+
+def test_times_of_one_kind_of_machine_only() -> None:
+    slow, fast = ({**ROW, "machine": name} for name in ("slow", "fast"))
+    assert one_machine([slow, fast, fast]) == ([fast, fast], "fast")
+    assert one_machine([ROW, ROW, fast]) == ([ROW, ROW], "")
+    assert one_machine([]) == ([], "")
+
+
+def test_which_commits_made_the_trials() -> None:
+    other = {**ROW, "system": "b", "commit": "commit 1ab"}
+    assert say_origins([{**ROW, "commit": "commit 1ab"}, other]) == "commit 1ab (1 trial)"
+    assert say_origins([ROW, {**other, "seed": 1}, {**other, "seed": 2}]) == (
+        "not recorded (1 trial), commit 1ab (2 trials)"
+    )
+
+
+def test_this_machine_has_a_name() -> None:
+    assert origin.here().machine.count(", ") >= 2
