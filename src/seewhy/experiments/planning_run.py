@@ -6,10 +6,9 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from joblib import Parallel, delayed
-
 from seewhy.experiments.catalogue import PLANNING
 from seewhy.experiments.experiment import ALL, Row, Trial
+from seewhy.experiments.jobs import run_all
 from seewhy.experiments.planning import RECORDED, learned_from, recorded_run, robot_before, trial
 from seewhy.experiments.rows import finish, read_trial, write_table
 from seewhy.experiments.running import ROWS, TIMINGS
@@ -74,11 +73,10 @@ def run_planning(
         If the folder holds trials with other settings.
     """
     _check_settings(run)
-    work = Parallel(n_jobs=jobs, return_as="generator_unordered")
-    for _ in work(delayed(_record)(run, number) for number in range(run.records)):
+    for _ in run_all(_record, [(run, number) for number in range(run.records)], jobs=jobs):
         pass
     _learn(run)
-    for done, _ in enumerate(work(delayed(_try)(run, seed) for seed in run.seeds), start=1):
+    for done in run_all(_try, [(run, seed) for seed in run.seeds], jobs=jobs):
         if on_trial is not None:
             on_trial(done)
     rows = [row for seed in run.seeds for row in read_trial(run.folder, Trial(seed, ALL)) or ()]

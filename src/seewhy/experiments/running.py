@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import ctypes
-import os
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-
-from joblib import Parallel, delayed, parallel_config
 
 from seewhy.dataset import TABLE
 from seewhy.domain import FILES, load_domain
@@ -17,6 +14,7 @@ from seewhy.errors import ExperimentError
 from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.drawing import load_pictures, pool_of, require_enough
 from seewhy.experiments.experiment import Plan, Row, Setting, Trial
+from seewhy.experiments.jobs import run_all
 from seewhy.experiments.rows import finish, read_trial, write_table
 from seewhy.experiments.settings import check_settings, digest
 
@@ -143,9 +141,8 @@ def run_missing(run: Run, *, jobs: int = -1, on_trial: Callable[[int], None] | N
     ----------
     run : Run
     jobs : int, default -1
-        Processes; -1: one a core. Where Ray is installed and connected to a cluster
-        (``RAY_ADDRESS``), joblib hands the trials to its machines; the folder of the results must
-        be one that all of them see.
+        Processes; -1: one a core. Machines of a Ray cluster, where one is named, must all see the
+        folder of the results; see :func:`seewhy.experiments.jobs.run_all`.
     on_trial : callable, optional
         Called with the number of finished trials, those of earlier calls included.
     """
@@ -153,12 +150,9 @@ def run_missing(run: Run, *, jobs: int = -1, on_trial: Callable[[int], None] | N
     done = len(run.trials) - len(missing)
     if on_trial is not None:
         on_trial(done)
-    with _backend(jobs):
-        tasks = (delayed(_run_one)(run, trial) for trial in missing)
-        for _ in Parallel(return_as="generator_unordered")(tasks):
-            done += 1
-            if on_trial is not None:
-                on_trial(done)
+    for more in run_all(_run_one, [(run, trial) for trial in missing], jobs=jobs):
+        if on_trial is not None:
+            on_trial(done + more)
 
 
 def finished_rows(run: Run) -> list[Row]:
@@ -173,21 +167,6 @@ def write_tables(run: Run) -> list[Row]:
     write_table(run.folder / ROWS, rows, timings=False)
     write_table(run.folder / TIMINGS, rows, timings=True)
     return rows
-
-
-@contextmanager
-def _backend(jobs: int) -> Iterator[None]:
-    """Choose joblib's backend: Ray's where a cluster is named and Ray is there."""
-    if os.environ.get("RAY_ADDRESS"):
-        with suppress(ImportError):
-            from ray.util.joblib import register_ray  # type: ignore[import-not-found,unused-ignore]
-
-            register_ray()
-            with parallel_config(backend="ray", n_jobs=jobs):
-                yield
-            return
-    with parallel_config(n_jobs=jobs):
-        yield
 
 
 def _setting(run: Run) -> Setting:
