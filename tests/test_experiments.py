@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import os
 from collections.abc import Iterator
@@ -14,6 +15,7 @@ import pytest
 
 from conftest import DOMAIN, Run, write_domain
 from seewhy.agent import Agent
+from seewhy.cli.main import main
 from seewhy.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
@@ -23,9 +25,10 @@ from seewhy.experiments.axioms import agreement, incomplete, learned_again
 from seewhy.experiments.catalogue import NAMES, experiment
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.conclusions import conclude, summary
-from seewhy.experiments.drawing import divide, in_fold
+from seewhy.experiments.drawing import divide, in_fold, load_pictures
 from seewhy.experiments.effort import Effort, efforts
 from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
+from seewhy.experiments.origin import here
 from seewhy.experiments.questioning import answer_scores, draw_questions, suitable
 from seewhy.experiments.vqa import annotator
 from seewhy.learning import AnnotatedScenes
@@ -63,13 +66,13 @@ def _few_epochs() -> Iterator[None]:
 @pytest.fixture(scope="module")
 def finished(hasty: Path, tiles_data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a finished experiment; do not write to it."""
-    from seewhy.cli.experiment import experiment as command
-
-    out = tmp_path_factory.mktemp("experiment") / "out"
-    command(
-        "vqa", out, domain=str(hasty), data=tiles_data, trials=2, sizes="20,30", tested=15,
-        jobs=1,
-    )  # fmt: skip
+    out = tmp_path_factory.mktemp("experiment") / "out put"
+    line = ["vqa", "--out", out, "--domain", hasty, "--data", tiles_data, *SMALL]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sys.argv", ["/bin/seewhy", "experiment", *map(str, line)])
+        with pytest.raises(SystemExit) as end:
+            main()
+    assert end.value.code == 0
     return out
 
 
@@ -99,7 +102,7 @@ def test_every_trial_has_a_row_for_each_system(finished: Path) -> None:
     assert len(timings) == 9
 
 
-def test_the_page_is_whole(finished: Path) -> None:
+def test_the_page_is_whole(finished: Path, hasty: Path, tiles_data: Path) -> None:
     page = (finished / "vqa" / "index.html").read_text(encoding="utf-8")
     for part in (
         "<title>SeeWhy: Classes and answers against the number of training pictures</title>",
@@ -107,9 +110,11 @@ def test_the_page_is_whole(finished: Path) -> None:
         "classified rightly: SeeWhy against end to end, 2 trials:",
         "<th>Cohen&#39;s dz</th>" if "Cohen&#39;s" in page else "<th>Cohen's dz</th>",
         "<polyline points=",
-        "Processor seconds on one core",
-        "seewhy experiment vqa --domain",
-        "--trials 2 --sizes 20,30 --tested 15",
+        "Processor seconds on one core, means over the trials, made on ",
+        # The command as it was typed, fit for a shell, and what made page and trials.
+        f"<code>seewhy experiment vqa --out &#39;{finished}&#39; --domain {hasty} "
+        f"--data {tiles_data} --trials 2 --sizes 20,30 --tested 15 --jobs 1</code> "
+        f"({here().commit}). The trials: {here().commit} (4 trials).",
     ):
         assert part in page
     assert "not complete" not in page
@@ -216,6 +221,7 @@ def test_pictures_are_drawn_where_none_are_given(
         (("--jobs", "0"), "--jobs must be -1 or at least 1, got 0"),
         (("--sizes", "46"), "60 pictures are too few to train on 46 and test on 15 of them"),
         (("--tested", "60"), "60 pictures are too few to train on 20 and test on 60 of them"),
+        (("--drawn", "5"), "the domain 'tiles' has no source of pictures; put your own"),
         (("--data", None), "the domain 'tiles' has no source of pictures; name a folder of"),
     ],
 )  # fmt: skip
@@ -242,6 +248,8 @@ def test_what_cannot_be_run_is_refused(
     assert (result.code, result.out) == (2, "")
     assert says in result.err
     assert len(result.err.splitlines()) == 1
+    # A folder that no trial was made in is kept for no settings.
+    assert not (tmp_path / "out" / "settings.json").exists()
 
 
 def test_a_folder_that_cannot_be_written(
@@ -263,6 +271,8 @@ def test_a_folder_that_cannot_be_written(
         "{",
         '{"trial": "20-0", "rows": []}',
         '{"trial": "20-0", "rows": [{"seed": 1, "size": 20}]}',
+        '{"trial": "20-0", "rows": [{"seed": 0, "size": 20}]}',
+        '{"trial": "20-0", "rows": [{"seed": 0, "size": 20, "system": "a", "seconds_test": "x"}]}',
         "\xff",
     ],
 )
@@ -284,6 +294,85 @@ def test_a_damaged_trial_is_named(
     )
 
 
+def test_a_trial_that_was_edited_is_named(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    file = finished / "vqa" / "trials" / "20-0.json"
+    kept = file.read_bytes()
+    table = (finished / "vqa" / "rows.csv").read_bytes()
+    content = json.loads(kept)
+    content["rows"][0]["accuracy"] += 0.001
+    try:
+        file.write_text(json.dumps(content))
+        command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+        result = run(*command, "--out", finished, *SMALL)
+    finally:
+        file.write_bytes(kept)
+    assert (result.code, f"{file}: is not as it was written; delete it" in result.err) == (2, True)
+    assert (finished / "vqa" / "rows.csv").read_bytes() == table
+
+
+@pytest.mark.parametrize("damage", ["empty", "half", "text", "byte", "other"])
+@pytest.mark.parametrize("pattern", ["networks/0-20-0.npz", "pixels-*.npy"])
+def test_what_is_kept_for_trials_may_be_damaged(
+    run: Run, damage: str, pattern: str, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    if (damage, pattern) == ("byte", "pixels-*.npy"):
+        pytest.skip("a pixel more or less is not noticed")
+    (file,) = finished.glob(pattern)
+    trial = finished / "vqa" / "trials" / "20-0.json"
+    kept, lost = file.read_bytes(), trial.read_bytes()
+    middle = len(kept) // 3
+    other = io.BytesIO()
+    if file.suffix == ".npz":
+        np.savez(other, numbers="{}")
+    else:
+        np.save(other, np.zeros((3, 16, 16, 3), dtype=np.uint8))
+    file.write_bytes(
+        {
+            "empty": b"",
+            "half": kept[: len(kept) // 2],
+            "text": b"text",
+            "byte": kept[:middle] + bytes([kept[middle] ^ 255]) + kept[middle + 1 :],
+            "other": other.getvalue(),
+        }[damage]
+    )
+    trial.unlink()
+    load_pictures.cache_clear()
+    try:
+        command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+        result = run(*command, "--out", finished, *SMALL)
+    finally:
+        file.write_bytes(kept)
+        trial.write_bytes(lost)
+        load_pictures.cache_clear()
+    assert (result.code, result.out) == (2, "")
+    assert result.err.startswith(f"seewhy: {file}: is not as it was written; delete it, and the")
+    assert len(result.err.splitlines()) == 1
+    assert not list(finished.glob("*/trials/*.claim"))
+
+
+def test_trials_of_another_process_are_not_waited_for(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    trial = finished / "vqa" / "trials" / "20-0.json"
+    lost = trial.read_bytes()
+    trial.unlink()
+    try:
+        with claimed(trial):
+            command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+            result = run(*command, "--out", finished, *SMALL)
+        page = (finished / "vqa" / "index.html").read_text(encoding="utf-8")
+    finally:
+        trial.write_bytes(lost)
+    assert result.code == 0
+    assert result.err == (
+        "1 of 4 trials are with other processes; the same command adds them when they are "
+        "finished\n"
+    )
+    assert "The run is not complete" in page
+
+
 def test_a_folder_of_other_settings(
     run: Run, finished: Path, hasty: Path, tiles_data: Path
 ) -> None:
@@ -296,11 +385,14 @@ def test_a_folder_of_other_settings(
     )
 
 
-def test_settings_that_are_damaged(run: Run, finished: Path, hasty: Path, tiles_data: Path) -> None:
+@pytest.mark.parametrize("text", ["[", "[]", "null", "3", "\xff"])
+def test_settings_that_are_damaged(
+    run: Run, text: str, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
     file = finished / "settings.json"
     kept = file.read_bytes()
     try:
-        file.write_bytes(b"[")
+        file.write_bytes(text.encode("latin-1"))
         command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
         result = run(*command, "--out", finished, *SMALL)
     finally:

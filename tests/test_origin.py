@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from seewhy.experiments import origin, rows
-from seewhy.experiments.experiment import Trial
-from seewhy.experiments.origin import Origin, one_machine, say_origins
-from seewhy.experiments.rows import read_trial, trial_file, write_table, write_trial
+from seewhy.experiments.experiment import Row, Trial
+from seewhy.experiments.origin import Origin, one_machine, say_machine, say_origins
+from seewhy.experiments.rows import finish, read_trial, trial_file, write_table, write_trial
 
 TRIAL = Trial(0, 9)
 ROW = {"seed": 0, "size": 9, "system": "a", "accuracy": 0.5, "seconds_answers": 1.5}
@@ -43,7 +43,7 @@ def test_a_trial_that_does_not_say_is_read(tmp_path: Path) -> None:
     write_trial(tmp_path, TRIAL, [ROW])
     file = trial_file(tmp_path, TRIAL)
     content = json.loads(file.read_text())
-    del content["made"]
+    del content["made"], content["digest"]
     file.write_text(json.dumps(content))
     assert read_trial(tmp_path, TRIAL) == [ROW]
 
@@ -63,7 +63,10 @@ def test_the_commit_is_that_of_the_code(tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("beside the code")
     assert origin._commit(package) == commit
     (package / "__init__.py").write_text("changed = True\n")
-    assert origin._commit(package) == f"{commit} with changes"
+    assert origin._commit(package) == f"{commit} with uncommitted changes"
+    git(tmp_path, "commit", "-qam", "second")
+    (package / "added.py").write_text("")
+    assert origin._commit(package).endswith(" with uncommitted changes")
 
 
 def test_without_git_there_is_a_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -76,6 +79,35 @@ def test_times_of_one_kind_of_machine_only() -> None:
     assert one_machine([slow, fast, fast]) == ([fast, fast], "fast")
     assert one_machine([ROW, ROW, fast]) == ([ROW, ROW], "")
     assert one_machine([]) == ([], "")
+
+
+def test_it_is_said_whose_times_are_told() -> None:
+    slow, fast = ({**ROW, "seed": n, "machine": name} for n, name in enumerate(("slow", "fast")))
+    other = {**fast, "system": "b"}
+    assert say_machine([fast, other], [fast, other], "fast") == "the trials, made on fast"
+    assert say_machine([slow, fast, other], [fast, other], "fast") == (
+        "1 of 2 trials, made on fast; times of other machines are left out"
+    )
+    assert say_machine([ROW], [ROW], "") == "the trials, made on a machine that is not recorded"
+
+
+def test_the_commit_is_that_at_the_beginning(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    commits = ["first"]
+    monkeypatch.setattr(origin, "_commit", lambda _: commits[-1])
+
+    def make() -> list[Row]:
+        commits.append("second")
+        return [ROW]
+
+    origin.here.cache_clear()
+    try:
+        finish(tmp_path, TRIAL, make)
+    finally:
+        origin.here.cache_clear()
+    (row,) = read_trial(tmp_path, TRIAL) or ()
+    assert row["commit"] == "first"
 
 
 def test_which_commits_made_the_trials() -> None:

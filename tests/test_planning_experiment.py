@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from conftest import Run
-from seewhy.experiments.planning import MEASURES
+from seewhy.experiments.origin import here
+from seewhy.experiments.planning import MEASURES, SYSTEMS, summary
 
 SMALL = ("--quick", "--trials", 1, "--seed", 3, "--jobs", 1)
 
@@ -44,10 +45,25 @@ def test_both_arms_are_rows_and_a_page(finished: Path) -> None:
         "1 of 1 pairs of trials are finished, seeds 3 to 3.",
         "All trials (1 pairs)",
         "<pre>% Axioms that",
-        "seewhy experiment planning --trials 1 --seed 3 --quick --out",
+        f"<code>seewhy experiment planning --out {finished} --quick --trials 1 --seed 3 --jobs 1",
+        f"({here().commit}). The trials: {here().commit} (1 trial).",
+        "planning time is measured by the clock,\nin the trials, made on",
     ):
         assert part in page
     assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
+
+
+def test_times_of_two_kinds_of_machines_are_not_put_together() -> None:
+    rows = [
+        {"seed": seed, "system": system, "machine": machine, **dict.fromkeys(MEASURES, value)}
+        for seed, machine, value in ((0, "slow", 8.0), (1, "fast", 2.0), (2, "fast", 2.0))
+        for system in SYSTEMS
+    ]
+    plans, *_, planning, _ = summary(rows)
+    assert (plans.trials, plans.before) == (3, 4.0)
+    assert (planning.trials, planning.before) == (2, 2.0)
+    *_, planning, _ = summary(rows, machine="slow")
+    assert (planning.trials, planning.before) == (1, 8.0)
 
 
 def test_a_run_adds_only_what_is_missing(run: Run, finished: Path) -> None:

@@ -8,8 +8,9 @@ from typing import Annotated
 
 import typer
 
+from seewhy.cli.command_line import as_typed
 from seewhy.cli.options import Json
-from seewhy.cli.screen import print_json, progress, say
+from seewhy.cli.screen import print_json, progress, remark, say
 
 ExperimentName = Annotated[
     str,
@@ -132,18 +133,9 @@ def experiment(
             run_missing(run, jobs=jobs, on_trial=lambda done: bars.update(task, completed=done))
         finally:
             rows = write_tables(run)
-    command = f"seewhy experiment {name} --domain {domain}"
-    command += f" --data {data}" if data else ""
-    command += f" --trials {trials}" if trials is not None else ""
-    command += f" --sizes {sizes}" if sizes is not None else ""
-    command += f" --seed {seed}" if seed else ""
-    command += " --quick" if quick else ""
-    command += f" --tested {tested}" if tested is not None else ""
-    command += f" --drawn {drawn}" if drawn else ""
-    command += f" --out {out}"
     findings = conclude(run.experiment, rows, domain=load_domain(domain).name)
     page = run.folder / "index.html"
-    write_whole(page, experiment_page(run, rows, findings, command=command))
+    write_whole(page, experiment_page(run, rows, findings, command=as_typed()))
     if json:
         print_json(
             {
@@ -156,6 +148,12 @@ def experiment(
     for own in findings:
         say(own.text)
     say(summary(findings))
+    unfinished = len(run.trials) - len({(row["seed"], row["size"]) for row in rows})
+    if unfinished:
+        remark(
+            f"{unfinished} of {len(run.trials)} trials are with other processes; the same command "
+            "adds them when they are finished"
+        )
     say(f"page: {page}")
 
 
@@ -188,14 +186,8 @@ def _planning(
     with progress() as bars:
         task = bars.add_task("trials", total=run.trials)
         rows = run_planning(run, jobs=jobs, on_trial=lambda done: bars.update(task, completed=done))
-    command = "seewhy experiment planning"
-    command += f" --trials {trials}" if trials is not None else ""
-    command += f" --seed {seed}" if seed else ""
-    command += " --quick" if quick else ""
-    command += f" --before {before}" if before is not None else ""
-    command += " --answer-sets" if answer_sets else ""
     page = run.folder / "index.html"
-    write_whole(page, planning_page(run, rows, command=f"{command} --out {out}"))
+    write_whole(page, planning_page(run, rows, command=as_typed()))
     found = summary(rows)
     if json:
         print_json({"page": str(page), "ratios": [asdict(own) for own in found]})

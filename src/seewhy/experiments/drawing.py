@@ -74,7 +74,16 @@ def load_pictures(domain: str, folder: Path, out: Path) -> Dataset:
     if not file.is_file():
         with whole_file(file) as temporary, temporary.open("wb") as stream:
             np.save(stream, scenes.pictures(size))
-    return scenes.with_pictures(np.load(file, mmap_mode="r"))
+    try:
+        pixels = np.load(file, mmap_mode="r")
+        sound = pixels.shape == (len(scenes), size, size, 3) and pixels.dtype == np.uint8
+    except (ValueError, EOFError, AttributeError):
+        sound = False
+    if not sound:
+        raise ExperimentError(
+            f"{file}: is not as it was written; delete it, and the same command makes it again"
+        )
+    return scenes.with_pictures(pixels)
 
 
 def require_enough(setting: Setting, size: int) -> None:

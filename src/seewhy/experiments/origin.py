@@ -14,7 +14,7 @@ from pathlib import Path
 
 from seewhy.experiments.experiment import Row
 
-__all__ = ["COLUMNS", "Origin", "here", "one_machine", "say_origins"]
+__all__ = ["COLUMNS", "Origin", "here", "one_machine", "say_machine", "say_origins"]
 
 COLUMNS = ("machine", "commit")
 """Columns that say where a row was made; not part of what the trial found."""
@@ -67,8 +67,8 @@ def _commit(folder: Path) -> str:
     commit = _git(folder, "rev-parse", "--short=9", "HEAD")
     if commit is None:
         return said
-    changed = _git(folder, "status", "--porcelain", "--untracked-files=no", "--", "..")
-    return f"commit {commit}" + (" with changes" if changed else "")
+    changed = _git(folder, "status", "--porcelain", "--", "..")
+    return f"commit {commit}" + (" with uncommitted changes" if changed else "")
 
 
 def _git(folder: Path, *arguments: str) -> str | None:
@@ -102,6 +102,37 @@ def one_machine(rows: Sequence[Row]) -> tuple[list[Row], str]:
         return [], ""
     machine = kinds.most_common(1)[0][0]
     return [row for row in rows if row.get("machine", "") == machine], machine
+
+
+def say_machine(rows: Sequence[Row], timed: Sequence[Row], machine: str) -> str:
+    """Say of which trials, and of which kind of machine, times are told.
+
+    Parameters
+    ----------
+    rows : sequence of rows
+        All that there are.
+    timed : sequence of rows
+    machine : str
+        See :func:`one_machine`.
+
+    Examples
+    --------
+    >>> rows = [{"seed": 0, "size": 9, "machine": "a"}, {"seed": 1, "size": 9}]
+    >>> say_machine(rows, rows[:1], "a")
+    '1 of 2 trials, made on a; times of other machines are left out'
+    >>> say_machine(rows[1:], rows[1:], "")
+    'the trials, made on a machine that is not recorded'
+    """
+    made = f"made on {machine or 'a machine that is not recorded'}"
+    if len(timed) == len(rows):
+        return f"the trials, {made}"
+    return (
+        f"{_trials(timed)} of {_trials(rows)} trials, {made}; times of other machines are left out"
+    )
+
+
+def _trials(rows: Sequence[Row]) -> int:
+    return len({(row["seed"], row["size"]) for row in rows})
 
 
 def say_origins(rows: Sequence[Row]) -> str:

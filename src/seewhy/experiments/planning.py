@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seewhy.experiments.experiment import ALL, Row
+from seewhy.experiments.origin import one_machine
+from seewhy.experiments.rows import is_timing
 from seewhy.experiments.statistics import Interval, interval, ratio_interval
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.history import History
@@ -209,11 +211,12 @@ class Ratio:
     paper: float
 
 
-def summary(rows: Iterable[Row]) -> list[Ratio]:
+def summary(rows: Iterable[Row], *, machine: str | None = None) -> list[Ratio]:
     """Return the ratios of all measures, with 95 % intervals by bootstrap over the pairs.
 
     Pairs count whatever their outcome: who gives up or runs out of steps has made so many plans
-    and actions until then.
+    and actions until then. Times are those of one kind of machine: of the one that is given, or
+    else of that which made most rows.
 
     Examples
     --------
@@ -224,19 +227,26 @@ def summary(rows: Iterable[Row]) -> list[Ratio]:
     >>> own.measure, own.trials, own.mean_of_ratios.mean, own.ratio_of_means.mean
     ('plans', 3, 2.0, 2.0)
     """
+    rows = list(rows)
+    if machine is None:
+        timed, _ = one_machine(rows)
+    else:
+        timed = [row for row in rows if row.get("machine", "") == machine]
+    return [_ratio(own, _pairs(own, timed if is_timing(own) else rows)) for own in MEASURES]
+
+
+def _pairs(measure: str, rows: Iterable[Row]) -> NDArray[np.float64]:
+    """What was measured before and after learning, in the trials that have both."""
     arms: dict[str, dict[int, Row]] = {own: {} for own in SYSTEMS}
     for row in rows:
         arms[row["system"]][row["seed"]] = row
-    seeds = sorted(arms["before"].keys() & arms["after"].keys())
-    found = []
-    for measure in MEASURES:
-        pairs = [
-            (arms["before"][own][measure], arms["after"][own][measure])
-            for own in seeds
-            if arms["before"][own][measure] is not None and arms["after"][own][measure]
-        ]
-        found.append(_ratio(measure, np.array(pairs, dtype=np.float64).reshape(-1, 2)))
-    return found
+    before, after = arms["before"], arms["after"]
+    pairs = [
+        (before[own][measure], after[own][measure])
+        for own in sorted(before.keys() & after.keys())
+        if before[own][measure] is not None and after[own][measure]
+    ]
+    return np.array(pairs, dtype=np.float64).reshape(-1, 2)
 
 
 def _ratio(measure: str, pairs: NDArray[np.float64]) -> Ratio:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 import json
 from collections.abc import Callable, Iterable, Sequence
@@ -39,7 +40,7 @@ def trial_file(out: Path, trial: Trial) -> Path:
 
 def write_trial(out: Path, trial: Trial, rows: Sequence[Row]) -> None:
     """Write the rows of a finished trial and where they were made, whole or not at all."""
-    content = {"trial": trial.name, "made": asdict(here()), "rows": rows}
+    content = {"trial": trial.name, "made": asdict(here()), "rows": rows, "digest": _digest(rows)}
     write_whole(trial_file(out, trial), json.dumps(content, indent=1))
 
 
@@ -50,6 +51,7 @@ def finish(out: Path, trial: Trial, make: Callable[[], Sequence[Row]]) -> None:
         return
     with claimed(file) as ours:
         if ours and not file.exists():
+            here()  # what is checked out when the trial ends need not be what runs
             write_trial(out, trial, make())
 
 
@@ -74,9 +76,11 @@ def read_trial(out: Path, trial: Trial) -> list[Row] | None:
     try:
         found: Any = json.loads(text)
         rows, made = found["rows"], found.get("made", {})
-        sound = found["trial"] == trial.name and all(
-            isinstance(row, dict) and (row["seed"], row["size"]) == (trial.seed, trial.size)
-            for row in rows
+        # Trials of earlier versions have no digest.
+        sound = (
+            found["trial"] == trial.name
+            and found.get("digest", _digest(rows)) == _digest(rows)
+            and all(_is_row(row, trial) for row in rows)
         )
         made = {key: str(made[key]) for key in COLUMNS if key in made}
     except (ValueError, KeyError, TypeError, RecursionError):
@@ -84,6 +88,19 @@ def read_trial(out: Path, trial: Trial) -> list[Row] | None:
     if not sound or not rows:
         raise _damaged(file)
     return [{**row, **made} for row in rows]
+
+
+def _is_row(row: Row, trial: Trial) -> bool:
+    """Whether a row is one of a trial, with numbers for times."""
+    return (
+        (row["seed"], row["size"]) == (trial.seed, trial.size)
+        and isinstance(row["system"], str)
+        and all(isinstance(row[key], int | float | None) for key in row if is_timing(key))
+    )
+
+
+def _digest(rows: Sequence[Row]) -> str:
+    return hashlib.sha256(json.dumps(rows).encode()).hexdigest()[:16]
 
 
 def _damaged(file: Path) -> ExperimentError:

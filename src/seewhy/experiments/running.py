@@ -17,6 +17,7 @@ from seewhy.experiments.experiment import Plan, Row, Setting, Trial
 from seewhy.experiments.jobs import run_all
 from seewhy.experiments.rows import finish, read_trial, write_table
 from seewhy.experiments.settings import check_settings, digest
+from seewhy.picture_source import load_source
 
 __all__ = ["Run", "finished_rows", "prepare", "run_missing", "write_tables"]
 
@@ -113,6 +114,8 @@ def prepare(
         raise ExperimentError(
             f"{out}: is a file, or lies in one; choose a folder for the results with --out"
         ) from None
+    if drawn:
+        load_source(loaded)  # or the folder would be kept for trials that cannot be run
     pictures = pool_of(
         loaded, data, out, count=plan.pictures, workers=workers, on_picture=on_picture
     )

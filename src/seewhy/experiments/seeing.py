@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import json
 import time
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
 
 from seewhy.dataset import Dataset
 from seewhy.domain_tables import CLASS
+from seewhy.errors import ExperimentError
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.drawing import divide
 from seewhy.experiments.experiment import Setting, Trial
@@ -91,6 +94,16 @@ def see(setting: Setting, trial: Trial) -> Seen:
                 time.sleep(1.0)  # another process trains them
             elif not file.is_file():
                 _train(setting, trial, train, test, file)
+    try:
+        return _read(file, setting, train, test)
+    except (ValueError, TypeError, KeyError, AttributeError, EOFError, BadZipFile, zlib.error):
+        raise ExperimentError(
+            f"{file}: is not as it was written; delete it, and the same command trains its "
+            "networks again"
+        ) from None
+
+
+def _read(file: Path, setting: Setting, train: Dataset, test: Dataset) -> Seen:
     with np.load(file) as kept:
         numbers = json.loads(str(kept["numbers"]))
         if numbers.pop("machine", "") != here().machine:

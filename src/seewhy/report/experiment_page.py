@@ -11,7 +11,7 @@ from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.conclusions import Compared, Finding, summary, values_of
 from seewhy.experiments.effort import efforts
 from seewhy.experiments.experiment import Experiment, Measure, Row, say_size
-from seewhy.experiments.origin import one_machine, say_origins
+from seewhy.experiments.origin import here, one_machine, say_machine, say_origins
 from seewhy.experiments.rows import is_timing
 from seewhy.experiments.running import Run
 from seewhy.experiments.statistics import interval
@@ -53,8 +53,8 @@ def experiment_page(
         findings=[_tested(own, finding) for finding in findings],
         efforts=_efforts(own, timed),
         timings=_timings(own, timed, sizes),
-        timed="" if len(timed) == len(rows) else " of the trials that this kind of machine made",
-        machine=machine,
+        timed=say_machine(rows, timed, machine),
+        maker=here().commit,
         origins=say_origins(rows),
         seeds=_span(sorted({int(row["seed"]) for row in rows})),
         tested=_span(sorted({int(row["tested"]) for row in rows if "tested" in row})),

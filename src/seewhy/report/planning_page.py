@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from html import escape
 
 from seewhy.experiments.experiment import Row
-from seewhy.experiments.origin import say_origins
+from seewhy.experiments.origin import here, one_machine, say_machine, say_origins
 from seewhy.experiments.planning import NAMES, SYSTEMS, Ratio, recipients_elsewhere, summary
 from seewhy.experiments.planning_run import PlanningRun
 from seewhy.experiments.statistics import Interval
@@ -31,14 +31,15 @@ def planning_page(run: PlanningRun, rows: Sequence[Row], *, command: str) -> str
         ("The recipients are at first where they work", at_work),
         ("A recipient is at first elsewhere", away),
     ]
-    found = summary(rows)
+    timed, machine = one_machine(rows)
+    found = summary(rows, machine=machine)
     return rendered(
         "planning.html",
         figure=draw_ratios(found).svg,
         sentences=conclusions(found),
         learned=(run.folder / LEARNED).read_text(encoding="utf-8"),
         tables=[
-            {"name": name, "trials": len(own) // 2, "lines": [_line(r) for r in summary(own)]}
+            {"name": name, "trials": len(own) // 2, "lines": _lines(own, machine)}
             for name, own in parts
             if own
         ],
@@ -47,6 +48,8 @@ def planning_page(run: PlanningRun, rows: Sequence[Row], *, command: str) -> str
         planned=run.trials,
         records=run.records,
         answer_sets=run.answer_sets,
+        timed=say_machine(rows, timed, machine),
+        maker=here().commit,
         origins=say_origins(rows),
         seeds=f"{run.seeds[0]} to {run.seeds[-1]}",
         libraries=[(name, installed(name)) for name in LIBRARIES],
@@ -124,6 +127,10 @@ def draw_ratios(found: Sequence[Ratio]) -> Figure:
             "stroke-width='2'/>"
         )
     return Figure(width=_WIDTH, height=int(bottom) + 26, content="".join(parts))
+
+
+def _lines(rows: Sequence[Row], machine: str) -> list[list[str]]:
+    return [_line(own) for own in summary(rows, machine=machine)]
 
 
 def _line(own: Ratio) -> list[str]:
