@@ -7,8 +7,10 @@ import io
 import json
 import os
 from collections.abc import Iterator
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,11 +23,12 @@ from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
 from seewhy.domain import Domain
 from seewhy.errors import ExperimentError
+from seewhy.experiments import drawing
 from seewhy.experiments.axioms import agreement, incomplete, learned_again
 from seewhy.experiments.catalogue import NAMES, experiment
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.conclusions import conclude, summary
-from seewhy.experiments.drawing import divide, in_fold, load_pictures
+from seewhy.experiments.drawing import divide, in_fold, load_pictures, pool_of
 from seewhy.experiments.effort import Effort, efforts
 from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
 from seewhy.experiments.origin import here
@@ -207,6 +210,27 @@ def test_pictures_are_drawn_where_none_are_given(
     assert (more / "drawn-10" / "class" / "perception.safetensors").is_file()
     assert (more / "networks" / "10-12-0.npz").is_file()
     assert [row["tested"] for row in rows_of(more / "reading")] == ["20"] * 3
+
+
+def test_one_process_draws_the_pictures_of_a_folder(
+    structures: Domain, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pool = tmp_path / "pictures"
+    made: list[bool] = []
+    monkeypatch.setattr(
+        drawing, "make_dataset", lambda *_, **__: made.append((pool / "scenes.csv.claim").is_file())
+    )
+    with ExitStack() as other:
+        other.enter_context(claimed(pool / "scenes.csv"))
+
+        def wait(_: float) -> None:
+            assert made == []
+            other.close()
+
+        monkeypatch.setattr(drawing, "time", SimpleNamespace(sleep=wait))
+        assert pool_of(structures, None, tmp_path, count=2, workers=1) == pool
+    assert made == [True]
+    assert not (pool / "scenes.csv.claim").exists()
 
 
 # What is refused ---------------------------------------------------------------------------------

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from seewhy.cli.command_line import as_typed
 from seewhy.cli.options import Json
 from seewhy.cli.screen import print_json, progress, remark, say
+
+if TYPE_CHECKING:
+    from seewhy.experiments.experiment import Row
 
 ExperimentName = Annotated[
     str,
@@ -136,6 +140,7 @@ def experiment(
     findings = conclude(run.experiment, rows, domain=load_domain(domain).name)
     page = run.folder / "index.html"
     write_whole(page, experiment_page(run, rows, findings, command=as_typed()))
+    _remark_unfinished(rows, len(run.trials))
     if json:
         print_json(
             {
@@ -148,13 +153,16 @@ def experiment(
     for own in findings:
         say(own.text)
     say(summary(findings))
-    unfinished = len(run.trials) - len({(row["seed"], row["size"]) for row in rows})
+    say(f"page: {page}")
+
+
+def _remark_unfinished(rows: Sequence[Row], planned: int) -> None:
+    unfinished = planned - len({(row["seed"], row["size"]) for row in rows})
     if unfinished:
         remark(
-            f"{unfinished} of {len(run.trials)} trials are with other processes; the same command "
-            "adds them when they are finished"
+            f"{unfinished} of {planned} trials are with other processes; the same command adds "
+            "them when they are finished"
         )
-    say(f"page: {page}")
 
 
 def _planning(
@@ -188,6 +196,7 @@ def _planning(
         rows = run_planning(run, jobs=jobs, on_trial=lambda done: bars.update(task, completed=done))
     page = run.folder / "index.html"
     write_whole(page, planning_page(run, rows, command=as_typed()))
+    _remark_unfinished(rows, run.trials)
     found = summary(rows)
     if json:
         print_json({"page": str(page), "ratios": [asdict(own) for own in found]})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
@@ -14,6 +15,7 @@ import numpy.typing as npt
 from seewhy.dataset import TABLE, Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import ExperimentError
+from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import ALL, Setting, Trial
 from seewhy.files import whole_file
 from seewhy.picture_source import load_source
@@ -40,6 +42,8 @@ def pool_of(
 ) -> Path:
     """Return the folder of pictures that trials draw from; draw them where the user gave none.
 
+    Where several processes share the folder, one of them draws.
+
     Raises
     ------
     ExperimentError
@@ -53,10 +57,16 @@ def pool_of(
             "pictures with --data"
         )
     load_source(domain)
-    make_dataset(
-        domain, out / _POOL, count=count, workers=workers, test_share=0.0, on_progress=on_picture
-    )
-    return out / _POOL
+    pool, finished = out / _POOL, False
+    while not finished:
+        with claimed(pool / TABLE) as finished:
+            if not finished:
+                time.sleep(1.0)  # another process draws them
+                continue
+            make_dataset(
+                domain, pool, count=count, workers=workers, test_share=0.0, on_progress=on_picture
+            )
+    return pool
 
 
 @lru_cache(maxsize=1)

@@ -10,6 +10,8 @@ from typing import Any
 from joblib import Parallel, delayed, parallel_config
 from joblib.parallel import get_active_backend
 
+from seewhy.errors import ExperimentError
+
 __all__ = ["RAY", "run_all"]
 
 RAY = "RAY_ADDRESS"
@@ -52,10 +54,19 @@ def _backend(jobs: int) -> Iterator[None]:
     """Choose joblib's backend: Ray's where a cluster is named and Ray is there."""
     if os.environ.get(RAY):
         try:
+            import ray  # type: ignore[import-not-found,unused-ignore]
             from ray.util.joblib import register_ray  # type: ignore[import-not-found,unused-ignore]
         except ImportError:
             pass
         else:
+            try:
+                if not ray.is_initialized():
+                    ray.init()
+            except ConnectionError:
+                raise ExperimentError(
+                    f"{RAY}: the Ray cluster '{os.environ[RAY]}' does not answer or does not let "
+                    "this process in; start it, give its token, or unset the variable"
+                ) from None
             register_ray()
             with parallel_config(backend="ray", n_jobs=jobs):
                 yield
