@@ -11,6 +11,7 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
 from seewhy.domain import Domain
 from seewhy.errors import ExperimentError
-from seewhy.experiments import drawing
+from seewhy.experiments import drawing, running
 from seewhy.experiments.axioms import agreement, incomplete, learned_again
 from seewhy.experiments.catalogue import NAMES, experiment
 from seewhy.experiments.claims import claimed
@@ -33,6 +34,7 @@ from seewhy.experiments.effort import Effort, efforts
 from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
 from seewhy.experiments.origin import here
 from seewhy.experiments.questioning import answer_scores, draw_questions, suitable
+from seewhy.experiments.rows import trial_file
 from seewhy.experiments.vqa import annotator
 from seewhy.learning import AnnotatedScenes
 
@@ -210,6 +212,25 @@ def test_pictures_are_drawn_where_none_are_given(
     assert (more / "drawn-10" / "class" / "perception.safetensors").is_file()
     assert (more / "networks" / "10-12-0.npz").is_file()
     assert [row["tested"] for row in rows_of(more / "reading")] == ["20"] * 3
+
+
+def test_trials_are_run_from_any_folder(
+    hasty: Path, tiles_data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(hasty.parent)
+    data = Path(os.path.relpath(tiles_data))
+    given = running.prepare(
+        "vqa", hasty.name, Path("out"), data=data, trials=1, sizes=[20], tested=15
+    )
+    calls: list[Any] = []
+    monkeypatch.setattr(running, "run_all", lambda _, own, **__: calls.extend(own) or ())
+    running.run_missing(given, jobs=1)
+    ((own, trial),) = calls
+    monkeypatch.chdir(tmp_path)
+    load_pictures.cache_clear()
+    running._run_one(own, trial)
+    assert trial_file(hasty.parent / "out" / "vqa", trial).is_file()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_one_process_draws_the_pictures_of_a_folder(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from seewhy.experiments.catalogue import PLANNING
@@ -73,10 +73,11 @@ def run_planning(
         If the folder holds trials with other settings.
     """
     _check_settings(run)
-    for _ in run_all(_record, [(run, number) for number in range(run.records)], jobs=jobs):
+    own = replace(run, out=run.out.absolute())  # other machines work in other folders
+    for _ in run_all(_record, [(own, number) for number in range(run.records)], jobs=jobs):
         pass
     _learn(run)
-    for done in run_all(_try, [(run, seed) for seed in run.seeds], jobs=jobs):
+    for done in run_all(_try, [(own, seed) for seed in run.seeds], jobs=jobs):
         if on_trial is not None:
             on_trial(done)
     rows = [row for seed in run.seeds for row in read_trial(run.folder, Trial(seed, ALL)) or ()]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seewhy.dataset import TABLE
@@ -153,9 +153,21 @@ def run_missing(run: Run, *, jobs: int = -1, on_trial: Callable[[int], None] | N
     done = len(run.trials) - len(missing)
     if on_trial is not None:
         on_trial(done)
-    for more in run_all(_run_one, [(run, trial) for trial in missing], jobs=jobs):
+    own = _anywhere(run)
+    for more in run_all(_run_one, [(own, trial) for trial in missing], jobs=jobs):
         if on_trial is not None:
             on_trial(done + more)
+
+
+def _anywhere(run: Run) -> Run:
+    """The same run for processes that work in other folders, as those of a Ray cluster do."""
+    folder = Path(run.domain)
+    return replace(
+        run,
+        domain=str(folder.absolute()) if folder.is_dir() else run.domain,
+        pictures=run.pictures.absolute(),
+        out=run.out.absolute(),
+    )
 
 
 def finished_rows(run: Run) -> list[Row]:
