@@ -81,6 +81,22 @@ def test_a_run_adds_only_what_is_missing(run: Run, finished: Path) -> None:
     assert kept.stat().st_mtime_ns == times
 
 
+@pytest.mark.parametrize("content", [b"", b"% nothing", b"\xff"])
+def test_what_was_learned_may_be_damaged(run: Run, finished: Path, content: bytes) -> None:
+    file = finished / "planning" / "learned.al"
+    kept = file.read_bytes()
+    try:
+        file.write_bytes(content)
+        done = run("experiment", "planning", "--out", finished, *SMALL)
+    finally:
+        file.write_bytes(kept)
+    assert (done.code, done.out) == (2, "")
+    assert done.err == (
+        f"seewhy: {file}: is not as it was written; delete it, and the same command learns it "
+        "again\n"
+    )
+
+
 @pytest.mark.parametrize(
     ("name", "options", "says"),
     [

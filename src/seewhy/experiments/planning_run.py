@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
+from seewhy.errors import ExperimentError
 from seewhy.experiments.catalogue import PLANNING
 from seewhy.experiments.experiment import ALL, Row, Trial
 from seewhy.experiments.jobs import run_all
@@ -99,12 +100,26 @@ def _record(run: PlanningRun, number: int) -> None:
 
 def _learn(run: PlanningRun) -> None:
     file = run.folder / LEARNED
+    source = f"the record of {run.records} runs"
     if file.is_file():
+        _require_whole(file, heading=learned_text((), source=source).splitlines()[0])
         return
     signature = robot_before().knowledge.signature
     record = [read_history_file(_record_file(run, n), signature) for n in range(run.records)]
     found = learned_from(record)
-    write_whole(file, learned_text(found.axioms, source=f"the record of {run.records} runs"))
+    write_whole(file, learned_text(found.axioms, source=source))
+
+
+def _require_whole(file: Path, *, heading: str) -> None:
+    # A robot with an empty file would plan as if there had been nothing to learn.
+    try:
+        sound = file.read_text(encoding="utf-8").startswith(f"{heading}\n")
+    except UnicodeDecodeError:
+        sound = False
+    if not sound:
+        raise ExperimentError(
+            f"{file}: is not as it was written; delete it, and the same command learns it again"
+        )
 
 
 def _try(run: PlanningRun, seed: int) -> None:
