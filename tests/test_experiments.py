@@ -296,11 +296,35 @@ def test_a_folder_of_other_settings(
     )
 
 
-def test_settings_that_are_damaged(run: Run, finished: Path, hasty: Path, tiles_data: Path) -> None:
+@pytest.mark.parametrize("damage", ["junk", "cut"])
+def test_networks_that_are_damaged(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path, damage: str
+) -> None:
+    file, trial = finished / "networks" / "0-20-0.npz", finished / "vqa" / "trials" / "20-0.json"
+    kept, rows = file.read_bytes(), trial.read_bytes()
+    try:
+        trial.unlink()
+        file.write_bytes(b"junk" if damage == "junk" else kept[: len(kept) // 2])
+        command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+        result = run(*command, "--out", finished, *SMALL)
+    finally:
+        file.write_bytes(kept)
+        trial.write_bytes(rows)
+    assert result.code == 2
+    assert result.err == (
+        f"seewhy: {file}: is not as it was written; delete it, and the same command trains the "
+        "networks again\n"
+    )
+
+
+@pytest.mark.parametrize("text", [b"[", b"[1]"])
+def test_settings_that_are_damaged(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path, text: bytes
+) -> None:
     file = finished / "settings.json"
     kept = file.read_bytes()
     try:
-        file.write_bytes(b"[")
+        file.write_bytes(text)
         command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
         result = run(*command, "--out", finished, *SMALL)
     finally:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import time
+import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +16,7 @@ import numpy.typing as npt
 
 from seewhy.dataset import Dataset
 from seewhy.domain_tables import CLASS
+from seewhy.errors import ExperimentError
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.drawing import divide
 from seewhy.experiments.experiment import Setting, Trial
@@ -91,16 +94,25 @@ def see(setting: Setting, trial: Trial) -> Seen:
                 time.sleep(1.0)  # another process trains them
             elif not file.is_file():
                 _train(setting, trial, train, test, file)
-    with np.load(file) as kept:
-        numbers = json.loads(str(kept["numbers"]))
-        if numbers.pop("machine", "") != here().machine:
-            numbers |= {"seconds_features": None, "seconds_class": None}
-
-        def shown(part: str, scenes: Dataset) -> Shown:
-            features = {key: kept[f"{part}/{key}"] for key in setting.domain.features}
-            return Shown(scenes, features, kept[f"{part}-{CLASS}"])
-
-        return Seen(shown("train", train), shown("test", test), **numbers)
+    try:
+        with np.load(file) as kept:
+            numbers = json.loads(str(kept["numbers"]))
+            shown_train, shown_test = [
+                Shown(
+                    scenes,
+                    {key: kept[f"{part}/{key}"] for key in setting.domain.features},
+                    kept[f"{part}-{CLASS}"],
+                )
+                for part, scenes in (("train", train), ("test", test))
+            ]
+        own = numbers.pop("machine", "") == here().machine
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
+        raise ExperimentError(
+            f"{file}: is not as it was written; delete it, and the same command trains the "
+            "networks again"
+        ) from None
+    timed = {} if own else {"seconds_features": None, "seconds_class": None}
+    return Seen(shown_train, shown_test, **{**numbers, **timed})
 
 
 def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: Path) -> None:

@@ -37,6 +37,7 @@ def check_settings(folder: Path, settings: Mapping[str, Any]) -> None:
     file = folder / SETTINGS
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
+        wrong = [key for key, value in settings.items() if found.get(key) != value]
     except FileNotFoundError:
         write_whole(file, json.dumps(settings, indent=1))
         return
@@ -44,12 +45,11 @@ def check_settings(folder: Path, settings: Mapping[str, Any]) -> None:
         raise ExperimentError(
             f"{folder}: is a file, or lies in one; choose a folder for the results with --out"
         ) from None
-    except ValueError:
+    except (ValueError, AttributeError, RecursionError):
         raise ExperimentError(
             f"{file}: is not as it was written; choose another folder with --out, or delete this "
             "one"
         ) from None
-    wrong = [key for key, value in settings.items() if found.get(key) != value]
     if wrong:
         raise ExperimentError(
             f"{folder}: holds trials with other settings ({', '.join(wrong)}); choose another "
