@@ -22,6 +22,7 @@ from seewhy.induction.learning import DEFAULTS, LearningOptions
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import Withdrawn, learned_text, parse_learned
+from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.reasoner import Minimality, Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.learning import (
@@ -134,11 +135,11 @@ class Agent:
         self.questions = Questions(domain)
         answer_templates(domain)  # a wrong template is found here, not after the training
         self.withdrawn = tuple(withdrawn)
+        self._experience: Experience = {}
         self._know(learned)
         self.tree = DecisionTree({key: f.values for key, f in domain.features.items()})
         self.extractor: FeatureExtractor | None = None
         self.answerer: RecurrentAnswerer | None = None
-        self.experience: Experience = {}
         self.trained_on: frozenset[str] = frozenset()
         self.without: tuple[str, ...] = ()
         self.familiarity: Familiarity | None = None
@@ -162,7 +163,22 @@ class Agent:
         self.reasoner = Reasoner(
             self.domain.knowledge, self.domain.schema, minimality=self.minimality
         )
-        self.reasoned = ReasonedAnswers(self.domain, self.reasoner)
+        self._remember(self.experience)
+
+    @property
+    def experience(self) -> Experience:
+        """How often each feature vector was annotated with each class."""
+        return self._experience
+
+    @experience.setter
+    def experience(self, experience: Experience) -> None:
+        self._remember(experience)
+
+    def _remember(self, experience: Experience) -> None:
+        """Read and answer as the annotated scenes suggest, too."""
+        self._experience = experience
+        counts = {vector: sum(own.values()) for vector, own in experience.items()}
+        self.reasoned = ReasonedAnswers(self.domain, self.reasoner, Occurrence(counts))
         self._readers: dict[ReadingRule, ConsistentReading] = {}
 
     # Training -------------------------------------------------------------------------------
@@ -318,7 +334,6 @@ class Agent:
         from seewhy.dialogue.learned import fit_learned_answers
 
         self.experience = experience_of(vectors, labels)
-        self._readers = {}
         decisions = self.reasoner.decide_all(vectors)
         more = frozenset(uncertain)
         left = [n for n, own in enumerate(decisions) if own.label != labels[n] or n in more]
