@@ -630,6 +630,11 @@ def test_what_it_takes_to_reach_a_level() -> None:
         Effort("end_to_end", 0.8, None, None),
     ]
     assert {own.level for own in found} == {0.7, 0.8, 0.85, 0.9}
+    # Networks that another machine trained are not timed here: no seconds, not fewer.
+    for row in rows:
+        row |= {"seconds_networks": None, "seconds_answers": 1.0}
+    found = efforts(rows, ["seewhy", "end_to_end"], "accuracy")
+    assert {own.seconds for own in found} == {None}
 
 
 def test_one_trial_proves_nothing() -> None:

@@ -10,20 +10,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seewhy.dataset import Dataset
-from seewhy.dialogue.answer import AnswerType, answer_templates, word_answer
-from seewhy.dialogue.narration import narrate
-from seewhy.dialogue.question import Asks, Question, Questions
+from seewhy.dialogue.answer import answer_templates
+from seewhy.dialogue.answering import Answering
+from seewhy.dialogue.question import Question, Questions
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience, ReferenceAnswers, experience_of
 from seewhy.domain import Domain
 from seewhy.domain_tables import CLASS
 from seewhy.errors import DatasetError, DomainError, KnowledgeError, ModelError, NotFittedError
 from seewhy.induction.learning import DEFAULTS, LearningOptions
-from seewhy.induction.sentence import say_path
-from seewhy.induction.tree import DecisionTree, TreePath
+from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.axiom import Axiom
-from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.learned_file import Withdrawn, learned_text, parse_learned
+from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.reasoner import Minimality, Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.learning import (
@@ -48,7 +47,6 @@ from seewhy.reading import (
 from seewhy.refusal import refusal_threshold
 from seewhy.refutation import refuted
 from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
-from seewhy.wording import say_literal
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -137,11 +135,11 @@ class Agent:
         self.questions = Questions(domain)
         answer_templates(domain)  # a wrong template is found here, not after the training
         self.withdrawn = tuple(withdrawn)
+        self._experience: Experience = {}
         self._know(learned)
         self.tree = DecisionTree({key: f.values for key, f in domain.features.items()})
         self.extractor: FeatureExtractor | None = None
         self.answerer: RecurrentAnswerer | None = None
-        self.experience: Experience = {}
         self.trained_on: frozenset[str] = frozenset()
         self.without: tuple[str, ...] = ()
         self.familiarity: Familiarity | None = None
@@ -165,7 +163,22 @@ class Agent:
         self.reasoner = Reasoner(
             self.domain.knowledge, self.domain.schema, minimality=self.minimality
         )
-        self.reasoned = ReasonedAnswers(self.domain, self.reasoner)
+        self._remember(self.experience)
+
+    @property
+    def experience(self) -> Experience:
+        """How often each feature vector was annotated with each class."""
+        return self._experience
+
+    @experience.setter
+    def experience(self, experience: Experience) -> None:
+        self._remember(experience)
+
+    def _remember(self, experience: Experience) -> None:
+        """Read and answer as the annotated scenes suggest, too."""
+        self._experience = experience
+        counts = {vector: sum(own.values()) for vector, own in experience.items()}
+        self.reasoned = ReasonedAnswers(self.domain, self.reasoner, Occurrence(counts))
         self._readers: dict[ReadingRule, ConsistentReading] = {}
 
     # Training -------------------------------------------------------------------------------
@@ -321,7 +334,6 @@ class Agent:
         from seewhy.dialogue.learned import fit_learned_answers
 
         self.experience = experience_of(vectors, labels)
-        self._readers = {}
         decisions = self.reasoner.decide_all(vectors)
         more = frozenset(uncertain)
         left = [n for n, own in enumerate(decisions) if own.label != labels[n] or n in more]
@@ -632,140 +644,30 @@ class Agent:
         self, scene: Classification, question: Question, *, previous: Reply | None = None
     ) -> Reply:
         """Answer an understood question about a classified scene."""
-        if question.asks is Asks.EXPLAIN:
-            return self._explain(scene, question, previous)
-        kind, justification = self._answer(scene, question)
-        justification = scene.read_in(justification)
-        text = word_answer(self.domain, question, kind, vector=scene.vector, label=scene.label)
-        return Reply(question, text, scene.method, justification, kind, scene)
+        return self._answering.answer(scene, question, previous=previous)
 
     def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
         """Answer many questions about classified scenes; the recurrent network runs once for all.
 
         The replies are those of :meth:`answer`, one by one.
         """
-        from seewhy.dialogue.learned import learned_answers
-
-        if self.answerer is not None:
-            learned = [
-                (question, scene.vector, scene.label, ())
-                for scene, question in asked
-                if scene.label is not None and self._is_learned(scene, question)
-            ]
-            learned_answers(self.domain, self.answerer, learned)  # remembers them
-        return [self.answer(scene, question) for scene, question in asked]
-
-    def _is_learned(self, scene: Classification, question: Question) -> bool:
-        """Whether the recurrent network is asked."""
-        return (
-            scene.method == "tree"
-            and self.answerer is not None
-            and question.asks not in (Asks.BELIEF_VALUE, Asks.EXPLAIN)
-        )
-
-    def _answer(self, scene: Classification, question: Question) -> tuple[AnswerType, Node]:
-        if scene.verdict == UNKNOWN:
-            return AnswerType("unknown"), self._unknown(scene)
-        if scene.method == "knowledge" and scene.label is not None:
-            reasoned = self.reasoned.answer(question, scene.vector, scene.label)
-            return reasoned.kind, reasoned.justification
-        if question.asks is Asks.BELIEF_VALUE and scene.label is not None:
-            # What follows from the class need not be learned, whoever gave the class.
-            basis = self._tree_node(scene, scene.label, self.tree.path(scene.vector))
-            own = self.reasoned.belief(question, scene.vector, scene.label, basis=basis)
-            return own.kind, own.justification
-        if scene.label is None or self.answerer is None:
-            if question.feature is not None:
-                own = self.reasoned.feature(question, scene.vector)
-                return own.kind, own.justification
-            return AnswerType("undecided"), self.reasoned.undecided(scene.vector)
-        return self._learned(scene, question, scene.label)
-
-    def _learned(
-        self, scene: Classification, question: Question, label: str
-    ) -> tuple[AnswerType, Node]:
-        from seewhy.dialogue.learned import learned_answers
-
-        assert self.answerer is not None
-        path = self.tree.path(scene.vector)
-        tested = [condition.feature for condition in path.conditions]
-        ((kind, probability),) = learned_answers(
-            self.domain, self.answerer, [(question, scene.vector, label, tested)]
-        )
-        learned = Node(
-            literal=kind.identifier,
-            text="the answer was chosen by the recurrent network "
-            f"(p = {probability:.2f} among the answers that fit)",
-            basis=Basis.RECURRENT,
-        )
-        return kind, self._tree_node(scene, label, path, learned)
-
-    def _tree_node(
-        self,
-        scene: Classification,
-        label: str,
-        path: TreePath,
-        *learned: Node,
-    ) -> Node:
-        """The justification of a class that the tree gave and of an answer that was learned."""
-        seen = tuple(self.reasoned.seen(scene.vector, c.feature) for c in path.conditions)
-        sentence = say_path(self.domain, path)
-        literal = self.domain.classes[label].literal
-        return Node(
-            literal=str(literal),
-            text=say_literal(self.domain, literal),
-            basis=Basis.TREE,
-            children=(
-                Node(str(literal), sentence, Basis.PATH, children=seen),
-                *learned,
-                self._not_asked(scene)
-                if scene.verdict == UNCERTAIN
-                else self.reasoned.undecided(scene.vector),
-            ),
-        )
-
-    def _not_asked(self, scene: Classification) -> Node:
-        """Why the knowledge is not asked about a scene whose reading is below the gate."""
-        return Node(
-            literal="undecided",
-            text=f"the knowledge is not asked: {self.say_uncertain(scene)}",
-            basis=Basis.ABSENCE,
-            holds=False,
-        )
+        return self._answering.answer_all(asked)
 
     def say_uncertain(self, scene: Classification) -> str:
         """Say of which feature a network is too little sure for the gate."""
-        least = scene.least_certain
-        return (
-            f"the {self.domain.features[least].name} is seen with a probability of "
-            f"{scene.features[least].certainty:.2f} only, and {self.gate or 0.0:.2f} is demanded"
-        )
+        return self._answering.say_uncertain(scene)
 
-    def _unknown(self, scene: Classification) -> Node:
-        """Why a picture is not known."""
-        score, least = scene.score or 0.0, self.unknown_below or 0.0
-        return Node(
-            literal="unknown",
-            text=f"what is seen is like nothing that is known: its likeness to pictures of "
-            f"training is {score:.3f}, and {self.known_share:.1%} of the pictures like those of "
-            f"training have at least {least:.3f}",
-            basis=Basis.ABSENCE,
-            holds=False,
-            children=tuple(self.reasoned.seen(scene.vector, key) for key in scene.features),
-        )
-
-    def _explain(self, scene: Classification, question: Question, previous: Reply | None) -> Reply:
-        if previous is None:
-            asks = Question(asks=Asks.CLASS, text="", words=())
-            previous = self.answer(scene, asks)
-        text = narrate(self.domain, previous)
-        return Reply(
-            question,
-            text,
-            previous.method,
-            previous.justification,
-            AnswerType("explain", previous.kind.mentions, previous.kind.changes),
-            previous.classification,
+    @property
+    def _answering(self) -> Answering:
+        """What answers with all that is known and was learned by now."""
+        return Answering(
+            self.domain,
+            self.reasoned,
+            self.tree,
+            self.answerer,
+            gate=self.gate or 0.0,
+            known_share=self.known_share,
+            least_likeness=self.unknown_below or 0.0,
         )
 
     # On disk --------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.evidence import Evidence, evidence_of
 from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.justification import Basis, Node
+from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.why import contradiction, justify
@@ -43,6 +44,13 @@ class ReasonedAnswer:
 class ReasonedAnswers:
     """Answers questions about scenes that the knowledge decides.
 
+    Parameters
+    ----------
+    domain : Domain
+    reasoner : Reasoner
+    occurrence : Occurrence, optional
+        Which scenes can be: what would have to change is answered with such.
+
     Examples
     --------
     >>> from seewhy.domain import load_domain
@@ -56,7 +64,9 @@ class ReasonedAnswers:
     'reasons(block_displaced)'
     """
 
-    def __init__(self, domain: Domain, reasoner: Reasoner) -> None:
+    def __init__(
+        self, domain: Domain, reasoner: Reasoner, occurrence: Occurrence | None = None
+    ) -> None:
         self.domain = domain
         self.reasoner = reasoner
         self.told = ToldClass(domain, reasoner, say=self._say)
@@ -65,7 +75,8 @@ class ReasonedAnswers:
         self.why_class = lru_cache(maxsize=_NODES_REMEMBERED)(self._why_class)
         self.why_not_class = lru_cache(maxsize=_NODES_REMEMBERED)(self._why_not_class)
         self.undecided = lru_cache(maxsize=_SCENES_REMEMBERED)(self._undecided)
-        self.smallest = lru_cache(maxsize=_NODES_REMEMBERED)(ChangeFinder(reasoner).smallest)
+        finder = ChangeFinder(reasoner, occurrence)
+        self.smallest = lru_cache(maxsize=_NODES_REMEMBERED)(finder.smallest)
 
     def kind(self, question: Question, vector: FeatureVector, label: str) -> AnswerType:
         """Return the answer type alone, as :meth:`answer` does, without all of its justification.

@@ -65,7 +65,8 @@ def _curve(
         spent = [
             sum(row[key] for key in timings)
             for row in own
-            if timings and timings <= row.keys()  # a part that was not timed is not nothing
+            # A part that was not timed did not take nothing.
+            if timings and all(row.get(key) is not None for key in timings)
         ]
         curve.append(
             (

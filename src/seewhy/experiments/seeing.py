@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import time
+import zipfile
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
@@ -95,25 +95,24 @@ def see(setting: Setting, trial: Trial) -> Seen:
             elif not file.is_file():
                 _train(setting, trial, train, test, file)
     try:
-        return _read(file, setting, train, test)
-    except (ValueError, TypeError, KeyError, AttributeError, EOFError, BadZipFile, zlib.error):
+        with np.load(file) as kept:
+            numbers = json.loads(str(kept["numbers"]))
+            shown_train, shown_test = [
+                Shown(
+                    scenes,
+                    {key: kept[f"{part}/{key}"] for key in setting.domain.features},
+                    kept[f"{part}-{CLASS}"],
+                )
+                for part, scenes in (("train", train), ("test", test))
+            ]
+        own = numbers.pop("machine", "") == here().machine
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
         raise ExperimentError(
-            f"{file}: is not as it was written; delete it, and the same command trains its "
+            f"{file}: is not as it was written; delete it, and the same command trains the "
             "networks again"
         ) from None
-
-
-def _read(file: Path, setting: Setting, train: Dataset, test: Dataset) -> Seen:
-    with np.load(file) as kept:
-        numbers = json.loads(str(kept["numbers"]))
-        if numbers.pop("machine", "") != here().machine:
-            numbers |= {"seconds_features": None, "seconds_class": None}
-
-        def shown(part: str, scenes: Dataset) -> Shown:
-            features = {key: kept[f"{part}/{key}"] for key in setting.domain.features}
-            return Shown(scenes, features, kept[f"{part}-{CLASS}"])
-
-        return Seen(shown("train", train), shown("test", test), **numbers)
+    timed = {} if own else {"seconds_features": None, "seconds_class": None}
+    return Seen(shown_train, shown_test, **{**numbers, **timed})
 
 
 def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: Path) -> None:

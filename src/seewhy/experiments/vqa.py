@@ -143,7 +143,7 @@ def run_trial(setting: Setting, trial: Trial) -> list[Row]:
             "system": "seewhy",
             **ours,
             "weights": seen.weights + with_class * seen.weights_class,
-            **_seconds_networks(seen, with_class=with_class),
+            "seconds_networks": _seconds_networks(seen, with_class=with_class),
             "seconds_answers": round(fitted - began, 2),
             "seconds_test": round(scored - fitted, 2),
         },
@@ -152,18 +152,18 @@ def run_trial(setting: Setting, trial: Trial) -> list[Row]:
             "system": "end_to_end",
             **theirs,
             "weights": seen.weights + seen.weights_class,
-            **_seconds_networks(seen, with_class=True),
+            "seconds_networks": _seconds_networks(seen, with_class=True),
             "seconds_answers": round(answering - scored, 2),
             "seconds_test": round(ended - answering, 2),
         },
     ]
 
 
-def _seconds_networks(seen: Seen, *, with_class: bool) -> Row:
-    """How long the networks were trained, where this kind of machine did."""
+def _seconds_networks(seen: Seen, *, with_class: bool) -> float | None:
+    """How long the networks were trained; None where another kind of machine did."""
     if seen.seconds_features is None or seen.seconds_class is None:
-        return {}
-    return {"seconds_networks": round(seen.seconds_features + with_class * seen.seconds_class, 2)}
+        return None
+    return round(seen.seconds_features + with_class * seen.seconds_class, 2)
 
 
 VQA = Experiment(

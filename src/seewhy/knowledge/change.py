@@ -8,9 +8,12 @@ from typing import Any
 
 import clingo
 
+from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.program import UNKNOWN, program_text
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
+
+_PASSED_OVER = 8  # costs at which all that helps cannot occur; then anything is proposed
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,12 @@ class ChangeFinder:
     believed in every preferred answer set and not in one only. Vectors that fail are ruled out
     for good.
 
+    Parameters
+    ----------
+    reasoner : Reasoner
+    occurrence : Occurrence, optional
+        Vectors that cannot occur by it are passed over, unless nothing else is found soon.
+
     Examples
     --------
     >>> from seewhy.domain import load_domain
@@ -53,10 +62,15 @@ class ChangeFinder:
     [('block_displaced', 'no')]
     """
 
-    def __init__(self, reasoner: Reasoner) -> None:
+    def __init__(self, reasoner: Reasoner, occurrence: Occurrence | None = None) -> None:
         self.reasoner = reasoner
         self.schema = reasoner.schema
+        self.occurrence = occurrence
         self._ruled_out = 0
+
+    @cached_property
+    def _whatever_occurs(self) -> ChangeFinder:
+        return ChangeFinder(self.reasoner)
 
     @cached_property
     def _control(self) -> clingo.Control:
@@ -123,14 +137,22 @@ class ChangeFinder:
             self._literals["strict"],
             self._literals[f"goal({self._goal(label)})"],
         ]
-        while candidates := self._cheapest(assumptions):
+        passed_over = 0
+        while passed_over < _PASSED_OVER and (candidates := self._cheapest(assumptions)):
             confirmed = [c for c in candidates if self.reasoner.decide(c).label == label]
-            if confirmed:
-                changes = (self._change(vector, candidate) for candidate in confirmed)
+            possible = [c for c in confirmed if self._can_occur(c)]
+            if possible:
+                changes = (self._change(vector, candidate) for candidate in possible)
                 return tuple(sorted(changes, key=_order)[:limit])
+            passed_over += bool(confirmed)
             for candidate in candidates:
                 self._rule_out(candidate, label)
-        return ()
+        if self.occurrence is None:
+            return ()
+        return self._whatever_occurs.smallest(vector, label, limit=limit)
+
+    def _can_occur(self, vector: FeatureVector) -> bool:
+        return self.occurrence is None or self.occurrence.possible(vector)
 
     def _cheapest(self, assumptions: list[int]) -> list[FeatureVector]:
         found: list[FeatureVector] = []

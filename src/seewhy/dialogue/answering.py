@@ -1,0 +1,193 @@
+"""A question about a classified scene becomes a reply: by knowledge, or by what was learned."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from seewhy.dialogue.answer import AnswerType, word_answer
+from seewhy.dialogue.narration import narrate
+from seewhy.dialogue.question import Asks, Question
+from seewhy.dialogue.reasoned import ReasonedAnswers
+from seewhy.domain import Domain
+from seewhy.induction.sentence import say_path
+from seewhy.induction.tree import DecisionTree, TreePath
+from seewhy.knowledge.justification import Basis, Node
+from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
+from seewhy.wording import say_literal
+
+if TYPE_CHECKING:
+    from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
+
+__all__ = ["Answering"]
+
+
+@dataclass(frozen=True)
+class Answering:
+    """Answers questions about classified scenes.
+
+    Where the knowledge classified a scene, it answers; where the tree did, the recurrent network
+    chooses the answer.
+
+    Attributes
+    ----------
+    domain : Domain
+    reasoned : ReasonedAnswers
+    tree : DecisionTree
+    answerer : RecurrentAnswerer or None
+        None where none was trained.
+    gate, known_share, least_likeness : float
+        What an answer says where a network was not sure enough, or a picture is not known; see
+        :class:`seewhy.Agent`.
+
+    Source: Riley and Sridharan (2019), section 3.
+    """
+
+    domain: Domain
+    reasoned: ReasonedAnswers
+    tree: DecisionTree
+    answerer: RecurrentAnswerer | None
+    gate: float = 0.0
+    known_share: float = 1.0
+    least_likeness: float = 0.0
+
+    def answer(
+        self, scene: Classification, question: Question, *, previous: Reply | None = None
+    ) -> Reply:
+        """Answer an understood question about a classified scene."""
+        if question.asks is Asks.EXPLAIN:
+            return self._explain(scene, question, previous)
+        kind, justification = self._answer(scene, question)
+        justification = scene.read_in(justification)
+        text = word_answer(self.domain, question, kind, vector=scene.vector, label=scene.label)
+        return Reply(question, text, scene.method, justification, kind, scene)
+
+    def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
+        """Answer many questions about classified scenes; the recurrent network runs once for all.
+
+        The replies are those of :meth:`answer`, one by one.
+        """
+        from seewhy.dialogue.learned import learned_answers
+
+        if self.answerer is not None:
+            learned = [
+                (question, scene.vector, scene.label, ())
+                for scene, question in asked
+                if scene.label is not None and self._is_learned(scene, question)
+            ]
+            learned_answers(self.domain, self.answerer, learned)  # remembers them
+        return [self.answer(scene, question) for scene, question in asked]
+
+    def _is_learned(self, scene: Classification, question: Question) -> bool:
+        """Whether the recurrent network is asked."""
+        return (
+            scene.method == "tree"
+            and self.answerer is not None
+            and question.asks not in (Asks.BELIEF_VALUE, Asks.EXPLAIN)
+        )
+
+    def _answer(self, scene: Classification, question: Question) -> tuple[AnswerType, Node]:
+        if scene.verdict == UNKNOWN:
+            return AnswerType("unknown"), self._unknown(scene)
+        if scene.method == "knowledge" and scene.label is not None:
+            reasoned = self.reasoned.answer(question, scene.vector, scene.label)
+            return reasoned.kind, reasoned.justification
+        if question.asks is Asks.BELIEF_VALUE and scene.label is not None:
+            # What follows from the class need not be learned, whoever gave the class.
+            basis = self._tree_node(scene, scene.label, self.tree.path(scene.vector))
+            own = self.reasoned.belief(question, scene.vector, scene.label, basis=basis)
+            return own.kind, own.justification
+        if scene.label is None or self.answerer is None:
+            if question.feature is not None:
+                own = self.reasoned.feature(question, scene.vector)
+                return own.kind, own.justification
+            return AnswerType("undecided"), self.reasoned.undecided(scene.vector)
+        return self._learned(scene, question, scene.label)
+
+    def _learned(
+        self, scene: Classification, question: Question, label: str
+    ) -> tuple[AnswerType, Node]:
+        from seewhy.dialogue.learned import learned_answers
+
+        assert self.answerer is not None
+        path = self.tree.path(scene.vector)
+        tested = [condition.feature for condition in path.conditions]
+        ((kind, probability),) = learned_answers(
+            self.domain, self.answerer, [(question, scene.vector, label, tested)]
+        )
+        learned = Node(
+            literal=kind.identifier,
+            text="the answer was chosen by the recurrent network "
+            f"(p = {probability:.2f} among the answers that fit)",
+            basis=Basis.RECURRENT,
+        )
+        return kind, self._tree_node(scene, label, path, learned)
+
+    def _tree_node(
+        self,
+        scene: Classification,
+        label: str,
+        path: TreePath,
+        *learned: Node,
+    ) -> Node:
+        """The justification of a class that the tree gave and of an answer that was learned."""
+        seen = tuple(self.reasoned.seen(scene.vector, c.feature) for c in path.conditions)
+        sentence = say_path(self.domain, path)
+        literal = self.domain.classes[label].literal
+        return Node(
+            literal=str(literal),
+            text=say_literal(self.domain, literal),
+            basis=Basis.TREE,
+            children=(
+                Node(str(literal), sentence, Basis.PATH, children=seen),
+                *learned,
+                self._not_asked(scene)
+                if scene.verdict == UNCERTAIN
+                else self.reasoned.undecided(scene.vector),
+            ),
+        )
+
+    def _not_asked(self, scene: Classification) -> Node:
+        """Why the knowledge is not asked about a scene whose reading is below the gate."""
+        return Node(
+            literal="undecided",
+            text=f"the knowledge is not asked: {self.say_uncertain(scene)}",
+            basis=Basis.ABSENCE,
+            holds=False,
+        )
+
+    def say_uncertain(self, scene: Classification) -> str:
+        """Say of which feature a network is too little sure for the gate."""
+        least = scene.least_certain
+        return (
+            f"the {self.domain.features[least].name} is seen with a probability of "
+            f"{scene.features[least].certainty:.2f} only, and {self.gate:.2f} is demanded"
+        )
+
+    def _unknown(self, scene: Classification) -> Node:
+        """Why a picture is not known."""
+        score, least = scene.score or 0.0, self.least_likeness
+        return Node(
+            literal="unknown",
+            text=f"what is seen is like nothing that is known: its likeness to pictures of "
+            f"training is {score:.3f}, and {self.known_share:.1%} of the pictures like those of "
+            f"training have at least {least:.3f}",
+            basis=Basis.ABSENCE,
+            holds=False,
+            children=tuple(self.reasoned.seen(scene.vector, key) for key in scene.features),
+        )
+
+    def _explain(self, scene: Classification, question: Question, previous: Reply | None) -> Reply:
+        if previous is None:
+            asks = Question(asks=Asks.CLASS, text="", words=())
+            previous = self.answer(scene, asks)
+        text = narrate(self.domain, previous)
+        return Reply(
+            question,
+            text,
+            previous.method,
+            previous.justification,
+            AnswerType("explain", previous.kind.mentions, previous.kind.changes),
+            previous.classification,
+        )

@@ -1,0 +1,86 @@
+"""Which feature vectors can occur, judged by the scenes that did."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seewhy.knowledge.scene import FeatureVector
+
+__all__ = ["Occurrence"]
+
+EXPECTED = 5.0
+"""So many scenes of a combination must be missing before it counts as one that does not occur.
+
+Were the parts independent, none in place of five would be seen once in 150 times.
+"""
+
+_REMEMBERED = 20_000
+
+
+class Occurrence:
+    """Tells feature vectors that can occur from those that hold what never goes together.
+
+    Two or three values never go together where no scene has them all, though at least five
+    should if the values were independent of each other (of three values: if any one were independent of
+    the other two). With few scenes nothing is expected that often, and everything can be.
+
+    Knowledge seldom says all that cannot be: a change that it proposes may be one that nobody can
+    make. Source: none in the paper; counterfactual explanations are asked to be plausible, see
+    Karimi et al. (2022), "A Survey of Algorithmic Recourse".
+
+    Parameters
+    ----------
+    scenes : mapping of FeatureVector to int
+        How often each feature vector was annotated.
+
+    Examples
+    --------
+    >>> seen = Occurrence({("one", "whole"): 40, ("two", "whole"): 30, ("two", "broken"): 30})
+    >>> seen.possible(("two", "broken")), seen.possible(("one", "broken"))
+    (True, False)
+    >>> Occurrence({("one", "whole"): 4, ("two", "broken"): 3}).possible(("one", "broken"))
+    True
+    """
+
+    def __init__(self, scenes: Mapping[FeatureVector, int]) -> None:
+        self._vectors = list(scenes)
+        self._counts = np.array([scenes[own] for own in self._vectors], dtype=np.int64)
+        self._total = int(self._counts.sum())
+        self._shown: dict[tuple[int, str], NDArray[np.bool_]] = {}
+        self.possible = lru_cache(maxsize=_REMEMBERED)(self._possible)
+
+    def _possible(self, vector: FeatureVector) -> bool:
+        """Whether no two or three values of a vector are known never to go together."""
+        known = [(n, value) for n, value in enumerate(vector) if value is not None]
+        return not any(
+            self._is_missing(parts) for size in (2, 3) for parts in combinations(known, size)
+        )
+
+    def _is_missing(self, parts: tuple[tuple[int, str], ...]) -> bool:
+        if not self._total or self._number(*parts):
+            return False
+        expected = min(
+            self._number(own) * self._number(*(other for other in parts if other != own))
+            for own in parts
+        )
+        return expected / self._total >= EXPECTED
+
+    def _number(self, *parts: tuple[int, str]) -> int:
+        """How many scenes show some values."""
+        shown = np.ones(len(self._vectors), dtype=np.bool_)
+        for part in parts:
+            shown &= self._showing(part)
+        return int(self._counts[shown].sum())
+
+    def _showing(self, part: tuple[int, str]) -> NDArray[np.bool_]:
+        found = self._shown.get(part)
+        if found is None:
+            place, value = part
+            found = np.array([own[place] == value for own in self._vectors], dtype=np.bool_)
+            self._shown[part] = found
+        return found
