@@ -26,8 +26,9 @@ class Occurrence:
     """Tells feature vectors that can occur from those that hold what never goes together.
 
     Two or three values never go together where no scene has them all, though at least five
-    should if the values were independent of each other (of three values: if any one were independent of
-    the other two). With few scenes nothing is expected that often, and everything can be.
+    should if the values were independent of each other (of three values: if any one were
+    independent of the other two). With few scenes nothing is expected that often, and everything
+    can be.
 
     Knowledge seldom says all that cannot be: a change that it proposes may be one that nobody can
     make. Source: none in the paper; counterfactual explanations are asked to be plausible, see
