@@ -19,7 +19,7 @@ from seewhy.experiments.rows import finish, read_trial, write_table
 from seewhy.experiments.settings import check_settings, digest
 from seewhy.picture_source import load_source
 
-__all__ = ["Run", "finished_rows", "prepare", "run_missing", "write_tables"]
+__all__ = ["Run", "finished_rows", "prepare", "run_missing", "setting_of", "write_tables"]
 
 ROWS, TIMINGS = "rows.csv", "timings.csv"
 
@@ -130,7 +130,7 @@ def prepare(
             Trial(seed, size) for seed in range(first_seed, first_seed + count) for size in chosen
         ),
     )
-    setting = _setting(run)
+    setting = setting_of(run)
     for size in chosen:
         require_enough(setting, size)
     _check_settings(run)
@@ -184,7 +184,8 @@ def write_tables(run: Run) -> list[Row]:
     return rows
 
 
-def _setting(run: Run) -> Setting:
+def setting_of(run: Run) -> Setting:
+    """Return what all trials of a run share."""
     scenes = load_pictures(run.domain, run.pictures, run.out)
     return Setting(scenes.domain, scenes, run.tested, run.drawn, run.out)
 
@@ -197,7 +198,7 @@ def _run_one(run: Run, trial: Trial) -> None:
         # Networks this small gain nothing from a second thread; trials run beside each other.
         torch.set_num_threads(1)
         _keep_memory()
-        return experiment(run.experiment).trial(_setting(run), trial)
+        return experiment(run.experiment).trial(setting_of(run), trial)
 
     finish(run.folder, trial, rows)
 

@@ -27,7 +27,7 @@ from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.pretraining import Pretrained, pretrained
 
-__all__ = ["Remembered", "Seen", "Shown", "pretrain", "see"]
+__all__ = ["Remembered", "Seen", "Shown", "class_network", "pretrain", "see"]
 
 _FOLDER = "networks"
 _DRAWN, _FEATURES = "drawn", "features"
@@ -142,7 +142,7 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
         workers=1,
     )
     middle = time.process_time()
-    classes = _class_network(
+    classes = class_network(
         train,
         class_options(domain, seed=trial.seed),
         start_from=first_class.extractor if first_class else None,
@@ -168,7 +168,7 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
         np.savez_compressed(stream, **kept)
 
 
-def _class_network(
+def class_network(
     scenes: Dataset,
     options: TrainingOptions,
     *,
@@ -236,7 +236,7 @@ def _pretrain(setting: Setting, folder: Path) -> None:
         )
         _save(first.extractor, folder / _FEATURES)
     scenes = Dataset.load(folder / "drawn", domain)
-    _save(_class_network(scenes, class_options(domain, seed=0)), folder / CLASS)
+    _save(class_network(scenes, class_options(domain, seed=0)), folder / CLASS)
 
 
 def _save(networks: FeatureExtractor, folder: Path) -> None:
