@@ -203,7 +203,7 @@ def test_pictures_are_drawn_where_none_are_given(
     result = run(*command)
     assert (result.code, result.err) == (0, "")
     assert len(list((out / "pictures" / "images").glob("*.png"))) == 40
-    assert [row["tested"] for row in rows_of(out / "reading")] == ["20"] * 3
+    assert [row["tested"] for row in rows_of(out / "reading")] == ["20"] * 4
     # Networks that drawings taught go on from there; the tree knows the drawings, too.
     more = tmp_path / "more"
     before = ("experiment", "reading", "--domain", folder, "--data", out / "pictures")
@@ -211,7 +211,7 @@ def test_pictures_are_drawn_where_none_are_given(
     assert (result.code, result.err) == (0, "")
     assert (more / "drawn-10" / "class" / "perception.safetensors").is_file()
     assert (more / "networks" / "10-12-0.npz").is_file()
-    assert [row["tested"] for row in rows_of(more / "reading")] == ["20"] * 3
+    assert [row["tested"] for row in rows_of(more / "reading")] == ["20"] * 4
 
 
 def test_trials_are_run_from_any_folder(

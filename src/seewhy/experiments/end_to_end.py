@@ -153,6 +153,11 @@ class EndToEnd:
         names = list(self.domain.classes)
         return [names[n] for n in shown.classes.argmax(axis=1)]
 
+    def accuracy(self, test: Shown) -> float:
+        """The share of pictures whose class is the annotated one."""
+        pairs = zip(self.classify(test), test.scenes.labels, strict=True)
+        return float(np.mean([own == true for own, true in pairs]))
+
     def vectors(self, shown: Shown) -> list[FeatureVector]:
         """The most probable value of every feature of each picture."""
         columns = [
@@ -170,9 +175,8 @@ class EndToEnd:
         kinds = self.answers.answer(
             [own.question for own in asked], represented(test)[[own.picture for own in asked]]
         )
-        right = [own == true for own, true in zip(labels, test.scenes.labels, strict=True)]
         scores = answer_scores(asked, kinds, test.scenes, reference, vectors=vectors, labels=labels)
-        return {"accuracy": float(np.mean(right)), **scores}
+        return {"accuracy": self.accuracy(test), **scores}
 
 
 def represented(shown: Shown) -> Representation:
