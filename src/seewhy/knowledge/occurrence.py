@@ -54,6 +54,7 @@ class Occurrence:
         self._total = int(self._counts.sum())
         self._shown: dict[tuple[int, str], NDArray[np.bool_]] = {}
         self.possible = lru_cache(maxsize=_REMEMBERED)(self._possible)
+        self._number = lru_cache(maxsize=_REMEMBERED)(self._counted)
 
     def _possible(self, vector: FeatureVector) -> bool:
         """Whether no two or three values of a vector are known never to go together."""
@@ -71,7 +72,7 @@ class Occurrence:
         )
         return expected / self._total >= EXPECTED
 
-    def _number(self, *parts: tuple[int, str]) -> int:
+    def _counted(self, *parts: tuple[int, str]) -> int:
         """How many scenes show some values."""
         shown = np.ones(len(self._vectors), dtype=np.bool_)
         for part in parts:
