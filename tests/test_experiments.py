@@ -357,20 +357,26 @@ def test_a_trial_that_was_edited_is_named(
     assert (finished / "vqa" / "rows.csv").read_bytes() == table
 
 
-@pytest.mark.parametrize("damage", ["empty", "half", "text", "byte", "other"])
+@pytest.mark.parametrize("damage", ["empty", "half", "text", "byte", "other", "more", "list"])
 @pytest.mark.parametrize("pattern", ["networks/0-20-0.npz", "pixels-*.npy"])
 def test_what_is_kept_for_trials_may_be_damaged(
     run: Run, damage: str, pattern: str, finished: Path, hasty: Path, tiles_data: Path
 ) -> None:
     if (damage, pattern) == ("byte", "pixels-*.npy"):
         pytest.skip("a pixel more or less is not noticed")
+    if damage in ("more", "list") and pattern == "pixels-*.npy":
+        pytest.skip("pixels have no numbers beside them")
     (file,) = finished.glob(pattern)
     trial = finished / "vqa" / "trials" / "20-0.json"
     kept, lost = file.read_bytes(), trial.read_bytes()
     middle = len(kept) // 3
     other = io.BytesIO()
     if file.suffix == ".npz":
-        np.savez(other, numbers="{}")
+        with np.load(file) as found:
+            arrays = dict(found)
+        numbers = json.loads(str(arrays.pop("numbers")))
+        changed = {"more": {**numbers, "colour": 1}, "list": [numbers]}.get(damage, {})
+        np.savez(other, numbers=json.dumps(changed), **({} if damage == "other" else arrays))
     else:
         np.save(other, np.zeros((3, 16, 16, 3), dtype=np.uint8))
     file.write_bytes(
@@ -379,8 +385,7 @@ def test_what_is_kept_for_trials_may_be_damaged(
             "half": kept[: len(kept) // 2],
             "text": b"text",
             "byte": kept[:middle] + bytes([kept[middle] ^ 255]) + kept[middle + 1 :],
-            "other": other.getvalue(),
-        }[damage]
+        }.get(damage, other.getvalue())
     )
     trial.unlink()
     load_pictures.cache_clear()
@@ -630,6 +635,12 @@ def test_what_it_takes_to_reach_a_level() -> None:
         Effort("end_to_end", 0.8, None, None),
     ]
     assert {own.level for own in found} == {0.7, 0.8, 0.85, 0.9}
+    # Pictures are those of all trials, seconds those of one machine's.
+    others = [{**row, "machine": "slow", "seed": row["seed"] + 2} for row in rows]
+    for row in others:
+        row |= {"accuracy": row["accuracy"] - 0.2, "seconds_networks": 99.0}
+    twice = efforts([*others[:-1], *rows], ["seewhy", "end_to_end"], "accuracy")
+    assert Effort("seewhy", 0.7, 160.0, 16.0) in twice
     # Networks that another machine trained are not timed here: no seconds, not fewer.
     for row in rows:
         row |= {"seconds_networks": None, "seconds_answers": 1.0}

@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import combinations, product
 
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from knowledge_builders import SIGNATURE, schema_of
+from knowledge_builders import CLASSES, World, worlds
 from seewhy.agent import Agent
 from seewhy.domain import Domain
 from seewhy.knowledge.change import ChangeFinder
-from seewhy.knowledge.language import read_knowledge
 from seewhy.knowledge.occurrence import EXPECTED, Occurrence
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
@@ -41,57 +40,71 @@ def test_what_never_goes_together(counts: list[int]) -> None:
     for vector in SPACE:
         parts = [(n, value or "") for n, value in enumerate(vector)]
         expected = not any(missing(own) for size in (2, 3) for own in combinations(parts, size))
-        assert occurrence.possible(vector) == expected
+        assert (occurrence.never_together(vector) is None) == expected
 
 
 def test_what_was_seen_once_can_be() -> None:
     often = {("a", "x"): 500, ("b", "y"): 500}
-    assert not Occurrence(often).possible(("a", "y"))
-    assert Occurrence({**often, ("a", "y"): 1}).possible(("a", "y"))
-    assert Occurrence(often).possible(("a", None))
-    assert Occurrence({}).possible(("a", "y"))
+    assert Occurrence(often).never_together(("a", "y")) == ((0, "a"), (1, "y"))
+    assert Occurrence({**often, ("a", "y"): 1}).never_together(("a", "y")) is None
+    assert Occurrence(often).never_together(("a", None)) is None
+    assert Occurrence({}).never_together(("a", "y")) is None
 
 
-KNOWLEDGE = read_knowledge(
-    SIGNATURE
-    + """
-p(S) if f(S).
-p(S) if g(S, dark), n(S, 3).
--p(S) if -f(S), g(S, light).
-"""
+def by_trying(
+    world: World, occurrence: Occurrence, vector: FeatureVector, label: str
+) -> set[FeatureVector]:
+    """The nearest vectors of a class that can occur; where none can, the nearest of all."""
+    if world.decision(vector)[0] == label:
+        return {vector}
+    space = [own for own in world.vectors if None not in own]  # what is known stays known
+    of_class = [own for own in space if world.decision(own)[0] == label]
+    can = [own for own in of_class if occurrence.never_together(own) is None]
+
+    def distance(own: FeatureVector) -> tuple[int, int]:
+        changed = zip(world.costs, vector, own, strict=True)
+        cost = sum(price for price, old, new in changed if old != new)
+        return cost, abs(int(vector[2] or 0) - int(own[2] or 0))
+
+    least = min(map(distance, can or of_class), default=None)
+    return {own for own in can or of_class if distance(own) == least}
+
+
+@settings(
+    max_examples=40,
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=[HealthCheck.too_slow],
 )
-SCHEMA = schema_of(KNOWLEDGE, ("f", "g", "n"), {"yes": "p(scene)", "no": "-p(scene)"})
-REASONER = Reasoner(KNOWLEDGE, SCHEMA)
-PLAIN: FeatureVector = ("no", "light", "1")
+@given(
+    world=worlds(costly=True),
+    often=st.lists(st.sampled_from([0, 0, 0, 1, 40]), min_size=12, max_size=12),
+    asked=st.lists(st.integers(0, 11), min_size=2, max_size=4, unique=True),
+)
+def test_the_nearest_that_can_occur_is_proposed(
+    world: World, often: list[int], asked: list[int]
+) -> None:
+    """Whatever was asked before: one finder answers all, twice, and in two orders."""
+    space = [own for own in world.vectors if None not in own]
+    occurrence = Occurrence({own: n for own, n in zip(space, often, strict=True) if n})
+    reasoner = Reasoner(world.knowledge, world.schema)
+    finder = ChangeFinder(reasoner, occurrence)
+    questions = [(space[n], label) for n in asked for label in CLASSES[world.classes]]
+    for vector, label in (*questions, *reversed(questions)):
+        found = finder.smallest(vector, label, limit=100)
+        assert {own.vector for own in found} == by_trying(world, occurrence, vector, label)
 
 
-def proposed(occurrence: Occurrence | None) -> list[FeatureVector]:
-    return [own.vector for own in ChangeFinder(REASONER, occurrence).smallest(PLAIN, "yes")]
-
-
-def test_a_change_leads_to_what_can_be() -> None:
-    cheapest: FeatureVector = ("yes", "light", "1")
-    dark: FeatureVector = ("no", "dark", "3")
-    assert proposed(None) == [cheapest]
-    assert proposed(Occurrence({PLAIN: 3, dark: 2})) == [cheapest]
-    # f has never been seen with light: two changes that lead to something seen are better.
-    never = Occurrence({PLAIN: 100, dark: 50, ("yes", "dark", "2"): 50, ("yes", "dark", "1"): 9})
-    found = proposed(never)
-    assert found
-    assert cheapest not in found
-    assert all(never.possible(own) for own in found)
-
-
-def test_where_nothing_can_be_anything_is_proposed() -> None:
-    """However often it is asked, and from wherever."""
-    never = Occurrence({PLAIN: 100, ("no", "dark", "1"): 100, ("yes", None, None): 100})
-    finder = ChangeFinder(REASONER, never)
-    plain = ChangeFinder(REASONER)
-    for vector in (PLAIN, ("no", "light", "2"), PLAIN):
-        found = finder.smallest(vector, "yes")
-        if not any(never.possible(own.vector) for own in found):
-            assert found == plain.smallest(vector, "yes")
-        assert found
+def test_a_scene_of_the_class_needs_no_change_though_it_cannot_be(structures: Domain) -> None:
+    reasoner = Reasoner(structures.knowledge, structures.schema)
+    never = Occurrence({("1", "wide", "no", "no"): 100, ("4", "wide", "no", "yes"): 100})
+    vector: FeatureVector = ("1", "wide", "no", "yes")
+    assert never.never_together(vector) is not None
+    lone: FeatureVector = ("1", "wide", "yes", "yes")
+    assert reasoner.decide(lone).label == "unstable"
+    (own,) = ChangeFinder(reasoner, never).smallest(lone, "unstable")
+    assert (own.changes, own.vector, own.cost) == ((), lone, 0)
 
 
 def test_an_agent_asks_the_scenes_that_it_knows(structures: Domain) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 
 import pytest
@@ -72,6 +73,21 @@ def test_the_commit_is_that_of_the_code(tmp_path: Path) -> None:
 def test_without_git_there_is_a_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     assert origin._commit(Path(origin.__file__).parent).startswith("version ")
+
+
+def test_without_an_installation_the_commit_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def missing(name: str) -> str:
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr(origin, "version", missing)
+    (tmp_path / "__init__.py").write_text("")
+    assert origin._commit(tmp_path) == "version not installed"
+    git(tmp_path, "init", "-q")
+    git(tmp_path, "add", ".")
+    git(tmp_path, "commit", "-qm", "first")
+    assert origin._commit(tmp_path).startswith("commit ")
 
 
 def test_times_of_one_kind_of_machine_only() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from seewhy.cli.ask import print_reply
 from seewhy.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.domain_tables import CLASS
-from seewhy.errors import DomainError, ModelError
+from seewhy.errors import DomainError, ModelError, NotFittedError
 from seewhy.knowledge.candidates import decided_vectors, most_probable_decided
 from seewhy.knowledge.justification import Basis
 from seewhy.knowledge.reasoner import Reasoner
@@ -215,6 +216,8 @@ def agent_seeing(
     colour: list[float],
     is_round: list[float],
     classes: list[float] | None = None,
+    *,
+    witnessed: Sequence[str] = ("good", "bad"),
     **options: Any,
 ) -> Agent:
     agent = Agent(domain, **options)
@@ -222,6 +225,8 @@ def agent_seeing(
         [("red", "yes"), ("green", "yes"), ("green", "no")], ["good", "good", "bad"]
     )
     agent.extractor = Networks(colour, is_round, classes)  # type: ignore[assignment]
+    if classes is not None:
+        agent.witnessed = frozenset(witnessed)
     return agent
 
 
@@ -449,6 +454,7 @@ def test_the_network_of_the_class_is_trained_and_kept(
     assert all(np.array_equal(own[key], plain[key]) for key in plain)
     agent_with_class.save(tmp_path / "model")
     loaded = Agent.load(tmp_path / "model")
+    assert (loaded.witnessed, agent.witnessed) == ({"good", "bad"}, frozenset())
     assert loaded.classify_all(pictures) == agent_with_class.classify_all(pictures)
     # The witness can be left out afterwards, but not called where there is none.
     without = Agent.load(tmp_path / "model", reading="argmax")
@@ -466,10 +472,27 @@ def test_a_model_without_a_witness_cannot_call_one(model_folder: Path) -> None:
 
 def test_a_class_left_out_is_not_voted_down(tiles: Domain) -> None:
     """The network of the class never saw it; what it says is held against no vector of it."""
-    agent = agent_seeing(tiles, [0.9, 0.05, 0.05], [0.9, 0.1], [0.001, 0.999], reading="with_class")
-    agent.fit_induction([("blue", "no"), ("green", "no")], ["bad", "bad"])
-    scene = agent.classify(draw_tile("red", "yes", 0))
-    assert (scene.vector, scene.label) == (("red", "yes"), "good")
+    seen = ([0.9, 0.05, 0.05], [0.9, 0.1], [0.001, 0.999])
+    both = agent_seeing(tiles, *seen, reading="with_class")
+    agent = agent_seeing(tiles, *seen, witnessed=["bad"], reading="with_class")
+    picture = draw_tile("red", "yes", 0)
+    assert both.classify(picture).label == "bad"
+    # Experience, which scenes of both classes are part of, does not change what the network saw.
+    for _ in range(2):
+        scene = agent.classify(picture)
+        assert (scene.vector, scene.label) == (("red", "yes"), "good")
+        agent.fit_induction([("red", "yes"), ("green", "no")], ["good", "bad"])
+
+
+def test_a_witness_that_is_not_there_cannot_be_called(tiles: Domain) -> None:
+    agent = agent_seeing(tiles, [0.9, 0.05, 0.05], [0.9, 0.1])
+    agent.reading = "with_class"
+    with pytest.raises(NotFittedError) as problem:
+        agent.classify(draw_tile("red", "yes", 0))
+    assert str(problem.value) == (
+        "pictures are to be read with the class, but no network sees it; train with "
+        "reading='with_class', or read in another way"
+    )
 
 
 @pytest.mark.parametrize("name", ["class", "together"])

@@ -142,6 +142,7 @@ class Agent:
         self.answerer: RecurrentAnswerer | None = None
         self.trained_on: frozenset[str] = frozenset()
         self.without: tuple[str, ...] = ()
+        self.witnessed: frozenset[str] = frozenset()
         self.familiarity: Familiarity | None = None
         self.validation_scores: dict[ReadingRule, list[float]] = {}
 
@@ -231,7 +232,12 @@ class Agent:
             If the dataset is of another domain or of one class only, or if a class to leave out
             is none of the domain's.
         """
-        from seewhy.perception.domain_options import seen_labels, seen_values, training_options
+        from seewhy.perception.domain_options import (
+            seen_labels,
+            seen_values,
+            trained_together,
+            training_options,
+        )
         from seewhy.perception.extractor import fit_extractor
         from seewhy.perception.options import TrainingOptions
         from seewhy.perception.validation import split
@@ -278,12 +284,16 @@ class Agent:
             checkpoints=checkpoints,
             start_from=earlier,
             rehearsal=first.rehearsal if first else None,
-            together=tuple(self.domain.features) if self.domain.networks.together else (),
+            together=trained_together(self.domain),
             workers=workers,
             on_progress=on_progress,
         )
         self.trained_on = frozenset(scenes.picture_digests())
         self.without = tuple(dict.fromkeys(without))
+        self.witnessed = frozenset()
+        if with_class:
+            before = start_from.witnessed if isinstance(start_from, Agent) else ()
+            self.witnessed = frozenset((*scenes.labels, *(first.labels if first else ()), *before))
         # Drawings show all classes alike; a few photographs leave most of them out.
         self.fit_induction(
             [*scenes.vectors, *(first.vectors if first else ())],
@@ -506,13 +516,17 @@ class Agent:
     ) -> list[Reading]:
         if rule == "argmax":
             return read_separately(self.reasoner.schema, probabilities)
+        if rule == "with_class" and CLASS not in probabilities:
+            raise NotFittedError(
+                "pictures are to be read with the class, but no network sees it; train with "
+                "reading='with_class', or read in another way"
+            )
         if rule not in self._readers:
-            known = {label for counts in self.experience.values() for label in counts}
             self._readers[rule] = ConsistentReading(
                 self.reasoner,
                 open_vectors(self.reasoner, self.experience),
                 label_of=lambda vector: self._decide(vector)[0],
-                witnessed=known if rule == "with_class" else (),
+                witnessed=self.witnessed if rule == "with_class" else (),
             )
         return self._readers[rule].read(probabilities)
 
@@ -695,6 +709,7 @@ class Agent:
             familiarity=self.familiarity,
             validation_scores=self.validation_scores,
             without=self.without,
+            witnessed=self.witnessed,
         )
         write_model(model, Path(folder))
 
@@ -744,5 +759,5 @@ class Agent:
         agent.experience, agent.trained_on = model.experience, model.trained_on
         agent.familiarity = model.familiarity
         agent.validation_scores = dict(model.validation_scores)
-        agent.without = model.without
+        agent.without, agent.witnessed = model.without, model.witnessed
         return agent

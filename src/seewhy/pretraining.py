@@ -77,7 +77,12 @@ def pretrained(
     DomainError
         If the domain has no source of pictures.
     """
-    from seewhy.perception.domain_options import seen_labels, seen_values, training_options
+    from seewhy.perception.domain_options import (
+        seen_labels,
+        seen_values,
+        trained_together,
+        training_options,
+    )
     from seewhy.perception.extractor import fit_extractor
     from seewhy.perception.rehearsal import Rehearsal
 
@@ -103,7 +108,7 @@ def pretrained(
             labels,
             values=seen_values(domain, with_class=with_class),
             options=training_options(domain, seed=seed, with_class=with_class),
-            together=tuple(domain.features) if domain.networks.together else (),
+            together=trained_together(domain),
             workers=workers,
             checkpoints=folder / "drawn.training",
             on_progress=on_progress,

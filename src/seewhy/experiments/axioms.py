@@ -12,8 +12,8 @@ from seewhy.agent import Agent
 from seewhy.domain import Domain
 from seewhy.experiments.experiment import ALL, Claim, Experiment, Measure, Plan, Row, Setting, Trial
 from seewhy.experiments.questioning import draw_questions
-from seewhy.experiments.seeing import Remembered, see
-from seewhy.experiments.vqa import MEASURES, annotator, common_columns, score_agent
+from seewhy.experiments.seeing import see
+from seewhy.experiments.vqa import MEASURES, agent_of, annotator, common_columns, score_agent
 from seewhy.induction.learning import LearningOptions
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import Withdrawn
@@ -100,8 +100,9 @@ def run_trial(setting: Setting, trial: Trial) -> list[Row]:
         ("learned", less, axioms, aside),
         ("full", given, (), ()),
     ):
-        agent = Agent(domain, seed=trial.seed, known_share=1.0, learned=more, withdrawn=gone)
-        agent.extractor = Remembered(seen.test)  # type: ignore[assignment]
+        agent = agent_of(
+            setting, seen, seed=trial.seed, domain=domain, learned=more, withdrawn=gone
+        )
         agent.fit_induction(vectors, labels, reference=reference)
         asked = draw_questions(agent.questions, test.labels, seed=trial.seed)
         row: dict[str, Any] = {

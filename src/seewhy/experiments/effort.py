@@ -9,6 +9,7 @@ import numpy as np
 
 from seewhy.experiments.conclusions import values_of
 from seewhy.experiments.experiment import Row
+from seewhy.experiments.origin import one_machine
 from seewhy.experiments.rows import is_timing
 
 __all__ = ["Effort", "efforts", "reached"]
@@ -31,8 +32,12 @@ class Effort:
 
 
 def efforts(rows: Sequence[Row], systems: Sequence[str], measure: str) -> list[Effort]:
-    """What every system needs for every level that some system reaches and some size does not."""
-    curves = {system: _curve(rows, system, measure) for system in systems}
+    """What every system needs for every level that some system reaches and some size does not.
+
+    Pictures are those of all trials, seconds those of the trials of one kind of machine.
+    """
+    timed, _ = one_machine(rows)
+    curves = {system: _curve(rows, timed, system, measure) for system in systems}
     found = []
     for level in LEVELS:
         means = [own[1] for curve in curves.values() for own in curve]
@@ -40,20 +45,20 @@ def efforts(rows: Sequence[Row], systems: Sequence[str], measure: str) -> list[E
             continue
         for system, curve in curves.items():
             pictures = reached([(own[0], own[1]) for own in curve], level)
-            timed = [(own[2], own[1]) for own in curve if own[2] is not None]
-            seconds = reached(timed, level) if len(timed) == len(curve) else None
+            times = [(own[2], own[1]) for own in curve if own[2] is not None]
+            seconds = reached(times, level) if len(times) == len(curve) else None
             found.append(Effort(system, level, pictures, seconds))
     return found
 
 
 def _curve(
-    rows: Sequence[Row], system: str, measure: str
+    rows: Sequence[Row], timed: Sequence[Row], system: str, measure: str
 ) -> list[tuple[float, float, float | None]]:
     """Pictures, mean of the measure, mean seconds of training; size by size."""
     curve: list[tuple[float, float, float | None]] = []
     timings = {
         key
-        for row in rows
+        for row in timed
         for key in row
         if row["system"] == system and is_timing(key) and key != "seconds_test"
     }
@@ -64,9 +69,12 @@ def _curve(
             continue
         spent = [
             sum(row[key] for key in timings)
-            for row in own
+            for row in timed
+            if row["system"] == system
+            and row["size"] == size
             # A part that was not timed did not take nothing.
-            if timings and all(row.get(key) is not None for key in timings)
+            and timings
+            and all(row.get(key) is not None for key in timings)
         ]
         curve.append(
             (

@@ -9,12 +9,12 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from seewhy.experiments.experiment import Row
 
-__all__ = ["COLUMNS", "Origin", "here", "one_machine", "say_machine", "say_origins"]
+__all__ = ["COLUMNS", "Origin", "here", "installed", "one_machine", "say_machine", "say_origins"]
 
 COLUMNS = ("machine", "commit")
 """Columns that say where a row was made; not part of what the trial found."""
@@ -31,7 +31,7 @@ class Origin:
     machine : str
         The kind of machine: two of one kind are as fast.
     commit : str
-        The version of SeeWhy; where it runs from a git checkout, its commit.
+        The commit, where SeeWhy runs from its git checkout; else its version.
     """
 
     machine: str
@@ -60,15 +60,27 @@ def _processor() -> str:
 
 def _commit(folder: Path) -> str:
     """The commit of the checkout that a folder is part of, or the version."""
-    said = f"version {version('seewhy')}"
     # A folder that git does not know lies in somebody else's checkout.
-    if _git(folder, "ls-files", "--error-unmatch", "__init__.py") is None:
-        return said
-    commit = _git(folder, "rev-parse", "--short=9", "HEAD")
+    known = _git(folder, "ls-files", "--error-unmatch", "__init__.py") is not None
+    commit = _git(folder, "rev-parse", "--short=9", "HEAD") if known else None
     if commit is None:
-        return said
+        return f"version {installed('seewhy')}"
     changed = _git(folder, "status", "--porcelain", "--", "..")
     return f"commit {commit}" + (" with uncommitted changes" if changed else "")
+
+
+def installed(name: str) -> str:
+    """Return the version of a library that is installed.
+
+    Examples
+    --------
+    >>> installed("no-such-library")
+    'not installed'
+    """
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "not installed"
 
 
 def _git(folder: Path, *arguments: str) -> str | None:

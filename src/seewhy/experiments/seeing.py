@@ -22,6 +22,13 @@ from seewhy.experiments.drawing import divide
 from seewhy.experiments.experiment import Setting, Trial
 from seewhy.experiments.origin import here
 from seewhy.files import whole_file
+from seewhy.perception.domain_options import (
+    class_options,
+    seen_labels,
+    seen_values,
+    trained_together,
+    training_options,
+)
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
@@ -56,6 +63,8 @@ class Seen:
         another kind of machine trained them.
     weights, weights_class : int
         How many weights they have.
+    classes_shown : frozenset of str
+        The classes of the pictures that the network of the class was trained on.
     """
 
     train: Shown
@@ -64,6 +73,7 @@ class Seen:
     seconds_class: float | None
     weights: int
     weights_class: int
+    classes_shown: frozenset[str]
 
 
 class Remembered:
@@ -94,9 +104,10 @@ def see(setting: Setting, trial: Trial) -> Seen:
                 time.sleep(1.0)  # another process trains them
             elif not file.is_file():
                 _train(setting, trial, train, test, file)
+    classes_shown = _classes_shown(setting, train)
     try:
         with np.load(file) as kept:
-            numbers = json.loads(str(kept["numbers"]))
+            numbers = dict(json.loads(str(kept["numbers"])))
             shown_train, shown_test = [
                 Shown(
                     scenes,
@@ -105,24 +116,23 @@ def see(setting: Setting, trial: Trial) -> Seen:
                 )
                 for part, scenes in (("train", train), ("test", test))
             ]
-        own = numbers.pop("machine", "") == here().machine
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
+        if numbers.pop("machine", "") != here().machine:
+            numbers |= {"seconds_features": None, "seconds_class": None}
+        return Seen(shown_train, shown_test, classes_shown=classes_shown, **numbers)
+    except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
         raise ExperimentError(
             f"{file}: is not as it was written; delete it, and the same command trains the "
             "networks again"
         ) from None
-    timed = {} if own else {"seconds_features": None, "seconds_class": None}
-    return Seen(shown_train, shown_test, **{**numbers, **timed})
+
+
+def _classes_shown(setting: Setting, train: Dataset) -> frozenset[str]:
+    """The classes of the pictures that the network of the class was trained on."""
+    drawn = pretrain(setting)[1].labels if setting.drawn else ()
+    return frozenset((*train.labels, *drawn))
 
 
 def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: Path) -> None:
-    from seewhy.perception.domain_options import (
-        class_options,
-        seen_labels,
-        seen_values,
-        training_options,
-    )
-
     domain = setting.domain
     pixels = {
         "train": train.pictures(domain.pictures.size),
@@ -138,7 +148,7 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
         groups=train.groups,
         start_from=first.extractor if first else None,
         rehearsal=first.rehearsal if first else None,
-        together=tuple(domain.features) if domain.networks.together else (),
+        together=trained_together(domain),
         workers=1,
     )
     middle = time.process_time()
@@ -206,7 +216,7 @@ def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
     pixels = scenes.pictures(domain.pictures.size)
     columns = {
         key: [str(value) for value in column]
-        for key, column in zip(domain.features, zip(*scenes.vectors, strict=True), strict=True)
+        for key, column in seen_labels(domain, scenes.vectors, scenes.labels).items()
     }
     vectors, labels = tuple(scenes.vectors), tuple(scenes.labels)
     return (
@@ -224,8 +234,6 @@ def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
 
 def _pretrain(setting: Setting, folder: Path) -> None:
     """Draw pictures, and train both on them; what was finished before is not done again."""
-    from seewhy.perception.domain_options import class_options
-
     domain = setting.domain
     if not (folder / _FEATURES).is_dir():
         first = pretrained(

@@ -14,12 +14,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from seewhy.dialogue.answer import AnswerType, Changes
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reference import Experience, ReferenceAnswers
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.knowledge.scene_table import SceneTable
 
 __all__ = ["ENOUGH", "Sufficiency", "Values", "answer_suffices", "sufficiency_of"]
 
@@ -80,12 +80,7 @@ class Sufficiency:
             label: np.array([counts.get(label, 0) for counts in experience.values()])
             for label in self.classes
         }
-        self._having: dict[tuple[str, str], npt.NDArray[np.bool_]] = {
-            (feature, value): np.array([vector[place] == value for vector in experience])
-            for place, feature in enumerate(self._features)
-            for value in {vector[place] for vector in experience}
-            if value is not None
-        }
+        self._table = SceneTable(list(experience))
         self._gains: dict[tuple[Values, frozenset[str]], float] = {}
 
     def values(self, vector: FeatureVector) -> Values:
@@ -106,9 +101,7 @@ class Sufficiency:
 
     def _share(self, values: Values, labels: frozenset[str]) -> float | None:
         """The share of the scenes with the values that are of one of the classes, if any has."""
-        alike = np.ones(len(self._totals), dtype=bool)
-        for pair in values:
-            alike &= self._having.get(pair, False)
+        alike = self._table.showing((self._features.index(own), value) for own, value in values)
         total = int(self._totals[alike].sum())
         of_class = [int(self._of_class[own][alike].sum()) for own in labels & self.classes]
         return sum(of_class) / total if total else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,9 +11,12 @@ import numpy as np
 from seewhy.agent import Agent
 from seewhy.dataset import Dataset
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of
+from seewhy.domain import Domain
 from seewhy.experiments.experiment import Claim, Experiment, Measure, Plan, Row, Setting, Trial
 from seewhy.experiments.questioning import Asked, answer_scores, draw_questions
 from seewhy.experiments.seeing import Remembered, Seen, pretrain, see
+from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.learned_file import Withdrawn
 from seewhy.pictures import determined_share
 
 __all__ = [
@@ -83,11 +87,24 @@ def agent_of(
     *,
     seed: int,
     gate: float | None = None,
-    reading: str | None = None,
+    domain: Domain | None = None,
+    learned: Sequence[Axiom] = (),
+    withdrawn: Sequence[Withdrawn] = (),
 ) -> Agent:
-    """An agent that sees what a trial's networks saw in the pictures to test on."""
-    agent = Agent(setting.domain, seed=seed, known_share=1.0, gate=gate, reading=reading)
+    """An agent that sees what a trial's networks saw in the pictures to test on.
+
+    It knows what ``domain`` says, the setting's where left out; see :class:`seewhy.Agent`.
+    """
+    agent = Agent(
+        domain or setting.domain,
+        seed=seed,
+        known_share=1.0,
+        gate=gate,
+        learned=learned,
+        withdrawn=withdrawn,
+    )
     agent.extractor = Remembered(seen.test)  # type: ignore[assignment]
+    agent.witnessed = seen.classes_shown
     return agent
 
 

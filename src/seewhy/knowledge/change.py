@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -12,8 +13,9 @@ from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.program import UNKNOWN, program_text
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.knowledge.scene_table import Part
 
-_PASSED_OVER = 8  # costs at which all that helps cannot occur; then anything is proposed
+_CAN_OCCUR = "can_occur"
 
 
 @dataclass(frozen=True)
@@ -43,13 +45,13 @@ class ChangeFinder:
     An optimisation over answer sets, exact: candidates come in order of cost, among equals those
     whose numbers move least, and each is confirmed by the reasoner, because a class must be
     believed in every preferred answer set and not in one only. Vectors that fail are ruled out
-    for good.
+    for good, and so are values that never go together where only what can occur is looked for.
 
     Parameters
     ----------
     reasoner : Reasoner
     occurrence : Occurrence, optional
-        Vectors that cannot occur by it are passed over, unless nothing else is found soon.
+        Vectors that cannot occur by it are proposed only where no other makes a class believed.
 
     Examples
     --------
@@ -66,11 +68,7 @@ class ChangeFinder:
         self.reasoner = reasoner
         self.schema = reasoner.schema
         self.occurrence = occurrence
-        self._ruled_out = 0
-
-    @cached_property
-    def _whatever_occurs(self) -> ChangeFinder:
-        return ChangeFinder(self.reasoner)
+        self._constraints = 0
 
     @cached_property
     def _control(self) -> clingo.Control:
@@ -101,6 +99,7 @@ class ChangeFinder:
                     f"moved({feature}, |V - W|) :- observed({feature}, V), current({feature}, W), "
                     f"V != {UNKNOWN}, W != {UNKNOWN}."
                 )
+        lines.append(f"{{ {_CAN_OCCUR} }}.")
         goals = "; ".join(f"goal({name})" for name in map(self._goal, schema.classes))
         lines.append(f"1 {{ {goals} }} 1.")
         for name, literal in schema.classes.items():
@@ -128,6 +127,20 @@ class ChangeFinder:
         """
         if label not in self.schema.classes:
             raise KeyError(label)
+        if self.reasoner.decide(vector).label == label:
+            return (Change((), vector, 0),)
+        found: list[FeatureVector] = []
+        if self.occurrence is not None:
+            found = self._nearest(vector, label, self.occurrence)
+        found = found or self._nearest(vector, label, None)
+        changes = (self._change(vector, own) for own in found)
+        return tuple(sorted(changes, key=_order)[:limit])
+
+    def _nearest(
+        self, vector: FeatureVector, label: str, occurrence: Occurrence | None
+    ) -> list[FeatureVector]:
+        """The vectors of least cost that are of a class and, with ``occurrence``, can occur."""
+        can_occur = self._literals[_CAN_OCCUR]
         current = [
             self._literals[f"current({feature},{UNKNOWN if value is None else value})"]
             for feature, value in zip(self.schema.features, vector, strict=True)
@@ -136,23 +149,19 @@ class ChangeFinder:
             *current,
             self._literals["strict"],
             self._literals[f"goal({self._goal(label)})"],
+            can_occur if occurrence is not None else -can_occur,
         ]
-        passed_over = 0
-        while passed_over < _PASSED_OVER and (candidates := self._cheapest(assumptions)):
+        while candidates := self._cheapest(assumptions):
             confirmed = [c for c in candidates if self.reasoner.decide(c).label == label]
-            possible = [c for c in confirmed if self._can_occur(c)]
-            if possible:
-                changes = (self._change(vector, candidate) for candidate in possible)
-                return tuple(sorted(changes, key=_order)[:limit])
-            passed_over += bool(confirmed)
+            never = {c: occurrence.never_together(c) if occurrence else None for c in confirmed}
+            if possible := [own for own, parts in never.items() if parts is None]:
+                return possible
             for candidate in candidates:
-                self._rule_out(candidate, label)
-        if self.occurrence is None:
-            return ()
-        return self._whatever_occurs.smallest(vector, label, limit=limit)
-
-    def _can_occur(self, vector: FeatureVector) -> bool:
-        return self.occurrence is None or self.occurrence.possible(vector)
+                if candidate not in never:
+                    self._rule_out(candidate, label)
+            for parts in {parts for parts in never.values() if parts is not None}:
+                self._keep_apart(parts)
+        return []
 
     def _cheapest(self, assumptions: list[int]) -> list[FeatureVector]:
         found: list[FeatureVector] = []
@@ -178,13 +187,20 @@ class ChangeFinder:
 
     def _rule_out(self, vector: FeatureVector, label: str) -> None:
         """Forbid a vector that was tried in vain as a way to ``label``, now and later."""
-        observed = ", ".join(
-            f"observed({feature}, {UNKNOWN if value is None else value})"
-            for feature, value in zip(self.schema.features, vector, strict=True)
-        )
-        self._ruled_out += 1
-        part = f"ruled_out_{self._ruled_out}"
-        self._control.add(part, [], f":- goal({self._goal(label)}), {observed}.")
+        values = [UNKNOWN if value is None else value for value in vector]
+        self._forbid(f"goal({self._goal(label)})", enumerate(values))
+
+    def _keep_apart(self, parts: tuple[Part, ...]) -> None:
+        """Forbid values together in what can occur, now and later."""
+        self._forbid(_CAN_OCCUR, parts)
+
+    def _forbid(self, atom: str, parts: Iterable[Part]) -> None:
+        """Forbid an atom together with observed values."""
+        features = list(self.schema.features)
+        observed = ", ".join(f"observed({features[place]}, {value})" for place, value in parts)
+        self._constraints += 1
+        part = f"constraint_{self._constraints}"
+        self._control.add(part, [], f":- {atom}, {observed}.")
         self._control.ground([(part, [])])
 
     def _change(self, before: FeatureVector, after: FeatureVector) -> Change:

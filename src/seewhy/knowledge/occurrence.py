@@ -7,9 +7,9 @@ from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.knowledge.scene_table import Part, SceneTable
 
 __all__ = ["Occurrence"]
 
@@ -42,28 +42,25 @@ class Occurrence:
     Examples
     --------
     >>> seen = Occurrence({("one", "whole"): 40, ("two", "whole"): 30, ("two", "broken"): 30})
-    >>> seen.possible(("two", "broken")), seen.possible(("one", "broken"))
-    (True, False)
-    >>> Occurrence({("one", "whole"): 4, ("two", "broken"): 3}).possible(("one", "broken"))
-    True
+    >>> seen.never_together(("two", "broken"))
+    >>> seen.never_together(("one", "broken"))
+    ((0, 'one'), (1, 'broken'))
+    >>> Occurrence({("one", "whole"): 4, ("two", "broken"): 3}).never_together(("one", "broken"))
     """
 
     def __init__(self, scenes: Mapping[FeatureVector, int]) -> None:
-        self._vectors = list(scenes)
-        self._counts = np.array([scenes[own] for own in self._vectors], dtype=np.int64)
+        self._table = SceneTable(list(scenes))
+        self._counts = np.array(list(scenes.values()), dtype=np.int64)
         self._total = int(self._counts.sum())
-        self._shown: dict[tuple[int, str], NDArray[np.bool_]] = {}
-        self.possible = lru_cache(maxsize=_REMEMBERED)(self._possible)
         self._number = lru_cache(maxsize=_REMEMBERED)(self._counted)
 
-    def _possible(self, vector: FeatureVector) -> bool:
-        """Whether no two or three values of a vector are known never to go together."""
-        known = [(n, value) for n, value in enumerate(vector) if value is not None]
-        return not any(
-            self._is_missing(parts) for size in (2, 3) for parts in combinations(known, size)
-        )
+    def never_together(self, vector: FeatureVector) -> tuple[Part, ...] | None:
+        """The first two or three values of a vector that never go together, if there are any."""
+        known = [(place, value) for place, value in enumerate(vector) if value is not None]
+        every = (parts for size in (2, 3) for parts in combinations(known, size))
+        return next((parts for parts in every if self._is_missing(parts)), None)
 
-    def _is_missing(self, parts: tuple[tuple[int, str], ...]) -> bool:
+    def _is_missing(self, parts: tuple[Part, ...]) -> bool:
         if not self._total or self._number(*parts):
             return False
         expected = min(
@@ -72,17 +69,6 @@ class Occurrence:
         )
         return expected / self._total >= EXPECTED
 
-    def _counted(self, *parts: tuple[int, str]) -> int:
+    def _counted(self, *parts: Part) -> int:
         """How many scenes show some values."""
-        shown = np.ones(len(self._vectors), dtype=np.bool_)
-        for part in parts:
-            shown &= self._showing(part)
-        return int(self._counts[shown].sum())
-
-    def _showing(self, part: tuple[int, str]) -> NDArray[np.bool_]:
-        found = self._shown.get(part)
-        if found is None:
-            place, value = part
-            found = np.array([own[place] == value for own in self._vectors], dtype=np.bool_)
-            self._shown[part] = found
-        return found
+        return int(self._counts[self._table.showing(parts)].sum())

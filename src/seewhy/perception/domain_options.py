@@ -10,7 +10,7 @@ from seewhy.domain_tables import CLASS
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception.options import TrainingOptions
 
-__all__ = ["class_options", "seen_labels", "seen_values", "training_options"]
+__all__ = ["class_options", "seen_labels", "seen_values", "trained_together", "training_options"]
 
 
 def seen_values(domain: Domain, *, with_class: bool = False) -> dict[str, tuple[str, ...]]:
@@ -38,6 +38,11 @@ def seen_labels(
         zip(domain.features, zip(*vectors, strict=True), strict=True)
     )
     return {**columns, CLASS: labels} if with_class else columns
+
+
+def trained_together(domain: Domain) -> tuple[str, ...]:
+    """The features whose networks are trained together; that of the class is never among them."""
+    return tuple(domain.features) if domain.networks.together else ()
 
 
 def training_options(

@@ -62,12 +62,13 @@ def train_jointly(
 ) -> dict[str, tuple[GrowingNetwork, FeatureRecord]]:
     """Train one network a feature so that together they tell annotated feature vectors apart.
 
-    Use it where features are read together: a vector's probability is the product of its values'
-    probabilities, and what matters is that the true vector's is greater than that of all others
-    that pictures were annotated with. The loss is the cross-entropy of the true vector among
-    them, and, with a smaller weight, that of each feature by itself, so that every network still
-    sees its own feature and a combination that no picture showed can be read. All networks keep
-    their depth; one temperature for all leaves the order of the vectors as it is.
+    A domain asks for it by ``[networks] together``; use it where features are read together: a
+    vector's probability is the product of its values' probabilities, and what matters is that the
+    true vector's is greater than that of all others that pictures were annotated with. The loss
+    is the cross-entropy of the true vector among them, and, with a smaller weight, that of each
+    feature by itself, so that every network still sees its own feature and a combination that no
+    picture showed can be read. All networks keep their depth; one temperature for all leaves the
+    order of the vectors as it is.
 
     Parameters
     ----------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -45,22 +46,25 @@ def draw_card(
         drawn, lines = text_lines(text, x, y, width=room, **attributes)
         parts.append(drawn)
         y += lines * 15 + 10
-    for name, own in reply.features.items():
-        text = f"{name.replace('_', ' ')}: {own.value} (p = {own.probability:.2f})"
-        if own.overruled is not None:
-            text += f"; the network alone saw {own.overruled[0]} (p = {own.overruled[1]:.2f})"
-        drawn, lines = text_lines(text, x, y, width=room, fill="#2f6fb3")
-        parts.append(drawn)
-        y += lines * 15 + 2
-    if reply.classification.class_seen is not None:
-        label, probability = reply.classification.class_seen
-        text = f"class: {label} (p = {probability:.2f}), a witness to the features"
+    for text in _seen(reply):
         drawn, lines = text_lines(text, x, y, width=room, fill="#2f6fb3")
         parts.append(drawn)
         y += lines * 15 + 2
     top = max(y, _MARGIN + _SIDE) + 8
     bottom = draw_rows(reply.justification, width=width, top=top, parts=parts)
     return Figure(width=width, height=int(bottom) + 6, content="".join(parts))
+
+
+def _seen(reply: Reply) -> Iterator[str]:
+    """A line for every feature, and for the class where a network saw it."""
+    for name, own in reply.features.items():
+        text = f"{name.replace('_', ' ')}: {own.value} (p = {own.probability:.2f})"
+        if own.overruled is not None:
+            text += f"; the network alone saw {own.overruled[0]} (p = {own.overruled[1]:.2f})"
+        yield text
+    if reply.classification.class_seen is not None:
+        label, probability = reply.classification.class_seen
+        yield f"class: {label} (p = {probability:.2f}), a witness to the features"
 
 
 def embedded(image: Path | str | Image.Image | np.ndarray[Any, Any], *, size: int) -> str:

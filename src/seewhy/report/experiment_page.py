@@ -5,20 +5,19 @@ from __future__ import annotations
 import math
 import platform
 from collections.abc import Sequence
-from importlib.metadata import PackageNotFoundError, version
 
 from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.conclusions import Compared, Finding, summary, values_of
 from seewhy.experiments.effort import efforts
 from seewhy.experiments.experiment import Experiment, Measure, Row, say_size
-from seewhy.experiments.origin import here, one_machine, say_machine, say_origins
+from seewhy.experiments.origin import here, installed, one_machine, say_machine, say_origins
 from seewhy.experiments.rows import is_timing
 from seewhy.experiments.running import Run
 from seewhy.experiments.statistics import interval
 from seewhy.report.html import rendered
 from seewhy.report.line_chart import Line, Point, draw_lines
 
-__all__ = ["LIBRARIES", "experiment_page", "installed"]
+__all__ = ["LIBRARIES", "experiment_page"]
 
 LIBRARIES = ("seewhy", "torch", "clingo", "scikit-learn", "scipy", "numpy", "mujoco-core")
 
@@ -51,7 +50,7 @@ def experiment_page(
         measures=[_measure(own, measure, rows, sizes) for measure in own.measures],
         summary=summary(findings),
         findings=[_tested(own, finding) for finding in findings],
-        efforts=_efforts(own, timed),
+        efforts=_efforts(own, rows),
         timings=_timings(own, timed, sizes),
         timed=say_machine(rows, timed, machine),
         maker=here().commit,
@@ -158,11 +157,3 @@ def _span(numbers: Sequence[int]) -> str:
     if not numbers:
         return "none"
     return str(numbers[0]) if len(numbers) == 1 else f"{numbers[0]} to {numbers[-1]}"
-
-
-def installed(name: str) -> str:
-    """Return the version of a library that is installed."""
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "not installed"

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from html import escape
 
 from seewhy.experiments.experiment import Row
-from seewhy.experiments.origin import here, one_machine, say_machine, say_origins
+from seewhy.experiments.origin import here, installed, one_machine, say_machine, say_origins
 from seewhy.experiments.planning import NAMES, SYSTEMS, Ratio, recipients_elsewhere, summary
 from seewhy.experiments.planning_run import PlanningRun
 from seewhy.experiments.statistics import Interval
 from seewhy.knowledge.learned_file import LEARNED
-from seewhy.report.experiment_page import LIBRARIES, installed
+from seewhy.report.experiment_page import LIBRARIES
 from seewhy.report.figure import Figure
 from seewhy.report.html import rendered
 
