@@ -618,8 +618,8 @@ def test_less_is_claimed_of_some_sizes_and_domains() -> None:
     assert worse.failed == (100,)
     assert summary([equal, worse, answers]) == (
         "1 of 3 claims hold at every size that was tried. The hypothesis is not supported for "
-        "accuracy (seewhy against end to end) at 100; answers (seewhy against end to end) at "
-        "1001, all."
+        "classified rightly: SeeWhy against end to end at 100; answers, every relevant attribute: "
+        "SeeWhy against end to end at 1001, all."
     )
 
 

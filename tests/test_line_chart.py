@@ -29,13 +29,25 @@ def test_a_chart_is_a_whole_picture() -> None:
     circles = root.findall(f"{own}circle")
     assert len(circles) == 5
     assert circles[0][0].text == "SeeWhy, 100: 81.0 % (79.0 to 83.0 %)"
-    texts = [text.text for text in root.iter(f"{own}text")]
+    texts = ["".join(text.itertext()) for text in root.iter(f"{own}text")]
     for said in ("100", "200", "all", "pictures", "right", "SeeWhy", "<end> to & end"):
         assert said in texts
     # Higher values are nearer to the top, and all lie on the picture.
     heights = [float(circle.get("cy") or 0) for circle in circles]
     assert heights[0] > heights[1] > heights[2]
     assert all(0 < height < figure.height for height in heights)
+
+
+def test_a_long_name_of_an_axis_takes_two_lines() -> None:
+    """It would reach beyond the axis otherwise, and over its numbers."""
+    up = "explanatory answers, every relevant attribute"
+    figure = draw_lines([line("one", 0.5)], ["100"], across="", up=up)
+    ((first, second),) = [
+        list(text)
+        for text in ElementTree.fromstring(figure.svg).iter("{http://www.w3.org/2000/svg}text")
+        if len(text)
+    ]
+    assert f"{first.text} {second.text}" == up
 
 
 @pytest.mark.parametrize(

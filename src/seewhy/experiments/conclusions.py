@@ -36,10 +36,12 @@ class Compared:
 class Finding:
     """A claim, what the trials say about it at each size, and both in a sentence.
 
-    ``failed`` are the sizes at which the trials do not bear the claim out.
+    ``subject`` is what the claim compares, in words; ``failed`` are the sizes at which the trials
+    do not bear the claim out.
     """
 
     claim: Claim
+    subject: str
     compared: tuple[Compared, ...]
     failed: tuple[int, ...]
     text: str
@@ -105,13 +107,15 @@ def summary(findings: Sequence[Finding]) -> str:
     said = f"{held} of {len(findings)} claims hold at every size that was tried."
     missed = [own for own in findings if not own.supported and own.compared]
     if missed:
-        parts = [
-            f"{own.claim.measure.replace('_', ' ')} ({own.claim.system.replace('_', ' ')} against "
-            f"{own.claim.against.replace('_', ' ')}) at {', '.join(map(say_size, own.failed))}"
-            for own in missed
-        ]
+        parts = [f"{own.subject} at {_say_sizes(own)}" for own in missed]
         said += f" The hypothesis is not supported for {'; '.join(parts)}."
     return said
+
+
+def _say_sizes(finding: Finding) -> str:
+    if len(finding.failed) == len(finding.compared) > 1:
+        return "any size"
+    return ", ".join(map(say_size, finding.failed))
 
 
 def _too_few(finding: Finding) -> bool:
@@ -135,7 +139,11 @@ def _finding(own: Experiment, claim: Claim, rows: Sequence[Row], domain: str) ->
         for (size, found), p_t, p_wilcoxon in zip(paired.items(), tested, ranked, strict=True)
     )
     failed = tuple(found.size for found in compared if not _holds(claim, found, domain))
-    return Finding(claim, compared, failed, _sentence(own, claim, compared, failed))
+    subject = (
+        f"{own.measure(claim.measure).name}: {own.systems[claim.system]} against "
+        f"{own.systems[claim.against]}"
+    )
+    return Finding(claim, subject, compared, failed, _sentence(subject, compared, failed))
 
 
 def _holds(claim: Claim, found: Compared, domain: str) -> bool:
@@ -150,13 +158,9 @@ def _holds(claim: Claim, found: Compared, domain: str) -> bool:
     return found.verdict == "better"
 
 
-def _sentence(
-    own: Experiment, claim: Claim, compared: Sequence[Compared], failed: Sequence[int]
-) -> str:
-    measure = own.measure(claim.measure).name
-    names = f"{own.systems[claim.system]} against {own.systems[claim.against]}"
+def _sentence(subject: str, compared: Sequence[Compared], failed: Sequence[int]) -> str:
     if not compared:
-        return f"{measure}: {names}: there is no finished trial yet."
+        return f"{subject}: there is no finished trial yet."
     parts = []
     for verdict, said in (
         ("better", "significantly better"),
@@ -174,4 +178,4 @@ def _sentence(
     number = str(trials[0]) if len(trials) == 1 else f"{trials[0]} to {trials[-1]}"
     number += " trial" if number == "1" else " trials"
     judged = f"does not hold at {', '.join(map(say_size, failed))}" if failed else "holds"
-    return f"{measure}: {names}, {number}: {'; '.join(parts)}. What is claimed {judged}."
+    return f"{subject}, {number}: {'; '.join(parts)}. What is claimed {judged}."

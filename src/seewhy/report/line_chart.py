@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
-from seewhy.report.figure import Figure
+from seewhy.report.figure import CHARACTER, Figure, text_lines
 
 __all__ = ["Line", "Point", "draw_lines"]
 
 COLOURS = ("#2f6fb3", "#c8651b", "#3a8f5c", "#8a4fa3", "#8a7a2b", "#b33a5a", "#4f6d7a")
 _WIDTH, _HEIGHT = 560, 340
-_LEFT, _RIGHT, _TOP, _BOTTOM = 56, 14, 16, 48
+_LEFT, _RIGHT, _TOP, _BOTTOM = 68, 14, 16, 48
 
 
 @dataclass(frozen=True)
@@ -78,9 +78,9 @@ def draw_lines(lines: Sequence[Line], labels: Sequence[str], *, across: str, up:
     parts.append(
         f"<text x='{_LEFT + wide / 2:.1f}' y='{_HEIGHT - 10}' text-anchor='middle'>"
         f"{escape(across)}</text>"
-        f"<text transform='translate(13 {_TOP + tall / 2:.1f}) rotate(-90)' text-anchor='middle'>"
-        f"{escape(up)}</text>"
     )
+    named, _ = text_lines(up, 0.0, 0.0, width=int(tall / CHARACTER), text_anchor="middle")
+    parts.append(f"<g transform='translate(12 {_TOP + tall / 2:.1f}) rotate(-90)'>{named}</g>")
     for number, line in enumerate(lines):
         colour = COLOURS[number % len(COLOURS)]
         own = [point for point in line.points if point.label in place]
