@@ -641,6 +641,13 @@ def test_what_it_takes_to_reach_a_level() -> None:
         row |= {"accuracy": row["accuracy"] - 0.2, "seconds_networks": 99.0}
     twice = efforts([*others[:-1], *rows], ["seewhy", "end_to_end"], "accuracy")
     assert Effort("seewhy", 0.7, 160.0, 16.0) in twice
+    # A size beyond the level, of which nothing was timed, does not matter.
+    further = [*made([0.95], [0.9], size=400)]
+    for row in further:
+        row |= {"trained": 400, "machine": "slow", "seconds_networks": 1.0}
+    found = efforts([*rows, *further], ["seewhy", "end_to_end"], "accuracy")
+    assert Effort("seewhy", 0.8, 160.0, 16.0) in found
+    assert Effort("end_to_end", 0.8, 266.666666667, None) in found
     # Networks that another machine trained are not timed here: no seconds, not fewer.
     for row in rows:
         row |= {"seconds_networks": None, "seconds_answers": 1.0}

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conftest import DOMAIN, write_domain, write_tiles
+from conftest import DOMAIN, KNOWLEDGE, write_domain, write_tiles
 from seewhy.agent import Agent
 from seewhy.cli.main import main
 from seewhy.dataset import Dataset
 from seewhy.domain import Domain, load_domain
-from seewhy.errors import DomainError
+from seewhy.errors import DatasetError, DomainError
 from seewhy.pictures import make_dataset
 from seewhy.pretraining import is_drawn, pretrained
 
@@ -163,3 +163,77 @@ def test_the_command_says_how_many(
     assert train(0)[0] == 0
     agent = Agent.load(tmp_path / "model")
     assert weights(agent) == weights(Agent(drawing).fit(few, drawn=0))
+
+
+# What the network of the class was shown ------------------------------------------------------
+
+
+@pytest.fixture
+def three(tmp_path: Path) -> Domain:
+    """Tiles with a class that is never drawn, and few passes."""
+    folder = write_domain(
+        tmp_path / "three",
+        domain=DOMAIN.replace('subject = "the tile"', 'subject = "the tile"\nsource = "draw.py"')
+        + '\n[classes.odd]\nliteral = "odd(T)"\nsay = "odd"\n\n[networks]\nepochs = 2\n',
+        knowledge=KNOWLEDGE.replace(
+            "#static good(tile).", "#static good(tile).\n#static odd(tile)."
+        ),
+    )
+    (folder / "draw.py").write_text(SOURCE)
+    return load_domain(folder)
+
+
+def labelled(scenes: Dataset, domain: Domain, *labels: str) -> Dataset:
+    """The scenes with other classes, in turn."""
+    own = [
+        replace(scene, label=labels[n % len(labels)], split=None)
+        for n, scene in enumerate(scenes.scenes)
+    ]
+    return replace(scenes, domain=domain, scenes=tuple(own))
+
+
+def witness(domain: Domain) -> Agent:
+    return Agent(domain, reading="with_class", known_share=1.0)
+
+
+def test_a_class_was_shown_by_pictures_or_to_what_was_started_from(
+    three: Domain, few: Dataset
+) -> None:
+    usual, odd = labelled(few, three, "good", "bad"), labelled(few, three, "odd", "bad")
+    first = witness(three).fit(usual, drawn=0, answers=False, workers=1)
+    assert first.witnessed == {"good", "bad"}
+    then = witness(three).fit(odd, start_from=first, answers=False, workers=1)
+    assert then.witnessed == {"good", "bad", "odd"}
+    assert first.fit(odd, start_from=first, answers=False, workers=1).witnessed == then.witnessed
+    # Networks for larger pictures begin anew to tell classes apart.
+    larger = replace(three, pictures=three.pictures.model_copy(update={"size": 20}))
+    anew = witness(larger).fit(
+        labelled(few, larger, "good", "bad"), start_from=then, answers=False, workers=1
+    )
+    assert anew.witnessed == {"good", "bad"}
+
+
+def test_a_class_was_shown_by_drawings_of_which_the_class_was_learned(
+    three: Domain, few: Dataset
+) -> None:
+    odd = labelled(few, three, "odd", "bad")
+    own = witness(three).fit(odd, drawn=24, answers=False, workers=1)
+    assert own.witnessed == {"good", "bad", "odd"}
+    features = pretrained(three, count=24, workers=1)
+    assert set(features.labels) == {"good", "bad"}
+    later = witness(three).fit(odd, start_from=features, answers=False, workers=1)
+    assert later.witnessed == {"odd", "bad"}
+
+
+def test_networks_begin_with_one_thing(three: Domain, few: Dataset) -> None:
+    first = witness(three).fit(
+        labelled(few, three, "good", "bad"), drawn=0, answers=False, workers=1
+    )
+    with pytest.raises(DatasetError) as problem:
+        witness(three).fit(
+            labelled(few, three, "good", "odd"), start_from=first, drawn=24, workers=1
+        )
+    assert str(problem.value) == (
+        "start_from, drawn: networks begin with what they know (--start-from) or with new "
+        "drawings (--drawn); leave one of the two out"
+    )

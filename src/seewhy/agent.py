@@ -180,7 +180,7 @@ class Agent:
         self._experience = experience
         counts = {vector: sum(own.values()) for vector, own in experience.items()}
         self.reasoned = ReasonedAnswers(self.domain, self.reasoner, Occurrence(counts))
-        self._readers: dict[ReadingRule, ConsistentReading] = {}
+        self._readers: dict[tuple[ReadingRule, frozenset[str]], ConsistentReading] = {}
 
     # Training -------------------------------------------------------------------------------
 
@@ -229,8 +229,8 @@ class Agent:
         Raises
         ------
         DatasetError
-            If the dataset is of another domain or of one class only, or if a class to leave out
-            is none of the domain's.
+            If the dataset is of another domain or of one class only, if a class to leave out is
+            none of the domain's, or if there are both networks to start from and pictures to draw.
         """
         from seewhy.perception.domain_options import (
             seen_labels,
@@ -259,6 +259,12 @@ class Agent:
             )
         earlier = start_from.extractor if start_from else None
         first = start_from if isinstance(start_from, Pretrained) else None
+        before = start_from.witnessed if isinstance(start_from, Agent) else frozenset()
+        if drawn and start_from is not None:
+            raise DatasetError(
+                "start_from, drawn: networks begin with what they know (--start-from) or with new "
+                "drawings (--drawn); leave one of the two out"
+            )
         if drawn is None:
             drawn = 0 if earlier is not None or is_drawn(dataset) else self.domain.pictures.drawn
         if drawn:
@@ -292,8 +298,9 @@ class Agent:
         self.without = tuple(dict.fromkeys(without))
         self.witnessed = frozenset()
         if with_class:
-            before = start_from.witnessed if isinstance(start_from, Agent) else ()
-            self.witnessed = frozenset((*scenes.labels, *(first.labels if first else ()), *before))
+            rehearsed = first.labels if first and CLASS in first.extractor.networks else ()
+            kept = before if earlier and _as_before(earlier, self.extractor) else ()
+            self.witnessed = frozenset((*scenes.labels, *rehearsed, *kept))
         # Drawings show all classes alike; a few photographs leave most of them out.
         self.fit_induction(
             [*scenes.vectors, *(first.vectors if first else ())],
@@ -516,19 +523,20 @@ class Agent:
     ) -> list[Reading]:
         if rule == "argmax":
             return read_separately(self.reasoner.schema, probabilities)
-        if rule == "with_class" and CLASS not in probabilities:
+        witnessed = self.witnessed if rule == "with_class" else frozenset()
+        if rule == "with_class" and not (witnessed and CLASS in probabilities):
             raise NotFittedError(
                 "pictures are to be read with the class, but no network sees it; train with "
                 "reading='with_class', or read in another way"
             )
-        if rule not in self._readers:
-            self._readers[rule] = ConsistentReading(
+        if (rule, witnessed) not in self._readers:
+            self._readers[rule, witnessed] = ConsistentReading(
                 self.reasoner,
                 open_vectors(self.reasoner, self.experience),
                 label_of=lambda vector: self._decide(vector)[0],
-                witnessed=self.witnessed if rule == "with_class" else (),
+                witnessed=witnessed,
             )
-        return self._readers[rule].read(probabilities)
+        return self._readers[rule, witnessed].read(probabilities)
 
     def _read_and_score(self, pictures: np.ndarray[Any, Any]) -> tuple[list[Reading], list[float]]:
         if self.extractor is None or self.familiarity is None:
@@ -761,3 +769,9 @@ class Agent:
         agent.validation_scores = dict(model.validation_scores)
         agent.without, agent.witnessed = model.without, model.witnessed
         return agent
+
+
+def _as_before(earlier: FeatureExtractor, now: FeatureExtractor) -> bool:
+    """Whether the network of the class could begin with all that an earlier one knew."""
+    own, new = earlier.networks.get(CLASS), now.networks[CLASS]
+    return own is not None and own.size == new.size and earlier.values[CLASS] == now.values[CLASS]

@@ -22,7 +22,8 @@ class Effort:
     """What a system needs until the mean of a measure reaches a level; None: it never does.
 
     ``pictures`` and ``seconds`` (of one processor, in training) lie on the line between the sizes
-    before and after; where the first size reaches the level already, they are that size's.
+    before and after; where the first size reaches the level already, they are that size's. Seconds
+    are None, too, where no trial of one of these sizes was timed.
     """
 
     system: str
@@ -44,9 +45,11 @@ def efforts(rows: Sequence[Row], systems: Sequence[str], measure: str) -> list[E
         if not means or max(means) < level or min(means) >= level:
             continue
         for system, curve in curves.items():
-            pictures = reached([(own[0], own[1]) for own in curve], level)
-            times = [(own[2], own[1]) for own in curve if own[2] is not None]
-            seconds = reached(times, level) if len(times) == len(curve) else None
+            there = next((n for n, own in enumerate(curve) if own[1] >= level), len(curve))
+            sides = curve[max(0, there - 1) : there + 1]
+            times = [(own[2], own[1]) for own in sides if own[2] is not None]
+            pictures = reached([(own[0], own[1]) for own in sides], level)
+            seconds = reached(times, level) if len(times) == len(sides) else None
             found.append(Effort(system, level, pictures, seconds))
     return found
 

@@ -19,7 +19,7 @@ from seewhy.dialogue.answer import AnswerType, Changes
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reference import Experience, ReferenceAnswers
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.knowledge.scene_table import SceneTable
+from seewhy.knowledge.vector_index import VectorIndex
 
 __all__ = ["ENOUGH", "Sufficiency", "Values", "answer_suffices", "sufficiency_of"]
 
@@ -80,7 +80,7 @@ class Sufficiency:
             label: np.array([counts.get(label, 0) for counts in experience.values()])
             for label in self.classes
         }
-        self._table = SceneTable(list(experience))
+        self._index = VectorIndex(list(experience))
         self._gains: dict[tuple[Values, frozenset[str]], float] = {}
 
     def values(self, vector: FeatureVector) -> Values:
@@ -101,7 +101,7 @@ class Sufficiency:
 
     def _share(self, values: Values, labels: frozenset[str]) -> float | None:
         """The share of the scenes with the values that are of one of the classes, if any has."""
-        alike = self._table.showing((self._features.index(own), value) for own, value in values)
+        alike = self._index.showing((self._features.index(own), value) for own, value in values)
         total = int(self._totals[alike].sum())
         of_class = [int(self._of_class[own][alike].sum()) for own in labels & self.classes]
         return sum(of_class) / total if total else None

@@ -13,7 +13,7 @@ from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.program import UNKNOWN, program_text
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.knowledge.scene_table import Part
+from seewhy.knowledge.vector_index import Part
 
 _CAN_OCCUR = "can_occur"
 
@@ -44,7 +44,8 @@ class ChangeFinder:
 
     An optimisation over answer sets, exact: candidates come in order of cost, among equals those
     whose numbers move least, and each is confirmed by the reasoner, because a class must be
-    believed in every preferred answer set and not in one only. Vectors that fail are ruled out
+    believed in every preferred answer set and not in one only. Of more than 64 that are equally
+    near, 64 are looked at. Vectors that fail are ruled out
     for good, and so are values that never go together where only what can occur is looked for.
 
     Parameters

@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.knowledge.scene_table import Part, SceneTable
+from seewhy.knowledge.vector_index import Part, VectorIndex
 
 __all__ = ["Occurrence"]
 
@@ -49,7 +49,7 @@ class Occurrence:
     """
 
     def __init__(self, scenes: Mapping[FeatureVector, int]) -> None:
-        self._table = SceneTable(list(scenes))
+        self._index = VectorIndex(list(scenes))
         self._counts = np.array(list(scenes.values()), dtype=np.int64)
         self._total = int(self._counts.sum())
         self._number = lru_cache(maxsize=_REMEMBERED)(self._counted)
@@ -71,4 +71,4 @@ class Occurrence:
 
     def _counted(self, *parts: Part) -> int:
         """How many scenes show some values."""
-        return int(self._counts[self._table.showing(parts)].sum())
+        return int(self._counts[self._index.showing(parts)].sum())

@@ -53,7 +53,7 @@ class Sight:
     domain : PlanningDomain
         Its ``[pictures]`` says which fluent each feature of a picture is about, and where.
     agent : Agent
-        Trained on pictures of this domain; it reads them in the way that it was trained for.
+        Trained on pictures of this domain; it reads them in its way of reading.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Annotated feature vectors as columns: which of them show some values."""
+"""Find the feature vectors that show some values."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from numpy.typing import NDArray
 
 from seewhy.knowledge.scene import FeatureVector
 
-__all__ = ["Part", "SceneTable"]
+__all__ = ["Part", "VectorIndex"]
 
 Part = tuple[int, str]
 """The place of a feature in the vectors, and a value."""
 
 
-class SceneTable:
-    """Finds the vectors that show some values.
+class VectorIndex:
+    """Feature vectors by the values that they show.
 
     Examples
     --------
-    >>> table = SceneTable([("one", "whole"), ("two", "whole"), ("two", "broken")])
-    >>> table.showing([(0, "two"), (1, "whole")]).tolist()
+    >>> index = VectorIndex([("one", "whole"), ("two", "whole"), ("two", "broken")])
+    >>> index.showing([(0, "two"), (1, "whole")]).tolist()
     [False, True, False]
     """
 
