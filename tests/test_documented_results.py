@@ -28,6 +28,9 @@ TABLES: list[tuple[str, str, str, list[tuple[str, str]]]] = [
     ("docs/results.md", "## What each coupling", "structures/ablation",
      [("accuracy", "seewhy"), ("accuracy", "no_tree"), ("accuracy", "tree_on_all"),
       ("answers", "seewhy"), ("answers", "no_lstm"), ("answers", "lstm_on_all")]),
+    ("docs/results.md", "**A gate of confidence", "structures/confidence",
+     [(key, own) for key in ("accuracy", "answers")
+      for own in ("no_gate", "gate_50", "gate_70", "gate_90")]),
     ("docs/results.md", "## Axioms learned again", "structures/axioms",
      [(key, own) for key in ("accuracy", "answers", "explanations_strict",
                              "explanations_sufficient", "by_knowledge", "agreement")
