@@ -660,6 +660,27 @@ def test_start_from_other_values_and_size_keeps_the_convolutions(
     )
     assert extractor.networks["side"].depth == trained.networks["side"].depth
     assert extractor.networks["side"].values == 3
+    assert extractor.shown("side") == {"left", "right"}
+
+
+def test_a_network_is_shown_what_it_is_trained_on(tmp_path: Path) -> None:
+    """Not what it is only validated on, nor what nobody showed."""
+    pictures, labels = scenes(40)
+    sides = ["middle", *labels["side"][1:]]
+    values = {**VALUES, "side": ["left", "right", "middle", "none"]}
+    options = dataclasses.replace(SHORT, threshold=1.0)
+    extractor = fit_extractor(
+        pictures,
+        {"side": sides, "count": labels["count"]},
+        values=values,
+        options=options,
+        validation=np.arange(6),
+        workers=1,
+    )
+    assert extractor.shown("side") == {"left", "right"}
+    assert extractor.shown("other") == frozenset()
+    extractor.save(tmp_path)
+    assert FeatureExtractor.load(tmp_path).shown("side") == {"left", "right"}
 
 
 # Small and broken data
@@ -673,6 +694,7 @@ def test_one_value_only() -> None:
     )
     probabilities = extractor.probabilities(pictures)["side"]
     np.testing.assert_allclose(probabilities, [[11 / 12, 1 / 12]] * 10, rtol=1e-5)
+    assert extractor.shown("side") == {"left"}
     assert [event.message for event in events] == [
         "side is left in every picture: nothing to learn"
     ]
@@ -846,5 +868,5 @@ def test_damaged_description(trained: FeatureExtractor, tmp_path: Path) -> None:
         FeatureExtractor.load(tmp_path)
 
     file.write_text(json.dumps({**whole, "format": 99}))
-    with pytest.raises(ModelError, match="has format 99, this version of SeeWhy reads 2"):
+    with pytest.raises(ModelError, match="has format 99, this version of SeeWhy reads 3"):
         FeatureExtractor.load(tmp_path)

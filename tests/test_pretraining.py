@@ -196,21 +196,40 @@ def witness(domain: Domain) -> Agent:
     return Agent(domain, reading="with_class", known_share=1.0)
 
 
+def shown(agent: Agent) -> frozenset[str]:
+    assert agent.extractor is not None
+    return agent.extractor.shown("class")
+
+
 def test_a_class_was_shown_by_pictures_or_to_what_was_started_from(
     three: Domain, few: Dataset
 ) -> None:
     usual, odd = labelled(few, three, "good", "bad"), labelled(few, three, "odd", "bad")
     first = witness(three).fit(usual, drawn=0, answers=False, workers=1)
-    assert first.witnessed == {"good", "bad"}
+    assert shown(first) == {"good", "bad"}
     then = witness(three).fit(odd, start_from=first, answers=False, workers=1)
-    assert then.witnessed == {"good", "bad", "odd"}
-    assert first.fit(odd, start_from=first, answers=False, workers=1).witnessed == then.witnessed
+    assert shown(then) == {"good", "bad", "odd"}
+    assert shown(first.fit(odd, start_from=first, answers=False, workers=1)) == shown(then)
     # Networks for larger pictures begin anew to tell classes apart.
     larger = replace(three, pictures=three.pictures.model_copy(update={"size": 20}))
     anew = witness(larger).fit(
         labelled(few, larger, "good", "bad"), start_from=then, answers=False, workers=1
     )
-    assert anew.witnessed == {"good", "bad"}
+    assert shown(anew) == {"good", "bad"}
+
+
+def test_classes_with_other_names_are_other_classes(three: Domain, few: Dataset) -> None:
+    first = witness(three).fit(
+        labelled(few, three, "good", "bad"), drawn=0, answers=False, workers=1
+    )
+    folder = three.folder
+    text = (folder / "domain.toml").read_text().replace("[classes.bad]", "[classes.poor]")
+    (folder / "domain.toml").write_text(text)
+    renamed = load_domain(folder)
+    then = witness(renamed).fit(
+        labelled(few, renamed, "good", "odd"), start_from=first, answers=False, workers=1
+    )
+    assert shown(then) == {"good", "odd"}
 
 
 def test_a_class_was_shown_by_drawings_of_which_the_class_was_learned(
@@ -218,11 +237,11 @@ def test_a_class_was_shown_by_drawings_of_which_the_class_was_learned(
 ) -> None:
     odd = labelled(few, three, "odd", "bad")
     own = witness(three).fit(odd, drawn=24, answers=False, workers=1)
-    assert own.witnessed == {"good", "bad", "odd"}
+    assert shown(own) == {"good", "bad", "odd"}
     features = pretrained(three, count=24, workers=1)
     assert set(features.labels) == {"good", "bad"}
     later = witness(three).fit(odd, start_from=features, answers=False, workers=1)
-    assert later.witnessed == {"odd", "bad"}
+    assert shown(later) == {"odd", "bad"}
 
 
 def test_networks_begin_with_one_thing(three: Domain, few: Dataset) -> None:

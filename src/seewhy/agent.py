@@ -142,7 +142,6 @@ class Agent:
         self.answerer: RecurrentAnswerer | None = None
         self.trained_on: frozenset[str] = frozenset()
         self.without: tuple[str, ...] = ()
-        self.witnessed: frozenset[str] = frozenset()
         self.familiarity: Familiarity | None = None
         self.validation_scores: dict[ReadingRule, list[float]] = {}
 
@@ -180,7 +179,7 @@ class Agent:
         self._experience = experience
         counts = {vector: sum(own.values()) for vector, own in experience.items()}
         self.reasoned = ReasonedAnswers(self.domain, self.reasoner, Occurrence(counts))
-        self._readers: dict[tuple[ReadingRule, frozenset[str]], ConsistentReading] = {}
+        self._readers: dict[ReadingRule, ConsistentReading] = {}
 
     # Training -------------------------------------------------------------------------------
 
@@ -259,7 +258,6 @@ class Agent:
             )
         earlier = start_from.extractor if start_from else None
         first = start_from if isinstance(start_from, Pretrained) else None
-        before = start_from.witnessed if isinstance(start_from, Agent) else frozenset()
         if drawn and start_from is not None:
             raise DatasetError(
                 "start_from, drawn: networks begin with what they know (--start-from) or with new "
@@ -296,11 +294,6 @@ class Agent:
         )
         self.trained_on = frozenset(scenes.picture_digests())
         self.without = tuple(dict.fromkeys(without))
-        self.witnessed = frozenset()
-        if with_class:
-            rehearsed = first.labels if first and CLASS in first.extractor.networks else ()
-            kept = before if earlier and _as_before(earlier, self.extractor) else ()
-            self.witnessed = frozenset((*scenes.labels, *rehearsed, *kept))
         # Drawings show all classes alike; a few photographs leave most of them out.
         self.fit_induction(
             [*scenes.vectors, *(first.vectors if first else ())],
@@ -523,20 +516,24 @@ class Agent:
     ) -> list[Reading]:
         if rule == "argmax":
             return read_separately(self.reasoner.schema, probabilities)
-        witnessed = self.witnessed if rule == "with_class" else frozenset()
-        if rule == "with_class" and not (witnessed and CLASS in probabilities):
+        if rule not in self._readers:
+            self._readers[rule] = ConsistentReading(
+                self.reasoner,
+                open_vectors(self.reasoner, self.experience),
+                label_of=lambda vector: self._decide(vector)[0],
+                witnessed=self._witnessed() if rule == "with_class" else (),
+            )
+        return self._readers[rule].read(probabilities)
+
+    def _witnessed(self) -> frozenset[str]:
+        """The classes that the network of the class was shown."""
+        found = self.extractor.shown(CLASS) if self.extractor else frozenset()
+        if not found:
             raise NotFittedError(
                 "pictures are to be read with the class, but no network sees it; train with "
                 "reading='with_class', or read in another way"
             )
-        if (rule, witnessed) not in self._readers:
-            self._readers[rule, witnessed] = ConsistentReading(
-                self.reasoner,
-                open_vectors(self.reasoner, self.experience),
-                label_of=lambda vector: self._decide(vector)[0],
-                witnessed=witnessed,
-            )
-        return self._readers[rule, witnessed].read(probabilities)
+        return found
 
     def _read_and_score(self, pictures: np.ndarray[Any, Any]) -> tuple[list[Reading], list[float]]:
         if self.extractor is None or self.familiarity is None:
@@ -717,7 +714,6 @@ class Agent:
             familiarity=self.familiarity,
             validation_scores=self.validation_scores,
             without=self.without,
-            witnessed=self.witnessed,
         )
         write_model(model, Path(folder))
 
@@ -767,11 +763,5 @@ class Agent:
         agent.experience, agent.trained_on = model.experience, model.trained_on
         agent.familiarity = model.familiarity
         agent.validation_scores = dict(model.validation_scores)
-        agent.without, agent.witnessed = model.without, model.witnessed
+        agent.without = model.without
         return agent
-
-
-def _as_before(earlier: FeatureExtractor, now: FeatureExtractor) -> bool:
-    """Whether the network of the class could begin with all that an earlier one knew."""
-    own, new = earlier.networks.get(CLASS), now.networks[CLASS]
-    return own is not None and own.size == new.size and earlier.values[CLASS] == now.values[CLASS]

@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from seewhy.perception.familiarity import Familiarity
 
 MANIFEST = "model.json"
-FORMAT = 3
+FORMAT = 2
 
 _KEYS = (
     *("domain", "minimality", "seed", "reading", "gate", "known_share", "validation_scores"),
-    *("without", "witnessed", "answers", "trained_on", "files"),
+    *("without", "answers", "trained_on", "files"),
 )
 
 
@@ -44,8 +44,7 @@ class Model:
     training scenes rightly; ``trained_on`` holds digests of the pictures, ``without`` the classes
     of which there were none on purpose, ``validation_scores`` how like those of training the
     pictures kept for validation are, under each way of reading; it and ``familiarity`` are empty
-    where no picture is to be refused. ``witnessed`` are the classes that the network of the class
-    was shown, none where there is no such network.
+    where no picture is to be refused.
     """
 
     domain: Domain
@@ -64,7 +63,6 @@ class Model:
     familiarity: Familiarity | None
     validation_scores: Mapping[ReadingRule, list[float]]
     without: tuple[str, ...]
-    witnessed: frozenset[str]
 
 
 def write_model(model: Model, folder: Path) -> None:
@@ -180,7 +178,6 @@ def read_model(folder: Path) -> Model:
         familiarity=familiarity,
         validation_scores=manifest["validation_scores"],
         without=tuple(manifest["without"]),
-        witnessed=frozenset(manifest["witnessed"]),
     )
 
 
@@ -206,7 +203,6 @@ def _manifest(model: Model, folder: Path) -> dict[str, Any]:
         "known_share": model.known_share,
         "validation_scores": dict(model.validation_scores),
         "without": list(model.without),
-        "witnessed": sorted(model.witnessed),
         "answers": model.answerer is not None,
         "trained_on": sorted(model.trained_on),
         "files": {

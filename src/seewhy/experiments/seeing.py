@@ -77,18 +77,24 @@ class Seen:
 
 
 class Remembered:
-    """What networks saw in given pictures, in place of the networks."""
+    """What networks saw in the pictures to test on, in place of the networks."""
 
-    def __init__(self, shown: Shown) -> None:
-        self._shown = shown
+    def __init__(self, seen: Seen) -> None:
+        self._seen = seen
 
     def probabilities(self, pictures: npt.NDArray[np.uint8]) -> dict[str, Any]:
         """The probabilities of each feature's values, and of the classes.
 
         The pictures are always the same.
         """
-        assert len(pictures) == len(self._shown.scenes)
-        return {**self._shown.features, CLASS: self._shown.classes}
+        test = self._seen.test
+        assert len(pictures) == len(test.scenes)
+        return {**test.features, CLASS: test.classes}
+
+    def shown(self, name: str) -> frozenset[str]:
+        """The classes that the network of the class was trained on a picture of."""
+        assert name == CLASS
+        return self._seen.classes_shown
 
 
 def see(setting: Setting, trial: Trial) -> Seen:

@@ -103,8 +103,7 @@ def agent_of(
         learned=learned,
         withdrawn=withdrawn,
     )
-    agent.extractor = Remembered(seen.test)  # type: ignore[assignment]
-    agent.witnessed = seen.classes_shown
+    agent.extractor = Remembered(seen)  # type: ignore[assignment]
     return agent
 
 

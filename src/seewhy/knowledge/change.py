@@ -16,6 +16,7 @@ from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.vector_index import Part
 
 _CAN_OCCUR = "can_occur"
+_EQUALLY_NEAR = 64  # so many are looked at
 
 
 @dataclass(frozen=True)
@@ -45,8 +46,8 @@ class ChangeFinder:
     An optimisation over answer sets, exact: candidates come in order of cost, among equals those
     whose numbers move least, and each is confirmed by the reasoner, because a class must be
     believed in every preferred answer set and not in one only. Of more than 64 that are equally
-    near, 64 are looked at. Vectors that fail are ruled out
-    for good, and so are values that never go together where only what can occur is looked for.
+    near, 64 are looked at. Vectors that fail are ruled out for good, and so are values that never
+    go together where only what can occur is looked for.
 
     Parameters
     ----------
@@ -182,7 +183,7 @@ class ChangeFinder:
                 )
 
         solve: Any = self._control.configuration.solve
-        solve.models = 64
+        solve.models = _EQUALLY_NEAR
         self._control.solve(assumptions, on_model=on_model)
         return list(dict.fromkeys(found))
 

@@ -28,7 +28,7 @@ from seewhy.perception.rehearsal import Rehearsal
 
 __all__ = ["Position", "Weights", "checkpoint_file", "fingerprint", "read", "write"]
 
-FORMAT = 1
+FORMAT = 2
 
 Weights = dict[str, torch.Tensor]
 

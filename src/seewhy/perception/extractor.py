@@ -32,7 +32,7 @@ __all__ = ["FeatureExtractor", "Seen", "fit_extractor"]
 
 DESCRIPTION = "perception.json"
 WEIGHTS = "perception.safetensors"
-FORMAT = 2
+FORMAT = 3
 
 FEW = 16
 """So few pictures are seen on one thread: for more, several are worth their waiting."""
@@ -154,6 +154,15 @@ class FeatureExtractor:
         """What came of training each feature: the fields of FeatureRecord by name."""
         return {name: asdict(record) for name, record in self.records.items()}
 
+    def shown(self, name: str) -> frozenset[str]:
+        """The values that a network was trained on a picture of; none where there is no network."""
+        if name not in self.networks:
+            return frozenset()
+        marks = self.networks[name].shown.tolist()
+        return frozenset(
+            value for value, mark in zip(self.values[name], marks, strict=True) if mark
+        )
+
     def save(self, folder: Path | str) -> None:
         """Write ``perception.safetensors`` and ``perception.json`` into ``folder``."""
         tensors = {
@@ -260,7 +269,8 @@ def fit_extractor(
         A folder in which interrupted training finds where it was. Remove it when the extractor
         is saved.
     start_from : FeatureExtractor, optional
-        Earlier networks to train on instead of growing new ones; features that it lacks grow.
+        Earlier networks to train on instead of growing new ones. Features that it lacks, or whose
+        values are as many others there, grow.
     rehearsal : Rehearsal, optional
         Pictures that ``start_from`` was trained on, to go over again.
     together : collection of str
@@ -322,7 +332,7 @@ def fit_extractor(
         else (options or {}).get(name, TrainingOptions())
         for name in labels
     }
-    earlier = {} if start_from is None else start_from.networks
+    earlier = {} if start_from is None else _fitting(start_from, values)
     shared = {name: column for name, column in labels.items() if name in together}
     ready = _ready(shared, values, chosen, earlier, size=batch.shape[1])
     trained = train_networks(
@@ -361,6 +371,18 @@ def fit_extractor(
         values=values,
         records={name: record for name, (_, record) in trained.items()},
     )
+
+
+def _fitting(
+    earlier: FeatureExtractor, values: Mapping[str, Sequence[str]]
+) -> dict[str, GrowingNetwork]:
+    """The earlier networks whose logits, if there are as many, stand for the same values."""
+    return {
+        name: network
+        for name, network in earlier.networks.items()
+        if name in values
+        and (network.values != len(values[name]) or earlier.values[name] == tuple(values[name]))
+    }
 
 
 def _ready(

@@ -219,6 +219,9 @@ class _JointTraining:
             ).to(self.device)
             for name, known in zip(order, codes[self.train].T, strict=True)
         }
+        trained = codes[self.train] if again is None else np.concatenate([codes[self.train], again])
+        for network, known in zip(self.networks.values(), trained.T, strict=True):
+            network.is_shown(known[known != UNKNOWN])
         if not fine_tune:
             for network in self.networks.values():
                 network.standardise_by(pictures[self.train])

@@ -63,6 +63,9 @@ class GrowingNetwork(nn.Module):
         Of the training pictures, per channel; pictures are standardised by them.
     temperature : tensor of float, scalar
         Divides the logits so that probabilities are honest; fitted on the validation pictures.
+    shown : tensor of bool, shape (values,)
+        The values that it was trained on a picture of; of the others it knows only what they are
+        not.
 
     Notes
     -----
@@ -85,6 +88,7 @@ class GrowingNetwork(nn.Module):
     mean: torch.Tensor
     deviation: torch.Tensor
     temperature: torch.Tensor
+    shown: torch.Tensor
 
     def __init__(
         self,
@@ -111,6 +115,7 @@ class GrowingNetwork(nn.Module):
         self.register_buffer("mean", torch.full((3,), 127.5))
         self.register_buffer("deviation", torch.full((3,), 64.0))
         self.register_buffer("temperature", torch.ones(()))
+        self.register_buffer("shown", torch.zeros(values, dtype=torch.bool))
 
     @property
     def depth(self) -> int:
@@ -162,7 +167,10 @@ class GrowingNetwork(nn.Module):
         )
 
     def adopt(self, other: GrowingNetwork) -> None:
-        """Take depth, convolutions and standardisation from ``other``, and its head if it fits."""
+        """Take depth, convolutions and standardisation from ``other``.
+
+        Its head, and what that was shown, if it fits.
+        """
         self.channels, self.standard, self.dense = other.channels, other.standard, other.dense
         self.blocks = nn.ModuleList([self._block(i) for i in range(min(other.depth, self.deepest))])
         for block, source in zip(self.blocks, other.blocks, strict=False):
@@ -172,6 +180,11 @@ class GrowingNetwork(nn.Module):
         self.head = self._new_head()
         if (self.size, self.values) == (other.size, other.values):
             self.head.load_state_dict(other.head.state_dict())
+            self.shown.copy_(other.shown)
+
+    def is_shown(self, targets: npt.NDArray[np.int64]) -> None:
+        """Remember that pictures of the values at these places train it."""
+        self.shown[torch.as_tensor(np.unique(targets), device=self.shown.device)] = True
 
     def standardise_by(self, pictures: npt.NDArray[np.uint8]) -> None:
         """Set mean and deviation to those of ``pictures``, uint8 of shape (n, size, size, 3)."""

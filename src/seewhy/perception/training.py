@@ -257,6 +257,9 @@ class _Training:
                 torch.from_numpy(np.ascontiguousarray(rehearsed)).to(self.device),
                 torch.from_numpy(rehearsed_targets).to(self.device),
             )
+        self.trained_values = np.concatenate(
+            [targets[self.train], [] if rehearsed_targets is None else rehearsed_targets]
+        ).astype(np.int64)
         # With too few pictures to spare any, those of training must do.
         judged = self.validation if len(self.validation) else self.train
         self.judged = torch.from_numpy(judged).to(self.device)
@@ -285,6 +288,7 @@ class _Training:
         if self.start_from is not None:
             with self.seeded("adopt"):
                 self.network.adopt(self.start_from)
+        self.network.is_shown(self.trained_values)
         self.network.to(self.device)
         self.optimizer = new_optimizer(self.network, self.options)
         if self.start_from is not None:
@@ -468,6 +472,7 @@ def _constant(
     with seeded(torch.device("cpu"), options.seed, feature, "first"):
         network = new_network(pictures.shape[1], len(values), options)
     network.standardise_by(pictures)
+    network.is_shown(targets)
     # One more picture of each value is supposed, so that the others stay possible.
     counts = np.bincount(targets, minlength=len(values)) + 1.0
     network.always(torch.as_tensor(np.log(counts / counts.sum())))
