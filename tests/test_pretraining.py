@@ -253,6 +253,6 @@ def test_networks_begin_with_one_thing(three: Domain, few: Dataset) -> None:
             labelled(few, three, "good", "odd"), start_from=first, drawn=24, workers=1
         )
     assert str(problem.value) == (
-        "start_from, drawn: networks begin with what they know (--start-from) or with new "
+        "start_from, drawn: networks begin with what they know (--from) or with new "
         "drawings (--drawn); leave one of the two out"
     )

@@ -260,7 +260,7 @@ class Agent:
         first = start_from if isinstance(start_from, Pretrained) else None
         if drawn and start_from is not None:
             raise DatasetError(
-                "start_from, drawn: networks begin with what they know (--start-from) or with new "
+                "start_from, drawn: networks begin with what they know (--from) or with new "
                 "drawings (--drawn); leave one of the two out"
             )
         if drawn is None:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from seewhy.perception.familiarity import Familiarity
 
 MANIFEST = "model.json"
-FORMAT = 2
+FORMAT = 4
 
 _KEYS = (
     *("domain", "minimality", "seed", "reading", "gate", "known_share", "validation_scores"),
