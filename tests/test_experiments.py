@@ -148,6 +148,22 @@ def test_a_run_adds_only_what_is_missing(
     assert [own["size"] for own in findings[0]["sizes"]] == ["20", "30"]
 
 
+def test_tables_alone_are_gone_on_from(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path, tmp_path: Path
+) -> None:
+    # As in a clone of a repository that has the results, not what they were made from.
+    tables = ("vqa/rows.csv", "vqa/timings.csv")
+    (tmp_path / "vqa").mkdir()
+    for name in ("settings.json", *tables):
+        (tmp_path / name).write_bytes((finished / name).read_bytes())
+    command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+    result = run(*command, "--out", tmp_path, *SMALL)
+    assert (result.code, result.err) == (0, "")
+    for name in tables:
+        assert (tmp_path / name).read_bytes() == (finished / name).read_bytes()
+    assert not (tmp_path / "networks").exists()
+
+
 def test_the_same_seeds_give_the_same_rows(
     run: Run, finished: Path, hasty: Path, tiles_data: Path, tmp_path: Path
 ) -> None:

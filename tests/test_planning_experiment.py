@@ -70,14 +70,16 @@ def test_a_run_adds_only_what_is_missing(run: Run, finished: Path) -> None:
     folder = finished / "planning"
     lost, kept = folder / "runs" / "0003.al", folder / "runs" / "0004.al"
     record, times = lost.read_bytes(), kept.stat().st_mtime_ns
-    rows = (folder / "rows.csv").read_bytes()
+    learned, rows = (folder / "learned.al").read_bytes(), (folder / "rows.csv").read_bytes()
     lost.unlink()
+    (folder / "learned.al").unlink()
     (folder / "trials" / "all-3.json").unlink()
     done = run("experiment", "planning", "--out", finished, *SMALL, "--json")
     assert (done.code, done.err) == (0, "")
     assert [own["measure"] for own in json.loads(done.out)["ratios"]] == list(MEASURES)
     # The same seeds make the same record and the same rows.
     assert (lost.read_bytes(), (folder / "rows.csv").read_bytes()) == (record, rows)
+    assert (folder / "learned.al").read_bytes() == learned
     assert kept.stat().st_mtime_ns == times
 
 

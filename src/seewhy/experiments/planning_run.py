@@ -11,8 +11,8 @@ from seewhy.experiments.catalogue import PLANNING
 from seewhy.experiments.experiment import ALL, Row, Trial
 from seewhy.experiments.jobs import run_all
 from seewhy.experiments.planning import RECORDED, learned_from, recorded_run, robot_before, trial
-from seewhy.experiments.rows import finish, read_trial, write_table
-from seewhy.experiments.running import ROWS, TIMINGS
+from seewhy.experiments.published import take_up
+from seewhy.experiments.rows import ROWS, TIMINGS, finish, read_trial, write_table
 from seewhy.experiments.settings import check_settings, digest
 from seewhy.files import write_whole
 from seewhy.knowledge.history import history_text, read_history_file
@@ -75,9 +75,8 @@ def run_planning(
     """
     _check_settings(run)
     own = replace(run, out=run.out.absolute())  # other machines work in other folders
-    for _ in run_all(_record, [(own, number) for number in range(run.records)], jobs=jobs):
-        pass
-    _learn(run)
+    take_up(run.folder)
+    _learn(own, jobs=jobs)
     for done in run_all(_try, [(own, seed) for seed in run.seeds], jobs=jobs):
         if on_trial is not None:
             on_trial(done)
@@ -98,12 +97,14 @@ def _record(run: PlanningRun, number: int) -> None:
         write_whole(file, history_text(history, title=f"run {number}"))
 
 
-def _learn(run: PlanningRun) -> None:
+def _learn(run: PlanningRun, *, jobs: int) -> None:
     file = run.folder / LEARNED
     source = f"the record of {run.records} runs"
     if file.is_file():
         _require_whole(file, heading=learned_text((), source=source).splitlines()[0])
         return
+    for _ in run_all(_record, [(run, number) for number in range(run.records)], jobs=jobs):
+        pass
     signature = robot_before().knowledge.signature
     record = [read_history_file(_record_file(run, n), signature) for n in range(run.records)]
     found = learned_from(record)

@@ -6,7 +6,7 @@ import csv
 import hashlib
 import io
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -17,9 +17,23 @@ from seewhy.experiments.experiment import Row, Trial
 from seewhy.experiments.origin import COLUMNS, here
 from seewhy.files import write_whole
 
-__all__ = ["finish", "is_timing", "read_trial", "trial_file", "write_table", "write_trial"]
+__all__ = [
+    "ROWS",
+    "TIMINGS",
+    "TRIALS",
+    "finish",
+    "is_timing",
+    "read_trial",
+    "trial_file",
+    "write_table",
+    "write_trial",
+]
 
-_FOLDER = "trials"
+ROWS, TIMINGS = "rows.csv", "timings.csv"
+"""The names of the tables."""
+
+TRIALS = "trials"
+"""The folder of the files of the trials."""
 
 
 def is_timing(column: str) -> bool:
@@ -35,12 +49,18 @@ def is_timing(column: str) -> bool:
 
 def trial_file(out: Path, trial: Trial) -> Path:
     """Where a trial's rows lie."""
-    return out / _FOLDER / f"{trial.name}.json"
+    return out / TRIALS / f"{trial.name}.json"
 
 
-def write_trial(out: Path, trial: Trial, rows: Sequence[Row]) -> None:
-    """Write the rows of a finished trial and where they were made, whole or not at all."""
-    content = {"trial": trial.name, "made": asdict(here()), "rows": rows, "digest": _digest(rows)}
+def write_trial(
+    out: Path, trial: Trial, rows: Sequence[Row], *, made: Mapping[str, str] | None = None
+) -> None:
+    """Write the rows of a finished trial and where they were made, whole or not at all.
+
+    They were made here, unless ``made`` says where, by :data:`seewhy.experiments.origin.COLUMNS`.
+    """
+    origin = asdict(here()) if made is None else made
+    content = {"trial": trial.name, "made": origin, "rows": rows, "digest": _digest(rows)}
     write_whole(trial_file(out, trial), json.dumps(content, indent=1))
 
 

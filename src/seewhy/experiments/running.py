@@ -15,13 +15,12 @@ from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.drawing import load_pictures, pool_of, require_enough
 from seewhy.experiments.experiment import Plan, Row, Setting, Trial
 from seewhy.experiments.jobs import run_all
-from seewhy.experiments.rows import finish, read_trial, write_table
+from seewhy.experiments.published import take_up
+from seewhy.experiments.rows import ROWS, TIMINGS, finish, read_trial, write_table
 from seewhy.experiments.settings import check_settings, digest
 from seewhy.picture_source import load_source
 
 __all__ = ["Run", "finished_rows", "prepare", "run_missing", "setting_of", "write_tables"]
-
-ROWS, TIMINGS = "rows.csv", "timings.csv"
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # glibc's numbers for what mallopt sets
 _KEPT = 2**30  # bytes
@@ -134,6 +133,7 @@ def prepare(
     for size in chosen:
         require_enough(setting, size)
     _check_settings(run)
+    take_up(run.folder)
     return run
 
 

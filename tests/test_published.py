@@ -1,0 +1,146 @@
+"""Tables without the files of their trials: whoever has them goes on from them."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from conftest import Run
+from seewhy.errors import ExperimentError
+from seewhy.experiments.experiment import Row, Trial
+from seewhy.experiments.published import take_up
+from seewhy.experiments.rows import ROWS, TIMINGS, TRIALS, read_trial, write_table
+
+RESULTS = Path(__file__).parents[1] / "results"
+TABLES = sorted(path.parent.relative_to(RESULTS) for path in RESULTS.glob("*/*/rows.csv"))
+
+
+def published(folder: Path, rows: list[Row]) -> Path:
+    write_table(folder / ROWS, rows, timings=False)
+    write_table(folder / TIMINGS, rows, timings=True)
+    return folder
+
+
+def row(seed: int, system: str = "a", **more: object) -> Row:
+    return {"seed": seed, "size": 9, "system": system, "accuracy": 0.5, "seconds": 1.5, **more}
+
+
+@pytest.mark.parametrize("name", TABLES, ids=str)
+def test_committed_tables_are_taken_up_to_the_byte(name: Path, tmp_path: Path) -> None:
+    folder = tmp_path / name.name
+    shutil.copytree(RESULTS / name, folder)
+    take_up(folder)
+    found = [read_trial(folder, trial) for trial in trials_of(folder / ROWS)]
+    rows = [row for trial in found for row in trial or ()]
+    assert len(rows) == len((folder / ROWS).read_text().splitlines()) - 1
+    published(folder, rows)
+    for table in (ROWS, TIMINGS):
+        assert (folder / table).read_bytes() == (RESULTS / name / table).read_bytes()
+
+
+def trials_of(table: Path) -> list[Trial]:
+    lines = [line.split(",")[:2] for line in table.read_text().splitlines()[1:]]
+    return list(dict.fromkeys(Trial(int(seed), int(size)) for seed, size in lines))
+
+
+# What cells hold: a text that reads as another kind, or an empty one, is none of ours.
+CELLS = (
+    st.none()
+    | st.booleans()
+    | st.integers(-(2**60), 2**60)
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.sampled_from(["achieved", 'status(m1, "x")', "a, b", "two\nlines"])
+)
+
+
+@given(cells=st.lists(st.tuples(CELLS, CELLS), min_size=1, max_size=4))
+def test_every_cell_comes_back(cells: list[tuple[object, object]]) -> None:
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        rows = [
+            row(0, f"system {n}", first=a, second=b, machine="m, 2 cores", commit="commit 1ab")
+            for n, (a, b) in enumerate(cells)
+        ]
+        take_up(published(folder, rows))
+        assert read_trial(folder, Trial(0, 9)) == rows
+
+
+def test_a_folder_with_trials_is_left_alone(tmp_path: Path) -> None:
+    # A trial's file that was deleted is to be made again.
+    published(tmp_path, [row(0)])
+    (tmp_path / TRIALS).mkdir()
+    take_up(tmp_path)
+    assert read_trial(tmp_path, Trial(0, 9)) is None
+
+
+def test_there_may_be_nothing(tmp_path: Path) -> None:
+    take_up(tmp_path / "not there")
+    published(tmp_path, [])
+    take_up(tmp_path)
+    assert not (tmp_path / TRIALS).exists()
+
+
+@pytest.mark.parametrize(
+    ("table", "change", "why"),
+    [
+        (ROWS, lambda text: text.replace("\n1,9,", "\n2,9,"),
+         "timings.csv: line 3 is not of the row in line 3 of rows.csv"),
+        (TIMINGS, lambda text: text.rsplit("\n", 2)[0] + "\n",
+         "timings.csv: line 3 is not of the row in line 3 of rows.csv"),
+        (ROWS, lambda text: text.rsplit("\n", 2)[0] + "\n",
+         "timings.csv: has more lines than rows.csv"),
+        (ROWS, lambda text: text.replace("1,9,a,0.5", "1,9,a"),
+         "rows.csv: line 3 has not as many columns as the first"),
+        (ROWS, lambda text: text.replace("1,9,a,0.5", "1,9,a,0.5,0.6"),
+         "rows.csv: line 3 has not as many columns as the first"),
+        (TIMINGS, lambda text: text.replace("1.5", "soon", 1),
+         "timings.csv: line 2 has a time that is no number"),
+        (ROWS, lambda text: "\udcff" + text, "rows.csv: is no table"),
+        (ROWS, lambda text: text + '3,9,"a', "rows.csv: is no table"),
+    ],
+)  # fmt: skip
+def test_damaged_tables_are_refused(tmp_path: Path, table: str, change, why: str) -> None:  # type: ignore[no-untyped-def]
+    folder = published(tmp_path, [row(0), row(1)])
+    text = (folder / table).read_text()
+    (folder / table).write_text(change(text), errors="surrogateescape")
+    with pytest.raises(ExperimentError) as error:
+        take_up(folder)
+    assert str(error.value) == (
+        f"{folder}/{why}; put rows.csv and timings.csv back as they were written, or delete both, "
+        "and the same command runs their trials"
+    )
+    assert not (folder / TRIALS).exists()
+
+
+@pytest.mark.parametrize("seed", ["", "x", "-1", "1.5", "True"])
+def test_a_row_needs_its_trial(tmp_path: Path, seed: str) -> None:
+    folder = published(tmp_path, [row(0)])
+    for table in (ROWS, TIMINGS):
+        file = folder / table
+        file.write_text(file.read_text().replace("\n0,9,", f"\n{seed},9,"))
+    with pytest.raises(ExperimentError, match="line 2 does not say its seed, size, and system"):
+        take_up(folder)
+
+
+def test_one_table_alone_is_refused(tmp_path: Path) -> None:
+    published(tmp_path, [row(0)])
+    (tmp_path / TIMINGS).unlink()
+    with pytest.raises(ExperimentError, match=r"timings\.csv: is missing; put"):
+        take_up(tmp_path)
+
+
+def test_planning_goes_on_from_published_tables(run: Run, tmp_path: Path) -> None:
+    # Nothing is learned or run again: a copy of what is committed is finished.
+    folder = tmp_path / "planning"
+    shutil.copytree(RESULTS / "robot" / "planning", folder)
+    before = {name: (folder / name).read_bytes() for name in (ROWS, TIMINGS, "learned.al")}
+    result = run("experiment", "planning", "--out", tmp_path, "--jobs", 1)
+    assert (result.code, result.err) == (0, "")
+    assert {name: (folder / name).read_bytes() for name in before} == before
+    assert not (folder / "runs").exists()
