@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import os
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import replace
@@ -31,6 +32,7 @@ from seewhy.experiments.claims import claimed
 from seewhy.experiments.conclusions import conclude, summary
 from seewhy.experiments.drawing import divide, in_fold, load_pictures, pool_of
 from seewhy.experiments.effort import Effort, efforts
+from seewhy.experiments.end_to_end import questions_to_learn
 from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
 from seewhy.experiments.origin import here
 from seewhy.experiments.questioning import answer_scores, draw_questions, suitable
@@ -536,6 +538,30 @@ def test_questions_suit_the_class(dataset: Dataset) -> None:
         assert len(set(queries)) == 5
     assert Asks.EXPLAIN not in {own.question.asks for own in asked}
     assert {Asks.WHY_CLASS, Asks.CHANGE_TO_CLASS} <= {own.question.asks for own in asked}
+
+
+def test_the_network_end_to_end_learns_from_such_questions_as_it_is_tested_on(
+    dataset: Dataset,
+) -> None:
+    questions, labels = Agent(dataset.domain).questions, dataset.labels
+    asked = questions_to_learn(questions, labels, seed=0)
+    assert asked == questions_to_learn(questions, labels, seed=0)
+    assert asked != questions_to_learn(questions, labels, seed=1)
+    for own in asked:
+        assert suitable(own.question, labels[own.picture])
+    # A domain with many classes has hundreds of questions about classes, and one that asks for
+    # the class: the network would hardly meet it if every question were as likely as every other.
+    kinds = Counter(own.question.asks for own in asked)
+    tested = Counter(own.question.asks for own in draw_questions(questions, labels, seed=0))
+    for kind in kinds | tested:
+        assert kinds[kind] / len(asked) == pytest.approx(tested[kind] / tested.total(), abs=0.03)
+    # Every picture is asked as often as every other, as often as every question twice.
+    (often,) = set(Counter(own.picture for own in asked).values())
+    fitting = {own.question.query for own in asked if labels[own.picture] == labels[0]}
+    assert often == pytest.approx(2 * len(fitting), rel=0.2)
+    few = questions_to_learn(questions, labels, seed=0, most=3 * len(labels) + 1)
+    assert len(few) == 3 * len(labels)
+    assert len(questions_to_learn(questions, labels, seed=0, most=1)) == len(labels)
 
 
 def test_right_answers_score_one(dataset: Dataset) -> None:

@@ -14,19 +14,24 @@ import torch
 
 from seewhy.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
-from seewhy.dialogue.learned import MOST_EXAMPLES, dealt
-from seewhy.dialogue.question import Asks, Query, Question, Questions
+from seewhy.dialogue.question import Question, Questions
 from seewhy.dialogue.recurrent import Asked, grown_network, hold_out
 from seewhy.dialogue.recurrent_network import FORMAT, Description, Encoding, Network
 from seewhy.dialogue.recurrent_options import RecurrentOptions
 from seewhy.dialogue.reference import ReferenceAnswers
 from seewhy.domain import Domain
+from seewhy.experiments.questioning import (
+    QUESTIONS,
+    answer_scores,
+    draw_questions,
+    suitable,
+    wordings_of,
+)
 from seewhy.experiments.questioning import Asked as AskedQuestion
-from seewhy.experiments.questioning import answer_scores
 from seewhy.experiments.seeing import Shown
 from seewhy.knowledge.scene import FeatureVector
 
-__all__ = ["Answers", "EndToEnd", "fit_answers", "represented"]
+__all__ = ["Answers", "EndToEnd", "fit_answers", "questions_to_learn", "represented"]
 
 WIDTH = 96
 """Units of each layer of the LSTM: twice as many as where only what is left open is learned.
@@ -35,6 +40,12 @@ It has to learn what the knowledge states, from several times as many questions.
 were 1.6 points worse (400 structures), twice as many passes at 48 were no better than 96; shown the
 outputs of the networks' dense layers, with or without the probabilities, they were 15 points worse.
 """
+
+MOST_QUESTIONS, EACH = 20_000, 250
+"""Questions to learn from at most; where many can be asked, so many for each."""
+
+PASSES, MOST_SHOWN = 10, 400_000
+"""Passes over the questions, fewer where that made more than so many questions shown."""
 
 _SHOWN_AT_ONCE = 4096
 Representation = npt.NDArray[np.float32]
@@ -76,36 +87,30 @@ def fit_answers(
     shown: Representation,
     *,
     seed: int,
-    most_examples: int = MOST_EXAMPLES,
 ) -> Answers:
     """Train an LSTM on questions about all pictures of a dataset, layer by layer.
 
     It is the recurrent network that SeeWhy has for scenes that reasoning leaves open, wider, and
     with numbers that networks make of the picture in place of its features and its class; it
-    learns from every picture where that one learns from those left open.
+    learns from every picture where that one learns from those left open, and from such questions
+    as it is asked afterwards (:func:`questions_to_learn`).
     """
-    by_query: dict[Query, list[Question]] = {}
-    for question in questions.all:
-        if question.asks is not Asks.EXPLAIN:
-            by_query.setdefault(question.query, []).append(question)
     vectors, labels = scenes.vectors, scenes.labels
-    asked: list[tuple[Question, int]] = []
-    answers: list[str] = []
-    for number, queries in dealt(by_query, labels, most=most_examples, seed=seed):
-        for query in queries:
-            same = by_query[query]
-            asked.append((same[number % len(same)], number))
-            kind = reference.answer(same[0], vectors[number], labels[number])
-            answers.append(kind.identifier)
-    options = RecurrentOptions(seed=seed, width=WIDTH)
-    numbers = [number for _, number in asked]
+    asked = questions_to_learn(questions, labels, seed=seed)
+    numbers = [own.picture for own in asked]
+    answers = [
+        reference.answer(own.question, vectors[n], labels[n]).identifier
+        for own, n in zip(asked, numbers, strict=True)
+    ]
+    passes = max(1, min(PASSES, round(MOST_SHOWN / len(asked))))
+    options = RecurrentOptions(seed=seed, width=WIDTH, epochs=passes)
     train, held_out = hold_out(numbers, options)
     description = Description(
         format=FORMAT,
         layers=1,
         width=options.width,
         embedding=options.embedding,
-        words=tuple(sorted({word for i in train for word in asked[i][0].words})),
+        words=tuple(sorted({word for i in train for word in asked[i].question.words})),
         features={"picture": tuple(map(str, range(shown.shape[1])))},
         labels=(),
         answers=tuple(sorted(set(answers))),
@@ -113,7 +118,9 @@ def fit_answers(
         held_out=len(held_out),
         digest="",
     )
-    words, lengths, _ = Encoding(description).encode([(own.words, ("",), "") for own, _ in asked])
+    words, lengths, _ = Encoding(description).encode(
+        [(own.question.words, ("",), "") for own in asked]
+    )
     place = {answer: i for i, answer in enumerate(description.answers)}
     examples = Asked(
         words,
@@ -124,6 +131,29 @@ def fit_answers(
     return Answers(
         *grown_network(description, examples, train=train, held_out=held_out, options=options)
     )
+
+
+def questions_to_learn(
+    questions: Questions, labels: Sequence[str], *, seed: int, most: int | None = None
+) -> list[AskedQuestion]:
+    """Draw questions about pictures of some classes as those to test on are drawn, more often.
+
+    Twice as many as there are different ones, at most ``most``, which is :data:`MOST_QUESTIONS`
+    or, where more can be asked, so many that each can be asked :data:`EACH` times. Every picture
+    is asked as much as every other.
+    """
+    wordings = [own[0] for own in wordings_of(questions).values()]
+    fitting = {
+        label: sum(suitable(question, label) for question in wordings) for label in set(labels)
+    }
+    most = max(MOST_QUESTIONS, EACH * len(wordings)) if most is None else most
+    total = min(most, 2 * sum(fitting[label] for label in labels))
+    left = max(1, total // max(1, len(labels)))
+    asked: list[AskedQuestion] = []
+    for turn in range(-(-left // QUESTIONS)):
+        count = min(QUESTIONS, left - turn * QUESTIONS)
+        asked += draw_questions(questions, labels, seed=seed, count=count, stream=(3, turn))
+    return asked
 
 
 class EndToEnd:

@@ -15,7 +15,14 @@ from seewhy.evaluation import EXPLANATORY, score_answer
 from seewhy.experiments.sufficiency import answer_suffices, sufficiency_of
 from seewhy.knowledge.scene import FeatureVector
 
-__all__ = ["Asked", "answer_scores", "draw_questions", "suitable"]
+__all__ = [
+    "QUESTIONS",
+    "Asked",
+    "answer_scores",
+    "draw_questions",
+    "suitable",
+    "wordings_of",
+]
 
 QUESTIONS = 8
 """Questions drawn for every picture."""
@@ -46,17 +53,21 @@ def suitable(question: Question, label: str) -> bool:
 
 
 def draw_questions(
-    questions: Questions, labels: Sequence[str], *, seed: int, count: int = QUESTIONS
+    questions: Questions,
+    labels: Sequence[str],
+    *,
+    seed: int,
+    count: int = QUESTIONS,
+    stream: Sequence[int] = (2,),
 ) -> list[Asked]:
     """Draw different questions for each picture from those that suit its class, and a wording.
 
     Every kind of question (why, how many, …) is as likely as every other, however many classes
-    and values it can be asked about.
+    and values it can be asked about. Other numbers in ``stream`` give other questions: those that
+    are tested on have 2.
     """
-    wordings: dict[Query, list[Question]] = {}
-    for question in questions.all:
-        wordings.setdefault(question.query, []).append(question)
-    rng = np.random.default_rng([seed, 2])
+    wordings = wordings_of(questions)
+    rng = np.random.default_rng([seed, *stream])
     found: list[Asked] = []
     by_class: dict[str, tuple[list[Query], np.ndarray[tuple[int], np.dtype[np.float64]]]] = {}
     for number, label in enumerate(labels):
@@ -70,6 +81,14 @@ def draw_questions(
         for chosen in drawn:
             same = wordings[queries[int(chosen)]]
             found.append(Asked(number, same[int(rng.integers(len(same)))]))
+    return found
+
+
+def wordings_of(questions: Questions) -> dict[Query, list[Question]]:
+    """All questions by what they ask: each in its wordings."""
+    found: dict[Query, list[Question]] = {}
+    for question in questions.all:
+        found.setdefault(question.query, []).append(question)
     return found
 
 
