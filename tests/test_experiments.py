@@ -94,7 +94,7 @@ def test_every_trial_has_a_row_for_each_system(finished: Path) -> None:
         (size, seed, system)
         for size in ("20", "30")
         for seed in ("0", "1")
-        for system in ("seewhy", "end_to_end")
+        for system in ("seewhy", "believing", "end_to_end")
     ]
     for row in rows:
         assert (row["trained"], row["tested"]) == (row["size"], "15")
@@ -106,7 +106,7 @@ def test_every_trial_has_a_row_for_each_system(finished: Path) -> None:
     assert timings[0] == (
         "seed,size,system,machine,commit,seconds_networks,seconds_answers,seconds_test"
     )
-    assert len(timings) == 9
+    assert len(timings) == 13
 
 
 def test_the_page_is_whole(finished: Path, hasty: Path, tiles_data: Path) -> None:
@@ -571,7 +571,10 @@ def test_right_answers_score_one(dataset: Dataset) -> None:
         reference.answer(own.question, dataset.vectors[own.picture], dataset.labels[own.picture])
         for own in asked
     ]
-    seen = {"vectors": dataset.vectors, "labels": dataset.labels}
+    seen = {
+        "vectors": [dataset.vectors[own.picture] for own in asked],
+        "labels": [dataset.labels[own.picture] for own in asked],
+    }
     scores = answer_scores(asked, right, dataset, reference, **seen)
     # That it is red is the author's reason for a round tile, but worn red tiles are bad.
     assert 0.8 < scores.pop("explanations_sufficient") < 1.0
@@ -616,7 +619,9 @@ def made(ours: list[float], theirs: list[float], *, size: int = 100) -> list[Row
     return [
         {"seed": seed, "size": size, "system": system, **dict.fromkeys(keys, value)}
         for seed, pair in enumerate(zip(ours, theirs, strict=True))
-        for system, value in zip(("seewhy", "end_to_end"), pair, strict=True)
+        for system, value in zip(
+            ("seewhy", "believing", "end_to_end"), (pair[0], *pair), strict=True
+        )
     ]
 
 
@@ -661,7 +666,7 @@ def test_less_is_claimed_of_some_sizes_and_domains() -> None:
     assert summary([equal, worse, answers]) == (
         "1 of 3 claims hold at every size that was tried. The hypothesis is not supported for "
         "classified rightly: SeeWhy against end to end at 100; answers, every relevant attribute: "
-        "SeeWhy against end to end at 1001, all."
+        "SeeWhy, believing who asks against end to end at 1001, all."
     )
 
 
@@ -705,7 +710,7 @@ def test_one_trial_proves_nothing() -> None:
     few = conclude("vqa", made([0.9] * 5, [0.1] * 5), domain="tiles")
     enough = conclude("vqa", made([0.9] * 6, [0.1] * 6), domain="tiles")
     assert summary(few).startswith("There are too few")
-    assert summary(enough) == "6 of 6 claims hold at every size that was tried."
+    assert summary(enough) == "8 of 8 claims hold at every size that was tried."
     assert json.dumps(finding.to_dict(), allow_nan=False)
 
 

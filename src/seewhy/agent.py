@@ -38,6 +38,7 @@ from seewhy.nearest import did_you_mean
 from seewhy.reading import (
     READINGS,
     ConsistentReading,
+    Other,
     Reading,
     ReadingRule,
     open_vectors,
@@ -92,6 +93,10 @@ class Agent:
         like them the agent says that it does not know them (see :mod:`seewhy.refusal` and
         :class:`~seewhy.perception.familiarity.Familiarity`). 1 answers
         every picture. What the domain says where left out.
+    believed_from : float, default 0.1
+        What a question presumes ("why is it unstable?") is supposed where the picture is not taken
+        to be so, but its probability is at least this; the answer says so. One who asks is
+        believed as one who is right nine times out of ten. 1: never.
     learned : sequence of Axiom, optional
         Axioms that were learned before.
     withdrawn : sequence of Withdrawn, optional
@@ -122,6 +127,7 @@ class Agent:
         reading: str | None = None,
         gate: float | None = None,
         known_share: float | None = None,
+        believed_from: float = 0.1,
         learned: Sequence[Axiom] = (),
         withdrawn: Sequence[Withdrawn] = (),
     ) -> None:
@@ -130,6 +136,7 @@ class Agent:
         self.reading = reading_rule(domain.reading if reading is None else reading)
         self.gate = gate or None
         self.known_share = domain.known_share if known_share is None else known_share
+        self.believed_from = believed_from
         self._check_options()
         self.minimality: Minimality = minimality
         self.questions = Questions(domain)
@@ -150,6 +157,10 @@ class Agent:
             raise DomainError(f"gate must be 0 to 1, got {self.gate!r}")
         if not 0.0 < self.known_share <= 1.0:
             raise DomainError(f"known_share must be above 0, at most 1, got {self.known_share!r}")
+        if not 0.0 < self.believed_from <= 1.0:
+            raise DomainError(
+                f"believed_from must be above 0, at most 1, got {self.believed_from!r}"
+            )
 
     def _know(self, learned: Sequence[Axiom]) -> None:
         """Reason with what is given, but for what is set aside, and with these axioms."""
@@ -521,6 +532,8 @@ class Agent:
                 self.reasoner,
                 open_vectors(self.reasoner, self.experience),
                 label_of=lambda vector: self._decide(vector)[0],
+                shares_of=self._class_shares,
+                other_from=self.believed_from,
                 witnessed=self._witnessed() if rule == "with_class" else (),
             )
         return self._readers[rule].read(probabilities)
@@ -617,19 +630,55 @@ class Agent:
                 label, method, said, probability = None, "none", UNKNOWN, None
             elif by_tree and self._below_gate(own):
                 label, method, said, probability = by_tree[own.vector], "tree", UNCERTAIN, None
+            scene = Classification(
+                label,
+                method,
+                own.vector,
+                own.features,
+                said,
+                probability,
+                score,
+                own.class_seen,
+            )
+            found.append(replace(scene, otherwise=self._otherwise(scene, own.others)))
+        return found
+
+    def _class_shares(self, vector: FeatureVector) -> dict[str, float]:
+        """The classes of a scene of some features, with the probability of each."""
+        decision = self.reasoner.decide(vector)
+        if decision.label is not None:
+            return {decision.label: 1.0}
+        return self.tree.probability(vector) if self.tree.fitted else {}
+
+    def _otherwise(
+        self, scene: Classification, others: Sequence[Other]
+    ) -> tuple[Classification, ...]:
+        """What a classified scene may be as well, where an asker who presumes it is believed."""
+        if scene.label is None:
+            return ()
+        if not others and scene.method == "tree" and self.believed_from < 1.0:
+            # Features were read without others in view: these are the same, the class is in doubt.
+            shares = self._class_shares(scene.vector)
+            others = [
+                Other(label, share, scene.vector, scene.features)
+                for label, share in sorted(shares.items(), key=lambda own: -own[1])
+                if label != scene.label and share >= self.believed_from
+            ]
+        found = []
+        for own in others:
+            decision = self.reasoner.decide(own.vector)
             found.append(
-                Classification(
-                    label,
-                    method,
-                    own.vector,
-                    own.features,
-                    said,
-                    probability,
-                    score,
-                    own.class_seen,
+                replace(
+                    scene,
+                    label=own.label,
+                    method="knowledge" if decision.label == own.label else "tree",
+                    vector=own.vector,
+                    features=own.features,
+                    verdict=decision.verdict.value,
+                    probability=own.probability,
                 )
             )
-        return found
+        return tuple(found)
 
     def _below_gate(self, reading: Reading) -> bool:
         gate = self.gate

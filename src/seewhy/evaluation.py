@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -113,7 +113,8 @@ def evaluate(
 ) -> Evaluation:
     """Evaluate an agent on the scenes of a dataset (those with split "test", if there are splits).
 
-    For every scene, ``questions_per_scene`` of the domain's questions are drawn at random.
+    For every scene, ``questions_per_scene`` of the domain's questions are drawn at random, whatever
+    its class is; so what they presume is nobody's word, and the agent does not suppose it.
     Correct answers are those of :mod:`seewhy.dialogue.reference`: of what the agent itself knows,
     or of ``reference``, where somebody knows more.
 
@@ -128,7 +129,7 @@ def evaluate(
             f"of '{agent.domain.name}'"
         )
     pictures = scenes.pictures(agent.domain.pictures.size, on_progress=on_progress)
-    classified = agent.classify_all(pictures)
+    classified = [replace(own, otherwise=()) for own in agent.classify_all(pictures)]
     right = [own.label == true for own, true in zip(classified, scenes.labels, strict=True)]
     methods = [own.method for own in classified]
     features = {}

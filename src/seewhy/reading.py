@@ -20,6 +20,7 @@ from seewhy.reply import FeatureReading
 __all__ = [
     "READINGS",
     "ConsistentReading",
+    "Other",
     "Reading",
     "ReadingRule",
     "open_vectors",
@@ -38,6 +39,29 @@ Probabilities = Mapping[str, NDArray[np.float64]]
 
 Where a network sees the class as well, its probabilities are here under "class".
 """
+
+
+@dataclass(frozen=True)
+class Other:
+    """What a picture may be as well: a class, how probable it is, and what would then be seen.
+
+    Attributes
+    ----------
+    label : str
+    probability : float
+        Of the class: the share of the candidates of that class in the probability of all. A
+        candidate that the knowledge leaves open counts for each class as often as the tree's
+        training scenes in its leaf are of that class.
+    vector : FeatureVector
+        The most probable of that class.
+    features : dict
+        Feature → FeatureReading.
+    """
+
+    label: str
+    probability: float
+    vector: FeatureVector
+    features: dict[str, FeatureReading]
 
 
 @dataclass(frozen=True)
@@ -61,6 +85,8 @@ class Reading:
     class_seen : (str, float) or None
         The most probable class that a network of its own saw, and its probability, where such a
         network has a say in the reading.
+    others : tuple of Other
+        What the picture may be as well, the most probable class first.
     """
 
     vector: FeatureVector
@@ -68,6 +94,7 @@ class Reading:
     score: float
     probability: float
     class_seen: tuple[str, float] | None = None
+    others: tuple[Other, ...] = ()
 
 
 def reading_rule(name: str) -> ReadingRule:
@@ -135,6 +162,12 @@ class ConsistentReading:
         Vectors with unknown values are left out.
     label_of : callable
         The class of a candidate, or None.
+    shares_of : callable, optional
+        The classes of a candidate with the probability of each; ``label_of`` without doubt where
+        left out.
+    other_from : float, default 1.0
+        How probable another class has to be for the reading to name it (:class:`Other`). Where
+        vectors are searched instead of listed none is.
     witnessed : collection of str
         The classes that the network of the class was shown; none where there is no such network.
     listed : int
@@ -165,6 +198,8 @@ class ConsistentReading:
         open_vectors: Sequence[FeatureVector],
         *,
         label_of: Callable[[FeatureVector], str | None],
+        shares_of: Callable[[FeatureVector], Mapping[str, float]] | None = None,
+        other_from: float = 1.0,
         witnessed: Collection[str] = (),
         listed: int = LISTED,
         tried: int = TRIED,
@@ -172,6 +207,8 @@ class ConsistentReading:
         self.schema = reasoner.schema
         self.reasoner = reasoner
         self.label_of = label_of
+        self.shares_of = shares_of
+        self.other_from = other_from
         self.witnessed = frozenset(witnessed)
         self.listed = listed
         self.tried = tried
@@ -197,6 +234,27 @@ class ConsistentReading:
         places: dict[str | None, int] = {own: n for n, own in enumerate(self.schema.classes)}
         labels = (self.label_of(_vector(self.schema, row)) for row in self._candidates.tolist())
         return np.array([places.get(own, len(places)) for own in labels], dtype=np.intp)
+
+    @cached_property
+    def _place_of(self) -> dict[tuple[int, ...], int]:
+        """The place of the class of every listed candidate, by the places of its values."""
+        rows = map(tuple, self._candidates.tolist())
+        return dict(zip(rows, self._classes.tolist(), strict=True))
+
+    @cached_property
+    def _shares(self) -> NDArray[np.float64]:
+        """How probable each class, or none, is for each candidate: (candidates, classes + 1)."""
+        places = {own: n for n, own in enumerate(self.schema.classes)}
+        found = np.zeros((len(self._candidates), len(places) + 1))
+        for row, (columns, place) in enumerate(
+            zip(self._candidates.tolist(), self._classes.tolist(), strict=True)
+        ):
+            own = self.shares_of(_vector(self.schema, columns)) if self.shares_of else {}
+            for label, share in own.items():
+                found[row, places[label]] = share
+            if not own:
+                found[row, place] = 1.0
+        return found
 
     @cached_property
     def _values(self) -> list[tuple[str, ...]]:
@@ -230,13 +288,53 @@ class ConsistentReading:
             part = [own[start : start + step] for own in logarithms]
             choose = self._search if searched else self._choose
             best, scores, shares = choose(part, classes[start : start + step])
-            features = _features(self.schema, [own[start : start + step] for own in tables], best)
+            shown = [own[start : start + step] for own in tables]
+            features = _features(self.schema, shown, best)
+            others: list[tuple[Other, ...]] = [()] * len(best)
+            if not searched and self.other_from < 1.0:
+                others = self._others(part, classes[start : start + step], shown, best)
             found += [
-                Reading(_vector(self.schema, columns), own, float(score), float(share), witness)
-                for columns, own, score, share, witness in zip(
-                    best.tolist(), features, scores, shares, seen[start : start + step], strict=True
+                Reading(_vector(self.schema, columns), *own)
+                for columns, *own in zip(
+                    best.tolist(),
+                    features,
+                    scores.tolist(),
+                    shares.tolist(),
+                    seen[start : start + step],
+                    others,
+                    strict=True,
                 )
             ]
+        return found
+
+    def _others(
+        self,
+        logarithms: Sequence[NDArray[np.float64]],
+        class_scores: NDArray[np.float64],
+        tables: Sequence[NDArray[np.float64]],
+        best: NDArray[np.intp],
+    ) -> list[tuple[Other, ...]]:
+        """What each picture may be beside the class of the vector that is read."""
+        alone = self._joint(logarithms)
+        relative = np.exp(alone - alone.max(axis=1, keepdims=True))
+        weights = (relative @ self._shares) * np.exp(class_scores)
+        probable = weights / np.maximum(weights.sum(axis=1, keepdims=True), _SMALLEST)
+        names = tuple(self.schema.classes)
+        found: list[tuple[Other, ...]] = []
+        for number, row in enumerate(probable):
+            without = (len(names), self._place_of[tuple(best[number].tolist())])
+            own: list[Other] = []
+            for place in np.argsort(-row, kind="stable").tolist():
+                if row[place] < self.other_from:
+                    break
+                if place in without:
+                    continue
+                nearest = int((relative[number] * self._shares[:, place]).argmax())
+                columns = self._candidates[nearest][None]
+                (features,) = _features(self.schema, [t[number][None] for t in tables], columns)
+                vector = _vector(self.schema, columns[0].tolist())
+                own.append(Other(names[place], float(row[place]), vector, features))
+            found.append(tuple(own))
         return found
 
     def _class_scores(self, probabilities: Probabilities, pictures: int) -> NDArray[np.float64]:

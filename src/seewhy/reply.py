@@ -70,6 +70,9 @@ class Classification:
     class_seen : (str, float) or None
         The most probable class that a network of its own saw, and its probability, where such a
         network has a say in the reading.
+    otherwise : tuple of Classification
+        What the scene may be as well, the most probable class first: those of which an asker is
+        believed who presumes them (see :class:`seewhy.Agent`, ``believed_from``).
     """
 
     label: str | None
@@ -80,6 +83,7 @@ class Classification:
     probability: float | None = None
     score: float | None = None
     class_seen: tuple[str, float] | None = None
+    otherwise: tuple[Classification, ...] = ()
 
     @property
     def least_certain(self) -> str:
@@ -111,6 +115,9 @@ class Reply:
     kind : AnswerType
         What the answer says, apart from the wording.
     classification : Classification
+    supposed : Classification or None
+        What the answer supposes the picture to be, where that is not what it is taken to be but
+        what the question presumes.
     """
 
     question: Question
@@ -119,6 +126,7 @@ class Reply:
     justification: Node
     kind: AnswerType
     classification: Classification = field(repr=False)
+    supposed: Classification | None = field(default=None, repr=False)
 
     @property
     def label(self) -> str | None:
@@ -126,9 +134,14 @@ class Reply:
         return self.classification.label
 
     @property
+    def scene(self) -> Classification:
+        """What the answer speaks of: what is supposed, or else what the picture is taken to be."""
+        return self.supposed or self.classification
+
+    @property
     def features(self) -> dict[str, FeatureReading]:
-        """Feature name → value and probability."""
-        return self.classification.features
+        """Feature name → value and probability, of what the answer speaks of."""
+        return self.scene.features
 
     def to_dict(self) -> dict[str, Any]:
         """Return the reply as values that JSON can hold."""
@@ -144,7 +157,13 @@ class Reply:
                 "class": self.classification.class_seen[0],
                 "probability": _rounded(self.classification.class_seen[1]),
             },
-            "verdict": self.classification.verdict,
+            "supposed": None
+            if self.supposed is None
+            else {
+                "class": self.supposed.label,
+                "probability": _rounded(self.supposed.probability),
+            },
+            "verdict": self.scene.verdict,
             "features": {
                 name: {
                     "value": own.value,

@@ -11,7 +11,7 @@ from seewhy.cli.options import Gate, ImageFile, Json, KnownShare, ModelFolder, R
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
-    from seewhy.reply import Reply
+    from seewhy.reply import Classification, Reply
 
 
 def ask(
@@ -61,7 +61,17 @@ def print_reply(reply: Reply) -> None:
                 f"{judge} overruled: {name} read as {value} (p = {probability:.2f}), "
                 f"{own.value} ({own.probability:.2f}) is what fits"
             )
+    if reply.supposed is not None:
+        say(
+            f"supposed: {_class(reply.supposed)}, as asked, instead of "
+            f"{_class(reply.classification)}"
+        )
     say(f"by: {reply.method}")
     say("because:")
     for line in reply.justification.to_text().splitlines():
         say(f"  {line}")
+
+
+def _class(scene: Classification) -> str:
+    sure = "" if scene.probability is None else f" ({scene.probability:.2f})"
+    return f"{scene.label}{sure}"

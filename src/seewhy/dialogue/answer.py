@@ -129,6 +129,42 @@ def word_answer(
     return sentence(said)
 
 
+def word_supposed(
+    domain: Domain, question: Question, answer: str, *, label: str, supposed: str
+) -> str:
+    """Return an answer that supposes what a question presumes, and says that it does.
+
+    Parameters
+    ----------
+    domain : Domain
+    question : Question
+    answer : str
+        The answer to the question, if the scene is of the class ``supposed``.
+    label, supposed : str
+        What the scene is taken to be, and what it is supposed to be.
+
+    Examples
+    --------
+    >>> from seewhy.dialogue.question import Questions
+    >>> from seewhy.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> question = Questions(domain).understand("why is it unstable?")
+    >>> word_supposed(domain, question, "It leans.", label="stable", supposed="unstable")
+    'I took the structure to be stable. If it is unstable, as you say: it leans.'
+    """
+    presumed = question.label == supposed
+    said = answer_templates(domain)["supposed" if presumed else "supposed_not"].format(
+        **{
+            **dict.fromkeys(SLOTS, ""),
+            "it": domain.subject,
+            "asked": _say_asked(domain, question),
+            "class": domain.classes[label if presumed else supposed].say,
+            "explanation": f"{answer[:1].lower()}{answer[1:]}",
+        }
+    )
+    return sentence(said)
+
+
 def _say_asked(domain: Domain, question: Question) -> str:
     if question.label:
         return domain.classes[question.label].say

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from seewhy.dialogue.answer import AnswerType, word_answer
+from seewhy.dialogue.answer import AnswerType, word_answer, word_supposed
 from seewhy.dialogue.narration import narrate
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
@@ -20,7 +20,7 @@ from seewhy.wording import say_literal
 if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
 
-__all__ = ["Answering"]
+__all__ = ["Answering", "believed"]
 
 
 @dataclass(frozen=True)
@@ -58,10 +58,18 @@ class Answering:
         """Answer an understood question about a classified scene."""
         if question.asks is Asks.EXPLAIN:
             return self._explain(scene, question, previous)
-        kind, justification = self._answer(scene, question)
-        justification = scene.read_in(justification)
-        text = word_answer(self.domain, question, kind, vector=scene.vector, label=scene.label)
-        return Reply(question, text, scene.method, justification, kind, scene)
+        spoken_of = self._spoken_of(scene, question)
+        kind, justification = self._answer(spoken_of, question)
+        justification = spoken_of.read_in(justification)
+        text = word_answer(
+            self.domain, question, kind, vector=spoken_of.vector, label=spoken_of.label
+        )
+        if spoken_of is scene:
+            return Reply(question, text, scene.method, justification, kind, scene)
+        text = word_supposed(
+            self.domain, question, text, label=scene.label or "", supposed=spoken_of.label or ""
+        )
+        return Reply(question, text, spoken_of.method, justification, kind, scene, spoken_of)
 
     def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
         """Answer many questions about classified scenes; the recurrent network runs once for all.
@@ -71,13 +79,20 @@ class Answering:
         from seewhy.dialogue.learned import learned_answers
 
         if self.answerer is not None:
+            spoken_of = [(self._spoken_of(scene, question), question) for scene, question in asked]
             learned = [
                 (question, scene.vector, scene.label, ())
-                for scene, question in asked
+                for scene, question in spoken_of
                 if scene.label is not None and self._is_learned(scene, question)
             ]
             learned_answers(self.domain, self.answerer, learned)  # remembers them
         return [self.answer(scene, question) for scene, question in asked]
+
+    def _spoken_of(self, scene: Classification, question: Question) -> Classification:
+        """What the answer to a question speaks of, which the question may presume."""
+        found = believed(scene, question)
+        # Of what the tree gave, nothing can be answered where no answers were learned.
+        return scene if found.method == "tree" and self.answerer is None else found
 
     def _is_learned(self, scene: Classification, question: Question) -> bool:
         """Whether the recurrent network is asked."""
@@ -190,4 +205,28 @@ class Answering:
             previous.justification,
             AnswerType("explain", previous.kind.mentions, previous.kind.changes),
             previous.classification,
+            previous.supposed,
         )
+
+
+def believed(scene: Classification, question: Question) -> Classification:
+    """What a scene is supposed to be when a question is asked of it.
+
+    A question may presume what the scene is not taken to be: "why is it unstable?" of a structure
+    that is taken for stable. Where it may be so as well, the asker is believed.
+
+    Departure from the paper, whose questions presume nothing that is not so.
+    """
+    asks = question.asks
+    if scene.label is None or question.label is None:
+        return scene
+    if asks is Asks.WHY_CLASS and scene.label != question.label:
+        fitting = [own for own in scene.otherwise if own.label == question.label]
+    elif asks in _PRESUMES_ANOTHER and scene.label == question.label:
+        fitting = [own for own in scene.otherwise if own.label != question.label]
+    else:
+        return scene
+    return fitting[0] if fitting else scene
+
+
+_PRESUMES_ANOTHER = {Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS, Asks.DIFFERENCE_TO_CLASS}

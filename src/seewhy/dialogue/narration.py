@@ -15,7 +15,14 @@ def narrate(domain: Domain, reply: Reply) -> str:
     justification = reply.justification
     features = justification.features()
     parts = [f"you asked: {reply.question.text}?"] if reply.question.text else []
-    seen = say_features(domain, reply.classification.vector, features)
+    if reply.supposed is not None:
+        taken, supposed = (
+            domain.classes[own.label or ""].say for own in (reply.classification, reply.supposed)
+        )
+        parts.append(
+            f"I took {domain.subject} to be {taken}; what follows supposes that it is {supposed}"
+        )
+    seen = say_features(domain, reply.scene.vector, features)
     if seen:
         sure = [reply.features[feature].probability for feature in features]
         each = "each with a probability of at least" if len(sure) > 1 else "with a probability of"

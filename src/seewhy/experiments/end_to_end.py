@@ -205,7 +205,14 @@ class EndToEnd:
         kinds = self.answers.answer(
             [own.question for own in asked], represented(test)[[own.picture for own in asked]]
         )
-        scores = answer_scores(asked, kinds, test.scenes, reference, vectors=vectors, labels=labels)
+        scores = answer_scores(
+            asked,
+            kinds,
+            test.scenes,
+            reference,
+            vectors=[vectors[own.picture] for own in asked],
+            labels=[labels[own.picture] for own in asked],
+        )
         return {"accuracy": self.accuracy(test), **scores}
 
 

@@ -111,8 +111,8 @@ def answer_scores(
         The pictures with their annotation.
     reference : ReferenceAnswers
         What correct answers say, and the annotated scenes among which reasons suffice or not.
-    vectors, labels : sequence, one a picture
-        What the system takes the features and the class to be; its answers name these.
+    vectors, labels : sequence, length n
+        What the answer to each question takes the features and the class to be; it names these.
 
     Returns
     -------
@@ -123,20 +123,20 @@ def answer_scores(
         (:func:`~seewhy.experiments.sufficiency.answer_suffices`).
     """
     features = list(scenes.domain.features)
-    seen = [_named(features, own) for own in vectors]
     true = [_named(features, own) for own in scenes.vectors]
     sufficiency = sufficiency_of(reference)
     scored: list[tuple[bool, bool]] = []
     explaining: list[tuple[bool, bool, bool]] = []
-    for own, kind in zip(asked, kinds, strict=True):
+    for own, kind, vector, label in zip(asked, kinds, vectors, labels, strict=True):
         scene = scenes.scenes[own.picture]
+        seen = _named(features, vector)
         gold = reference.answer(own.question, scene.vector, scene.label)
         enough, exact = score_answer(
             kind,
             gold,
-            seen=seen[own.picture],
+            seen=seen,
             true=true[own.picture],
-            right_class=labels[own.picture] == scene.label,
+            right_class=label == scene.label,
         )
         scored.append((enough, exact))
         if own.question.asks in EXPLANATORY:
@@ -146,7 +146,7 @@ def answer_scores(
                 own.question,
                 scene.vector,
                 scene.label,
-                seen=seen[own.picture],
+                seen=seen,
                 strict=exact,
                 sufficiency=sufficiency,
             )

@@ -1,0 +1,261 @@
+"""Questions that presume what a picture is not taken to be: who asks may be believed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from conftest import draw_tile, seen
+from knowledge_builders import World, worlds
+from seewhy.agent import Agent
+from seewhy.cli.ask import print_reply
+from seewhy.dataset import Dataset
+from seewhy.domain_tables import CLASS
+from seewhy.errors import DomainError
+from seewhy.evaluation import evaluate
+from seewhy.knowledge.reasoner import Reasoner
+from seewhy.knowledge.scene import FeatureVector
+from seewhy.reading import ConsistentReading
+from seewhy.reply import Classification
+from test_reading import SPACE, distributions, logarithm
+
+# What else a picture may be -----------------------------------------------------------------
+
+
+@settings(
+    max_examples=80, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
+)
+@given(
+    world=worlds(),
+    sure=distributions(),
+    opened=st.lists(st.sampled_from(SPACE), max_size=4, unique=True),
+    parts=st.lists(st.integers(0, 3), min_size=12, max_size=12),
+    seen_classes=st.lists(st.integers(1, 5), min_size=3, max_size=3),
+    least=st.sampled_from([0.02, 0.1, 0.4]),
+    witnessed=st.booleans(),
+)
+def test_other_classes_are_as_probable_as_all_their_candidates_together(
+    world: World,
+    sure: dict[str, np.ndarray[Any, Any]],
+    opened: list[FeatureVector],
+    parts: list[int],
+    seen_classes: list[int],
+    least: float,
+    witnessed: bool,
+) -> None:
+    """Against going through all pairs of a candidate and a class."""
+    reasoner = Reasoner(world.knowledge, world.schema)
+    names = list(world.schema.classes)
+    given_shares: dict[FeatureVector, dict[str, float]] = {}
+    for number, vector in enumerate(opened):
+        own = parts[3 * (number % 4) :][: len(names)]
+        if sum(own):
+            given_shares[vector] = {n: p / sum(own) for n, p in zip(names, own, strict=True)}
+
+    def shares(vector: FeatureVector) -> dict[str, float]:
+        label = reasoner.decide(vector).label
+        return {label: 1.0} if label is not None else given_shares.get(vector, {})
+
+    def label_of(vector: FeatureVector) -> str | None:
+        own = shares(vector)
+        return max(own, key=lambda name: own[name]) if own else None
+
+    weights = dict(zip(names, seen_classes, strict=False))
+    sure = {**sure, CLASS: np.array([[weights[n] / sum(weights.values()) for n in names]])}
+    reader = ConsistentReading(
+        reasoner,
+        opened,
+        label_of=label_of,
+        shares_of=shares,
+        other_from=least,
+        witnessed=names if witnessed else (),
+    )
+    (found,) = reader.read(sure)
+    candidates = [v for v in SPACE if world.decision(v)[0] is not None or v in opened]
+    pairs: dict[tuple[str | None, FeatureVector], float] = {}
+    for vector in candidates:
+        alone = float(np.exp(logarithm(sure, vector)))
+        for name, share in (shares(vector) or {None: 1.0}).items():
+            witness = 1.0
+            if witnessed and name is not None:
+                witness = weights[name] / max(weights.values())
+            pairs[name, vector] = alone * share * witness
+    total = sum(pairs.values())
+    if not candidates or total < 1e-200:
+        return
+    probable = {
+        name: sum(own for (label, _), own in pairs.items() if label == name) / total
+        for name in names
+    }
+    read = label_of(found.vector)
+    expected = {n: p for n, p in probable.items() if n != read and p >= least * (1 + 1e-9)}
+    certain = {own.label: own for own in found.others if probable[own.label] >= least * (1 + 1e-9)}
+    assert certain.keys() == expected.keys()
+    for own in certain.values():
+        assert own.probability == pytest.approx(expected[own.label])
+        best = max(p for (label, _), p in pairs.items() if label == own.label)
+        assert pairs[own.label, own.vector] == pytest.approx(best)
+        assert tuple(reading.value for reading in own.features.values()) == own.vector
+    order = [own.probability for own in found.others]
+    assert order == sorted(order, reverse=True)
+    assert read not in {own.label for own in found.others}
+
+
+# Answers ------------------------------------------------------------------------------------
+
+
+def doubted(agent: Agent) -> Classification:
+    """A structure that is taken for stable, and may be one that leans."""
+    stable = seen(agent, "2", "wide", "no", "no")
+    leaning = replace(seen(agent, "5", "narrow", "yes", "no"), probability=0.2)
+    assert (stable.label, leaning.label) == ("stable", "unstable")
+    return replace(stable, probability=0.8, otherwise=(leaning,))
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        (
+            "why is it unstable?",
+            "I took the structure to be stable. If it is unstable, as you say: the structure has "
+            "five blocks and a narrow base, and it leans to one side.",
+        ),
+        (
+            "why is it not stable?",
+            "I took the structure to be stable. If it is not, as you say, it is unstable: the "
+            "structure has five blocks and a narrow base, and it leans to one side.",
+        ),
+        (
+            "what would make it stable?",
+            "I took the structure to be stable. If it is not, as you say, it is unstable: to make "
+            "the structure stable, give it a wide base and straighten it.",
+        ),
+        # What presumes nothing is answered as it is seen.
+        ("is it unstable?", "No, the structure is stable."),
+        (
+            "why is it stable?",
+            "The structure has two blocks and a wide base, it is standing straight, and no block "
+            "is displaced.",
+        ),
+        ("does it lean?", "No, the structure is standing straight."),
+    ],
+)
+def test_who_asks_is_believed_where_it_may_be_so(
+    reasoning: Agent, question: str, text: str
+) -> None:
+    scene = doubted(reasoning)
+    reply = reasoning.answer(scene, reasoning.questions.understand(question))
+    assert reply.text == text
+    assert reply.label == "stable"
+    assert reply.classification is scene
+    believed = "as you say" in text
+    assert (reply.supposed is scene.otherwise[0]) is believed
+    assert reply.features is (scene.otherwise[0] if believed else scene).features
+    assert reply.to_dict()["supposed"] == (
+        {"class": "unstable", "probability": 0.2} if believed else None
+    )
+    # Many at once are answered alike, and nothing is supposed where nothing may be.
+    asked = [(scene, reply.question), (replace(scene, otherwise=()), reply.question)]
+    again, alone = reasoning.answer_all(asked)
+    assert again == reply
+    assert "as you say" not in alone.text
+
+
+def test_what_cannot_be_is_denied(reasoning: Agent) -> None:
+    scene = replace(doubted(reasoning), otherwise=())
+    reply = reasoning.answer(scene, reasoning.questions.understand("why is it unstable?"))
+    assert reply.text == (
+        "The structure is not unstable: it is stable, since it has two blocks and a wide base, it "
+        "is standing straight, and no block is displaced."
+    )
+
+
+def test_an_explanation_is_of_what_was_supposed(reasoning: Agent) -> None:
+    before = reasoning.answer(
+        doubted(reasoning), reasoning.questions.understand("why is it unstable?")
+    )
+    explain = reasoning.questions.understand("please explain this answer")
+    reply = reasoning.answer(before.classification, explain, previous=before)
+    assert reply.supposed is before.supposed
+    assert reply.text.startswith(
+        "You asked: why is the structure unstable? I took the structure to be stable; what follows "
+        "supposes that it is unstable. I see that the structure has five blocks and a narrow base, "
+        "and it leans to one side (each with a probability of at least 0.90)."
+    )
+
+
+def test_a_printed_reply_shows_what_was_supposed(
+    reasoning: Agent, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = doubted(reasoning)
+    print_reply(reasoning.answer(scene, reasoning.questions.understand("why is it unstable?")))
+    out = capsys.readouterr().out
+    assert "supposed: unstable (0.20), as asked, instead of stable (0.80)" in out
+    assert "lean yes" in out
+    print_reply(reasoning.answer(scene, reasoning.questions.understand("why is it stable?")))
+    assert "supposed" not in capsys.readouterr().out
+
+
+# The agent ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("reading", ["argmax", "consistent"])
+def test_what_the_tree_is_in_doubt_about_may_be_otherwise(
+    agent: Agent, dataset: Dataset, reading: str
+) -> None:
+    """Round green tiles are left open; of the annotated ones half are bad now."""
+    doubtful = Agent(agent.given, seed=3, reading=reading)
+    vectors = list(dataset.vectors)
+    labels = list(dataset.labels)
+    open_ones = [n for n, own in enumerate(vectors) if own == ("green", "yes")]
+    for n in open_ones[::3]:
+        labels[n] = "bad" if labels[n] == "good" else "good"
+    doubtful.fit_induction(vectors, labels)
+    doubtful.extractor = agent.extractor
+    picture = draw_tile("green", "yes", 1)
+    scene = doubtful.classify(picture)
+    assert (scene.method, scene.label) == ("tree", "good")
+    (other,) = scene.otherwise
+    assert (other.label, other.method, other.vector) == ("bad", "tree", scene.vector)
+    assert other.probability == pytest.approx(
+        doubtful.tree.probability(scene.vector)["bad"], abs=0.05
+    )
+    reply = doubtful.ask(picture, "why is it bad?")
+    assert reply.text.startswith("I took the tile to be good. If it is bad, as you say: ")
+    assert reply.kind.form == "reasons"
+    never = Agent(agent.given, seed=3, reading=reading, believed_from=1.0)
+    never.fit_induction(vectors, labels)
+    never.extractor = agent.extractor
+    assert never.classify(picture) == replace(scene, otherwise=())
+    # Without answers that were learned there is nothing to say of it.
+    doubtful.answerer = None
+    assert doubtful.ask(picture, "why is it bad?").kind.form == "undecided"
+
+
+def test_an_evaluation_asks_whatever_the_class_is_and_is_not_believed(
+    agent: Agent, dataset: Dataset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = evaluate(agent, dataset)
+    classify = agent.classify_all
+
+    def doubting(pictures: np.ndarray[Any, Any]) -> list[Classification]:
+        found = classify(pictures)
+        other = {own.label: own for own in found}
+        return [
+            replace(own, otherwise=tuple(o for label, o in other.items() if label != own.label))
+            for own in found
+        ]
+
+    monkeypatch.setattr(agent, "classify_all", doubting)
+    assert evaluate(agent, dataset) == before
+
+
+@pytest.mark.parametrize("wrong", [0.0, -0.1, 1.5])
+def test_a_share_out_of_range(agent: Agent, wrong: float) -> None:
+    with pytest.raises(DomainError, match="believed_from must be above 0, at most 1, got"):
+        Agent(agent.given, believed_from=wrong)
