@@ -218,6 +218,22 @@ def test_what_the_witness_saw(agent: Agent) -> None:
     assert found.to_dict()["networks"]["class_seen"] == {"class": "good", "probability": 0.97}
 
 
+def test_what_a_question_presumes(agent: Agent) -> None:
+    good = seen(agent, "red", "no")
+    blue = replace(seen(agent, "blue", "no"), probability=0.25)
+    other = [replace(blue, vector=good.vector, features=good.features), blue]
+    question = agent.questions.understand("why is it bad?")
+    for may_be, said in zip(other, ("the same features", "colour blue"), strict=True):
+        scene = replace(good, otherwise=(may_be,))
+        found = trace_of(agent, scene, reply=agent.answer(scene, question))
+        assert part(found, "answer").splitlines()[0] == (
+            f"  supposes what the question presumes: the tile is bad (p = 0.25), with {said}"
+        )
+        answer = found.to_dict()["answer"]
+        assert answer["supposed"] == {"class": "bad", "probability": 0.25}
+        assert found.to_dict()["class"] == "good"
+
+
 def test_a_picture_that_is_not_known(agent: Agent) -> None:
     scene = replace(
         seen(agent, "red", "no"), label=None, method="none", verdict=UNKNOWN, score=0.41

@@ -12,6 +12,7 @@ from seewhy.induction.tree import TreePath
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, FeatureReading, Reply
+from seewhy.wording import join_words
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent, Picture
@@ -140,6 +141,7 @@ class Trace:
             else {
                 "found_by": found_by(self.reply),
                 "type": self.reply.kind.identifier,
+                "supposed": self.reply.to_dict()["supposed"],
                 "justification": self.reply.justification.to_dict(),
             },
         }
@@ -199,6 +201,19 @@ class Trace:
         return f"{scene.label}{sure}, by the {_method(scene)}"
 
     def _say_answer(self, reply: Reply) -> Iterator[str]:
+        if reply.supposed is not None:
+            own = reply.supposed
+            label = self.domain.classes[own.label or ""].say
+            others = [
+                f"{self.domain.features[key].name} {reading.value.replace('_', ' ')}"
+                for key, reading in own.features.items()
+                if reading.value != self.scene.features[key].value
+            ]
+            yield (
+                f"supposes what the question presumes: {self.domain.subject} is {label} "
+                f"(p = {own.probability or 0.0:.2f}), with "
+                f"{join_words(others) if others else 'the same features'}"
+            )
         yield f"found by {found_by(reply)}"
         if reply.justification == self.concluded.justification:
             yield "because of what the knowledge concludes above"

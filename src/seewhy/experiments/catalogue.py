@@ -33,8 +33,8 @@ def experiment(name: str) -> Experiment:
 
     Examples
     --------
-    >>> experiment("vqa").systems
-    {'seewhy': 'SeeWhy', 'end_to_end': 'end to end'}
+    >>> list(experiment("vqa").systems.values())
+    ['SeeWhy', 'SeeWhy, believing who asks', 'end to end']
     """
     if name not in _HOMES:
         raise ExperimentError(
