@@ -36,7 +36,7 @@ from seewhy.experiments.end_to_end import questions_to_learn
 from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
 from seewhy.experiments.origin import here
 from seewhy.experiments.questioning import answer_scores, draw_questions, suitable
-from seewhy.experiments.rows import trial_file
+from seewhy.experiments.rows import trial_file, write_trial
 from seewhy.experiments.vqa import annotator
 from seewhy.learning import AnnotatedScenes
 
@@ -373,6 +373,26 @@ def test_a_trial_that_was_edited_is_named(
         file.write_bytes(kept)
     assert (result.code, f"{file}: is not as it was written; delete it" in result.err) == (2, True)
     assert (finished / "vqa" / "rows.csv").read_bytes() == table
+
+
+def test_trials_of_a_version_that_compared_others_are_named(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    file = finished / "vqa" / "trials" / "30-1.json"
+    kept = file.read_bytes()
+    content = json.loads(kept)
+    earlier = [row for row in content["rows"] if row["system"] != "believing"]
+    try:
+        write_trial(finished / "vqa", Trial(1, 30), earlier, made=content["made"])
+        command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+        result = run(*command, "--out", finished, *SMALL)
+    finally:
+        file.write_bytes(kept)
+    assert result.code == 2
+    assert result.err == (
+        f"seewhy: {finished / 'vqa'}: holds trials of an earlier version, which compared others "
+        "(seewhy, end_to_end); choose another folder with --out, or delete this one\n"
+    )
 
 
 @pytest.mark.parametrize("damage", ["empty", "half", "text", "byte", "other", "more", "list"])

@@ -134,7 +134,21 @@ def prepare(
         require_enough(setting, size)
     _check_settings(run)
     take_up(run.folder)
+    _check_systems(run)
     return run
+
+
+def _check_systems(run: Run) -> None:
+    """Refuse trials of an earlier version, which compared other systems."""
+    systems = set(experiment(run.experiment).systems)
+    for trial in run.trials:
+        rows = read_trial(run.folder, trial)
+        if rows is not None and {row["system"] for row in rows} != systems:
+            found = ", ".join(dict.fromkeys(str(row["system"]) for row in rows))
+            raise ExperimentError(
+                f"{run.folder}: holds trials of an earlier version, which compared others "
+                f"({found}); choose another folder with --out, or delete this one"
+            )
 
 
 def run_missing(run: Run, *, jobs: int = -1, on_trial: Callable[[int], None] | None = None) -> None:
