@@ -15,9 +15,11 @@ from knowledge_builders import World, worlds
 from seewhy.agent import Agent
 from seewhy.cli.ask import print_reply
 from seewhy.dataset import Dataset
+from seewhy.domain import load_domain
 from seewhy.domain_tables import CLASS
 from seewhy.errors import DomainError
 from seewhy.evaluation import evaluate
+from seewhy.knowledge.candidates import decided_vectors
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.reading import ConsistentReading
@@ -228,7 +230,7 @@ def test_what_the_tree_is_in_doubt_about_may_be_otherwise(
     reply = doubtful.ask(picture, "why is it bad?")
     assert reply.text.startswith("I took the tile to be good. If it is bad, as you say: ")
     assert reply.kind.form == "reasons"
-    never = Agent(agent.given, seed=3, reading=reading, believed_from=1.0)
+    never = Agent(agent.given, seed=3, reading=reading, trust=0.0)
     never.fit_induction(vectors, labels)
     never.extractor = agent.extractor
     assert never.classify(picture) == replace(scene, otherwise=())
@@ -255,7 +257,32 @@ def test_an_evaluation_asks_whatever_the_class_is_and_is_not_believed(
     assert evaluate(agent, dataset) == before
 
 
-@pytest.mark.parametrize("wrong", [0.0, -0.1, 1.5])
+@pytest.mark.parametrize("wrong", [1.0, -0.1, float("nan")])
 def test_a_share_out_of_range(agent: Agent, wrong: float) -> None:
-    with pytest.raises(DomainError, match="believed_from must be above 0, at most 1, got"):
-        Agent(agent.given, believed_from=wrong)
+    with pytest.raises(DomainError, match="trust must be at least 0, below 1, got"):
+        Agent(agent.given, trust=wrong)
+
+
+def test_with_many_classes_little_suffices_for_who_names_one() -> None:
+    """Of those who are wrong few would name this class, of 62; being denied it tells less."""
+    agent = Agent(load_domain("traffic_signs"))
+    assert agent._believed_from == pytest.approx(0.1 / (0.1 + 0.9 * 61))
+    assert Agent(load_domain("structure_stability"))._believed_from == pytest.approx(0.1)
+    first, second, third = (replace(own, probability=0.04) for own in scenes_of(agent)[:3])
+    scene = replace(first, probability=0.92, otherwise=(second, third))
+
+    def supposed(question: str) -> Classification | None:
+        return agent.answer(scene, agent.questions.understand(question)).supposed
+
+    said = [agent.domain.classes[own.label or ""].say for own in (first, third)]
+    assert supposed(f"why is it {said[1]}?") is third
+    assert supposed(f"why is it not {said[0]}?") is None
+    scene = replace(scene, otherwise=(replace(second, probability=0.06), third))
+    assert supposed(f"why is it not {said[0]}?") is scene.otherwise[0]
+
+
+def scenes_of(agent: Agent) -> list[Classification]:
+    """Scenes of different classes that the knowledge decides."""
+    vectors = decided_vectors(agent.reasoner, limit=1000) or ()
+    found = {own.label: own for own in (seen(agent, *vector) for vector in vectors)}
+    return list(found.values())

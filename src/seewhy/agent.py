@@ -93,10 +93,10 @@ class Agent:
         like them the agent says that it does not know them (see :mod:`seewhy.refusal` and
         :class:`~seewhy.perception.familiarity.Familiarity`). 1 answers
         every picture. What the domain says where left out.
-    believed_from : float, default 0.1
-        What a question presumes ("why is it unstable?") is supposed where the picture is not taken
-        to be so, but its probability is at least this; the answer says so. One who asks is
-        believed as one who is right nine times out of ten. 1: never.
+    trust : float, default 0.9
+        How often who asks is taken to be right about what a question presumes ("why is it
+        unstable?"). Where the picture is not taken to be so, but it is more probable that it is
+        than that who asks is wrong, the answer supposes it, and says so. 0: never.
     learned : sequence of Axiom, optional
         Axioms that were learned before.
     withdrawn : sequence of Withdrawn, optional
@@ -127,7 +127,7 @@ class Agent:
         reading: str | None = None,
         gate: float | None = None,
         known_share: float | None = None,
-        believed_from: float = 0.1,
+        trust: float = 0.9,
         learned: Sequence[Axiom] = (),
         withdrawn: Sequence[Withdrawn] = (),
     ) -> None:
@@ -136,7 +136,7 @@ class Agent:
         self.reading = reading_rule(domain.reading if reading is None else reading)
         self.gate = gate or None
         self.known_share = domain.known_share if known_share is None else known_share
-        self.believed_from = believed_from
+        self.trust = trust
         self._check_options()
         self.minimality: Minimality = minimality
         self.questions = Questions(domain)
@@ -157,10 +157,8 @@ class Agent:
             raise DomainError(f"gate must be 0 to 1, got {self.gate!r}")
         if not 0.0 < self.known_share <= 1.0:
             raise DomainError(f"known_share must be above 0, at most 1, got {self.known_share!r}")
-        if not 0.0 < self.believed_from <= 1.0:
-            raise DomainError(
-                f"believed_from must be above 0, at most 1, got {self.believed_from!r}"
-            )
+        if not 0.0 <= self.trust < 1.0:
+            raise DomainError(f"trust must be at least 0, below 1, got {self.trust!r}")
 
     def _know(self, learned: Sequence[Axiom]) -> None:
         """Reason with what is given, but for what is set aside, and with these axioms."""
@@ -533,7 +531,7 @@ class Agent:
                 open_vectors(self.reasoner, self.experience),
                 label_of=lambda vector: self._decide(vector)[0],
                 shares_of=self._class_shares,
-                other_from=self.believed_from,
+                other_from=self._believed_from,
                 witnessed=self._witnessed() if rule == "with_class" else (),
             )
         return self._readers[rule].read(probabilities)
@@ -643,6 +641,16 @@ class Agent:
             found.append(replace(scene, otherwise=self._otherwise(scene, own.others)))
         return found
 
+    @property
+    def _believed_from(self) -> float:
+        """How probable a class has to be for who presumes it to be believed.
+
+        As probable as that who asks is wrong and names this class of all that the picture is not,
+        which are named alike: with two classes 0.1 where nine in ten are right, with more less.
+        """
+        wrong = (1.0 - self.trust) / max(1, len(self.domain.classes) - 1)
+        return wrong / (wrong + self.trust)
+
     def _class_shares(self, vector: FeatureVector) -> dict[str, float]:
         """The classes of a scene of some features, with the probability of each."""
         decision = self.reasoner.decide(vector)
@@ -656,13 +664,13 @@ class Agent:
         """What a classified scene may be as well, where an asker who presumes it is believed."""
         if scene.label is None:
             return ()
-        if not others and scene.method == "tree" and self.believed_from < 1.0:
+        if not others and scene.method == "tree":
             # Features were read without others in view: these are the same, the class is in doubt.
             shares = self._class_shares(scene.vector)
             others = [
                 Other(label, share, scene.vector, scene.features)
                 for label, share in sorted(shares.items(), key=lambda own: -own[1])
-                if label != scene.label and share >= self.believed_from
+                if label != scene.label and share >= self._believed_from
             ]
         found = []
         for own in others:
@@ -736,6 +744,7 @@ class Agent:
             gate=self.gate or 0.0,
             known_share=self.known_share,
             least_likeness=self.unknown_below or 0.0,
+            trust=self.trust,
         )
 
     # On disk --------------------------------------------------------------------------------

@@ -72,7 +72,7 @@ class Classification:
         network has a say in the reading.
     otherwise : tuple of Classification
         What the scene may be as well, the most probable class first: those of which an asker is
-        believed who presumes them (see :class:`seewhy.Agent`, ``believed_from``).
+        believed who presumes them (see :class:`seewhy.Agent`, ``trust``).
     """
 
     label: str | None

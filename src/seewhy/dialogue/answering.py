@@ -40,6 +40,8 @@ class Answering:
     gate, known_share, least_likeness : float
         What an answer says where a network was not sure enough, or a picture is not known; see
         :class:`seewhy.Agent`.
+    trust : float
+        How often who asks is right; see there.
 
     Source: Riley and Sridharan (2019), section 3.
     """
@@ -51,6 +53,7 @@ class Answering:
     gate: float = 0.0
     known_share: float = 1.0
     least_likeness: float = 0.0
+    trust: float = 0.0
 
     def answer(
         self, scene: Classification, question: Question, *, previous: Reply | None = None
@@ -90,7 +93,7 @@ class Answering:
 
     def _spoken_of(self, scene: Classification, question: Question) -> Classification:
         """What the answer to a question speaks of, which the question may presume."""
-        found = believed(scene, question)
+        found = believed(scene, question, trust=self.trust)
         # Of what the tree gave, nothing can be answered where no answers were learned.
         return scene if found.method == "tree" and self.answerer is None else found
 
@@ -209,11 +212,12 @@ class Answering:
         )
 
 
-def believed(scene: Classification, question: Question) -> Classification:
+def believed(scene: Classification, question: Question, *, trust: float) -> Classification:
     """What a scene is supposed to be when a question is asked of it.
 
     A question may presume what the scene is not taken to be: "why is it unstable?" of a structure
-    that is taken for stable. Where it may be so as well, the asker is believed.
+    that is taken for stable. Where it may be so as well, the asker is believed; who presumes that
+    it is *not* of a class is, where that is at least as probable as that the asker is wrong.
 
     Departure from the paper, whose questions presume nothing that is not so.
     """
@@ -224,6 +228,8 @@ def believed(scene: Classification, question: Question) -> Classification:
         fitting = [own for own in scene.otherwise if own.label == question.label]
     elif asks in _PRESUMES_ANOTHER and scene.label == question.label:
         fitting = [own for own in scene.otherwise if own.label != question.label]
+        if sum(own.probability or 0.0 for own in fitting) < 1.0 - trust:
+            return scene
     else:
         return scene
     return fitting[0] if fitting else scene
