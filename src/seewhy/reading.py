@@ -320,22 +320,21 @@ class ConsistentReading:
         weights = (relative @ self._shares) * np.exp(class_scores)
         probable = weights / np.maximum(weights.sum(axis=1, keepdims=True), _SMALLEST)
         names = tuple(self.schema.classes)
-        found: list[tuple[Other, ...]] = []
-        for number, row in enumerate(probable):
-            without = (len(names), self._place_of[tuple(best[number].tolist())])
-            own: list[Other] = []
-            for place in np.argsort(-row, kind="stable").tolist():
-                if row[place] < self.other_from:
-                    break
-                if place in without:
-                    continue
-                nearest = int((relative[number] * self._shares[:, place]).argmax())
-                columns = self._candidates[nearest][None]
-                (features,) = _features(self.schema, [t[number][None] for t in tables], columns)
-                vector = _vector(self.schema, columns[0].tolist())
-                own.append(Other(names[place], float(row[place]), vector, features))
-            found.append(tuple(own))
-        return found
+        read = [self._place_of[tuple(columns)] for columns in best.tolist()]
+        probable[np.arange(len(best)), read] = 0.0
+        pictures, places = np.nonzero(probable[:, : len(names)] >= self.other_from)
+        nearest = (relative[pictures] * self._shares.T[places]).argmax(axis=1)
+        columns = self._candidates[nearest]
+        features = _features(self.schema, [own[pictures] for own in tables], columns)
+        found: list[list[Other]] = [[] for _ in best]
+        for picture, place, vector, own in zip(
+            pictures.tolist(), places.tolist(), columns.tolist(), features, strict=True
+        ):
+            probability = float(probable[picture, place])
+            found[picture].append(
+                Other(names[place], probability, _vector(self.schema, vector), own)
+            )
+        return [tuple(sorted(own, key=lambda other: -other.probability)) for own in found]
 
     def _class_scores(self, probabilities: Probabilities, pictures: int) -> NDArray[np.float64]:
         """What is added for a vector of every class, or of none: shape (pictures, classes + 1)."""
