@@ -23,7 +23,7 @@ from seewhy.knowledge.candidates import decided_vectors
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.reading import ConsistentReading
-from seewhy.reply import Classification
+from seewhy.reply import Classification, FeatureReading
 from test_reading import SPACE, distributions, logarithm
 
 # What else a picture may be -----------------------------------------------------------------
@@ -195,8 +195,13 @@ def test_a_printed_reply_shows_what_was_supposed(
     reasoning: Agent, capsys: pytest.CaptureFixture[str]
 ) -> None:
     scene = doubted(reasoning)
+    (other,) = scene.otherwise
+    leaning = FeatureReading("yes", 0.3, ("no", 0.7))
+    other = replace(other, features={**other.features, "lean": leaning})
+    scene = replace(scene, otherwise=(other,))
     print_reply(reasoning.answer(scene, reasoning.questions.understand("why is it unstable?")))
     out = capsys.readouterr().out
+    assert "what is supposed overruled: lean read as no (p = 0.70), yes (0.30) is what fits" in out
     assert "supposed: unstable (0.20), as asked, instead of stable (0.80)" in out
     assert "lean yes" in out
     print_reply(reasoning.answer(scene, reasoning.questions.understand("why is it stable?")))

@@ -49,9 +49,7 @@ class Other:
     ----------
     label : str
     probability : float
-        Of the class: the share of the candidates of that class in the probability of all. A
-        candidate that the knowledge leaves open counts for each class as often as the tree's
-        training scenes in its leaf are of that class.
+        Of the class; see :class:`Reading`.
     vector : FeatureVector
         The most probable of that class.
     features : dict
@@ -81,7 +79,8 @@ class Reading:
     probability : float
         Of the class: where features are read separately, the probability that all of them are
         read rightly. Where the reading is consistent, the share of the candidates of that class
-        in the probability of all.
+        in the probability of all; one that the knowledge leaves open counts for each class as
+        often as the tree's training scenes in its leaf are of that class.
     class_seen : (str, float) or None
         The most probable class that a network of its own saw, and its probability, where such a
         network has a say in the reading.
@@ -236,12 +235,6 @@ class ConsistentReading:
         return np.array([places.get(own, len(places)) for own in labels], dtype=np.intp)
 
     @cached_property
-    def _place_of(self) -> dict[tuple[int, ...], int]:
-        """The place of the class of every listed candidate, by the places of its values."""
-        rows = map(tuple, self._candidates.tolist())
-        return dict(zip(rows, self._classes.tolist(), strict=True))
-
-    @cached_property
     def _shares(self) -> NDArray[np.float64]:
         """How probable each class, or none, is for each candidate: (candidates, classes + 1)."""
         places = {own: n for n, own in enumerate(self.schema.classes)}
@@ -286,13 +279,14 @@ class ConsistentReading:
         found: list[Reading] = []
         for start in range(0, pictures, step):
             part = [own[start : start + step] for own in logarithms]
-            choose = self._search if searched else self._choose
-            best, scores, shares = choose(part, classes[start : start + step])
             shown = [own[start : start + step] for own in tables]
+            scored = classes[start : start + step]
+            others: list[tuple[Other, ...]] = [()] * len(part[0])
+            if searched:
+                best, scores, shares = self._search(part, scored)
+            else:
+                best, scores, shares, others = self._choose(part, scored, shown)
             features = _features(self.schema, shown, best)
-            others: list[tuple[Other, ...]] = [()] * len(best)
-            if not searched and self.other_from < 1.0:
-                others = self._others(part, classes[start : start + step], shown, best)
             found += [
                 Reading(_vector(self.schema, columns), *own)
                 for columns, *own in zip(
@@ -306,35 +300,6 @@ class ConsistentReading:
                 )
             ]
         return found
-
-    def _others(
-        self,
-        logarithms: Sequence[NDArray[np.float64]],
-        class_scores: NDArray[np.float64],
-        tables: Sequence[NDArray[np.float64]],
-        best: NDArray[np.intp],
-    ) -> list[tuple[Other, ...]]:
-        """What each picture may be beside the class of the vector that is read."""
-        alone = self._joint(logarithms)
-        relative = np.exp(alone - alone.max(axis=1, keepdims=True))
-        weights = (relative @ self._shares) * np.exp(class_scores)
-        probable = weights / np.maximum(weights.sum(axis=1, keepdims=True), _SMALLEST)
-        names = tuple(self.schema.classes)
-        read = [self._place_of[tuple(columns)] for columns in best.tolist()]
-        probable[np.arange(len(best)), read] = 0.0
-        pictures, places = np.nonzero(probable[:, : len(names)] >= self.other_from)
-        nearest = (relative[pictures] * self._shares.T[places]).argmax(axis=1)
-        columns = self._candidates[nearest]
-        features = _features(self.schema, [own[pictures] for own in tables], columns)
-        found: list[list[Other]] = [[] for _ in best]
-        for picture, place, vector, own in zip(
-            pictures.tolist(), places.tolist(), columns.tolist(), features, strict=True
-        ):
-            probability = float(probable[picture, place])
-            found[picture].append(
-                Other(names[place], probability, _vector(self.schema, vector), own)
-            )
-        return [tuple(sorted(own, key=lambda other: -other.probability)) for own in found]
 
     def _class_scores(self, probabilities: Probabilities, pictures: int) -> NDArray[np.float64]:
         """What is added for a vector of every class, or of none: shape (pictures, classes + 1)."""
@@ -355,16 +320,46 @@ class ConsistentReading:
         return [(names[int(row.argmax())], float(row.max())) for row in table]
 
     def _choose(
-        self, logarithms: Sequence[NDArray[np.float64]], class_scores: NDArray[np.float64]
-    ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
-        """The best candidate of every picture, its score, and the share of its class."""
+        self,
+        logarithms: Sequence[NDArray[np.float64]],
+        class_scores: NDArray[np.float64],
+        tables: Sequence[NDArray[np.float64]],
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64], list[tuple[Other, ...]]]:
+        """The best candidate of every picture, its score, its class's probability, and others."""
         alone = self._joint(logarithms)
-        joint = alone + class_scores[:, self._classes]
-        best = joint.argmax(axis=1)
-        relative = np.exp(joint - joint.max(axis=1, keepdims=True))
-        same = self._classes[None, :] == self._classes[best][:, None]
-        share = (relative * same).sum(axis=1) / relative.sum(axis=1)
-        return self._candidates[best], alone[np.arange(len(best)), best], share
+        best = (alone + class_scores[:, self._classes]).argmax(axis=1)
+        relative = np.exp(alone - alone.max(axis=1, keepdims=True))
+        weights = (relative @ self._shares) * np.exp(class_scores)
+        probable = weights / np.maximum(weights.sum(axis=1, keepdims=True), _SMALLEST)
+        rows, read = np.arange(len(best)), self._classes[best]
+        shares = probable[rows, read]
+        probable[rows, read] = 0.0
+        others: list[tuple[Other, ...]] = [()] * len(best)
+        if self.other_from < 1.0:
+            others = self._others(probable, relative, tables)
+        return self._candidates[best], alone[rows, best], shares, others
+
+    def _others(
+        self,
+        probable: NDArray[np.float64],
+        relative: NDArray[np.float64],
+        tables: Sequence[NDArray[np.float64]],
+    ) -> list[tuple[Other, ...]]:
+        """What each picture may be, of the classes that are probable beside the one read."""
+        names = tuple(self.schema.classes)
+        pictures, places = np.nonzero(probable[:, : len(names)] >= self.other_from)
+        nearest = (relative[pictures] * self._shares.T[places]).argmax(axis=1)
+        columns = self._candidates[nearest]
+        features = _features(self.schema, [own[pictures] for own in tables], columns)
+        found: list[list[Other]] = [[] for _ in probable]
+        for picture, place, vector, own in zip(
+            pictures.tolist(), places.tolist(), columns.tolist(), features, strict=True
+        ):
+            probability = float(probable[picture, place])
+            found[picture].append(
+                Other(names[place], probability, _vector(self.schema, vector), own)
+            )
+        return [tuple(sorted(own, key=lambda other: -other.probability)) for own in found]
 
     def _joint(self, logarithms: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
         joint = np.zeros((len(logarithms[0]), len(self._candidates)))

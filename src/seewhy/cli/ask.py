@@ -52,6 +52,8 @@ def print_reply(reply: Reply) -> None:
     if witness is not None:
         seen.append(f"class {witness[0]} ({witness[1]:.2f})")
     judge = "the knowledge" if witness is None else "the knowledge and the class seen"
+    if reply.supposed is not None:
+        judge = "what is supposed"
     say(f"asked: {reply.question.text}?")
     say(f"seen: {', '.join(seen)}")
     for name, own in reply.features.items():
