@@ -244,6 +244,26 @@ def test_what_the_tree_is_in_doubt_about_may_be_otherwise(
     assert doubtful.ask(picture, "why is it bad?").kind.form == "undecided"
 
 
+def test_below_the_gate_the_tree_alone_is_in_doubt(agent: Agent, dataset: Dataset) -> None:
+    """The knowledge, which decides blue tiles, is not asked about them."""
+    gated = Agent(agent.given, seed=3, gate=1.0)
+    vectors, labels = list(dataset.vectors), list(dataset.labels)
+    blue = [n for n, own in enumerate(vectors) if own == ("blue", "no")]
+    for n in blue[::3]:
+        labels[n] = "good"
+    gated.fit_induction(vectors, labels, uncertain=range(len(vectors)))
+    gated.extractor = agent.extractor
+    scene = gated.classify(draw_tile("blue", "no", 1))
+    assert (scene.method, scene.verdict) == ("tree", "uncertain")
+    shares = gated.tree.probability(scene.vector)
+    assert {own.label: own.probability for own in scene.otherwise} == {
+        label: share for label, share in shares.items() if label != scene.label and share >= 0.1
+    }
+    assert scene.otherwise
+    for own in scene.otherwise:
+        assert (own.method, own.verdict, own.vector) == ("tree", "uncertain", scene.vector)
+
+
 def test_an_evaluation_asks_whatever_the_class_is_and_is_not_believed(
     agent: Agent, dataset: Dataset, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -664,9 +664,10 @@ class Agent:
         """What a classified scene may be as well, where an asker who presumes it is believed."""
         if scene.label is None:
             return ()
-        if not others and scene.method == "tree":
-            # Features were read without others in view: these are the same, the class is in doubt.
-            shares = self._class_shares(scene.vector)
+        gated = scene.verdict == UNCERTAIN
+        if scene.method == "tree" and (gated or not others):
+            # A witness may leave no other reading, but it does not settle what the tree doubts.
+            shares = self.tree.probability(scene.vector)
             others = [
                 Other(label, share, scene.vector, scene.features)
                 for label, share in sorted(shares.items(), key=lambda own: -own[1])
@@ -675,14 +676,15 @@ class Agent:
         found = []
         for own in others:
             decision = self.reasoner.decide(own.vector)
+            known = decision.label == own.label and not gated
             found.append(
                 replace(
                     scene,
                     label=own.label,
-                    method="knowledge" if decision.label == own.label else "tree",
+                    method="knowledge" if known else "tree",
                     vector=own.vector,
                     features=own.features,
-                    verdict=decision.verdict.value,
+                    verdict=scene.verdict if gated else decision.verdict.value,
                     probability=own.probability,
                 )
             )
