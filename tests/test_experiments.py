@@ -30,7 +30,7 @@ from seewhy.experiments.axioms import agreement, incomplete, learned_again
 from seewhy.experiments.catalogue import NAMES, experiment
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.conclusions import conclude, summary
-from seewhy.experiments.drawing import divide, in_fold, load_pictures, pool_of
+from seewhy.experiments.drawing import divide, in_fold, load_pictures, pool_of, require_enough
 from seewhy.experiments.effort import Effort, efforts
 from seewhy.experiments.end_to_end import questions_to_learn
 from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
@@ -517,6 +517,11 @@ def test_groups_stay_whole_and_all_are_tested(dataset: Dataset, tmp_path: Path) 
     # A group is one of a class: what differs in class is no one thing.
     pairs = {(s.label, s.group) for s in train.scenes} & {(s.label, s.group) for s in test.scenes}
     assert not pairs
+    for seed in range(5):
+        left = len(divide(own, Trial(seed, ALL))[0])
+        require_enough(own, Trial(seed, left))
+        with pytest.raises(ExperimentError, match=f"too few to train on {left + 1} and test on"):
+            require_enough(own, Trial(seed, left + 1))
 
 
 def test_work_is_claimed_once(tmp_path: Path) -> None:

@@ -16,12 +16,12 @@ from seewhy.dataset import TABLE, Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import ExperimentError
 from seewhy.experiments.claims import claimed
-from seewhy.experiments.experiment import ALL, Setting, Trial
+from seewhy.experiments.experiment import ALL, Setting, Trial, say_size
 from seewhy.files import whole_file
 from seewhy.picture_source import load_source
 from seewhy.pictures import make_dataset
 
-__all__ = ["divide", "in_fold", "load_pictures", "pool_of", "require_enough"]
+__all__ = ["available", "divide", "in_fold", "load_pictures", "pool_of", "require_enough"]
 
 FOLDS = 5
 """Where pictures have groups, a fifth of the groups of every class is tested on."""
@@ -96,15 +96,21 @@ def load_pictures(domain: str, folder: Path, out: Path) -> Dataset:
     return scenes.with_pictures(pixels)
 
 
-def require_enough(setting: Setting, size: int) -> None:
-    """Raise an ExperimentError if there are too few pictures for a size."""
+def require_enough(setting: Setting, trial: Trial) -> None:
+    """Raise an ExperimentError if there are too few pictures for a trial."""
     total = len(setting.scenes)
-    left = total - setting.tested if not has_groups(setting.scenes) else total
-    if size > left or (size == ALL and left < 1):
+    left = available(setting, trial.seed)
+    if trial.size > left or left < 1:
         raise ExperimentError(
-            f"{setting.scenes.folder}: {total} pictures are too few to train on {size} and test on "
-            f"{total - left or 'a fifth'} of them; choose a smaller size, or give more pictures"
+            f"{setting.scenes.folder}: {total} pictures are too few to train on "
+            f"{say_size(trial.size)} and test on {total - left} of them; choose a smaller size, "
+            "or give more pictures"
         )
+
+
+def available(setting: Setting, seed: int) -> int:
+    """The number of pictures that a seed does not test on."""
+    return len(setting.scenes) - len(_tested(setting, seed))
 
 
 def has_groups(scenes: Dataset) -> bool:
@@ -120,15 +126,20 @@ def divide(setting: Setting, trial: Trial) -> tuple[Dataset, Dataset]:
     tested on, and five seeds in a row test on all.
     """
     scenes = setting.scenes
-    if has_groups(scenes):
-        tested = np.flatnonzero(in_fold(scenes, trial.seed % FOLDS, seed=trial.seed // FOLDS))
-    else:
-        order = np.random.default_rng(trial.seed).permutation(len(scenes))
-        tested = np.sort(order[: setting.tested])
+    tested = _tested(setting, trial.seed)
     rest = np.setdiff1d(np.arange(len(scenes)), tested)
     drawn = np.random.default_rng([trial.seed, trial.size, 1]).permutation(rest)
     train = drawn if trial.size == ALL else drawn[: trial.size]
     return scenes.take(np.sort(train).tolist()), scenes.take(tested.tolist())
+
+
+def _tested(setting: Setting, seed: int) -> npt.NDArray[np.int64]:
+    """The numbers of the pictures that a seed tests on."""
+    scenes = setting.scenes
+    if has_groups(scenes):
+        return np.flatnonzero(in_fold(scenes, seed % FOLDS, seed=seed // FOLDS))
+    order = np.random.default_rng(seed).permutation(len(scenes))
+    return np.sort(order[: setting.tested])
 
 
 def in_fold(scenes: Dataset, fold: int, *, seed: int = 0) -> npt.NDArray[np.bool_]:

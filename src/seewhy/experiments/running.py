@@ -130,8 +130,8 @@ def prepare(
         ),
     )
     setting = setting_of(run)
-    for size in chosen:
-        require_enough(setting, size)
+    for trial in run.trials:
+        require_enough(setting, trial)
     _check_settings(run)
     take_up(run.folder)
     _check_systems(run)
