@@ -38,6 +38,13 @@ def test_a_chart_is_a_whole_picture() -> None:
     assert all(0 < height < figure.height for height in heights)
 
 
+def test_a_line_that_covers_another_lets_it_be_seen() -> None:
+    lines = [line("one", 0.5, 0.6), line("two", 0.5, 0.7), line("three", 0.5, 0.6)]
+    figure = draw_lines(lines, ["100", "200"], across="", up="right")
+    drawn = ElementTree.fromstring(figure.svg).findall("{http://www.w3.org/2000/svg}polyline")
+    assert [own.get("stroke-dasharray") for own in drawn] == [None, None, "8 8"]
+
+
 def test_a_long_name_of_an_axis_takes_two_lines() -> None:
     """It would reach beyond the axis otherwise, and over its numbers."""
     up = "explanatory answers, every relevant attribute"

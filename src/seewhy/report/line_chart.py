@@ -37,6 +37,8 @@ class Line:
 def draw_lines(lines: Sequence[Line], labels: Sequence[str], *, across: str, up: str) -> Figure:
     """Draw lines with bands over evenly spaced labels; shares are written in per cent.
 
+    A line that covers another is dashed, so that both are seen.
+
     Parameters
     ----------
     lines : sequence of Line
@@ -86,10 +88,13 @@ def draw_lines(lines: Sequence[Line], labels: Sequence[str], *, across: str, up:
         own = [point for point in line.points if point.label in place]
         band = [f"{place[p.label]:.1f},{y(p.high):.1f}" for p in own]
         band += [f"{place[p.label]:.1f},{y(p.low):.1f}" for p in reversed(own)]
+        covers = any(line.points == other.points for other in lines[:number])
+        dashes = " stroke-dasharray='8 8'" if covers else ""  # or the other's line is not seen
         path = " ".join(f"{place[p.label]:.1f},{y(p.value):.1f}" for p in own)
         parts.append(
             f"<polygon points='{' '.join(band)}' fill='{colour}' fill-opacity='0.15'/>"
-            f"<polyline points='{path}' fill='none' stroke='{colour}' stroke-width='2'/>"
+            f"<polyline points='{path}' fill='none' stroke='{colour}' stroke-width='2'"
+            f"{dashes}/>"
         )
         parts += [
             f"<circle cx='{place[p.label]:.1f}' cy='{y(p.value):.1f}' r='3' fill='{colour}'>"
