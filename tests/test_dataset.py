@@ -48,7 +48,7 @@ ROW = "images/000.png,good,red,yes\n"
         (
             "image,class,colour,round,weight\n",
             "DIR/scenes.csv:1: 'weight' is no feature of the domain 'tiles'; it must be one of: "
-            "image, class, split, group, colour, round",
+            "image, class, split, group, reasons, colour, round",
         ),
         (
             "image,class,colour\n",
@@ -106,6 +106,16 @@ ROW = "images/000.png,good,red,yes\n"
             "DIR/scenes.csv:2: split must be 'train', 'test' or empty, got 'training'",
         ),
         (
+            "image,class,colour,round,reasons\nimages/000.png,good,red,yes,round color\n",
+            "DIR/scenes.csv:2: the reason 'color' is no feature of the domain 'tiles'; did you "
+            "mean 'colour'?",
+        ),
+        (
+            "image,class,colour,round,reasons\nimages/000.png,good,red,,round\n",
+            "DIR/scenes.csv:2: 'round' is a reason, but its cell is empty; fill it in, or take "
+            "the reason away",
+        ),
+        (
             HEAD.encode() + b"images/000.png,good,r\xf6d,yes\n",
             "DIR/scenes.csv: is not UTF-8 text; save it as CSV in UTF-8",
         ),
@@ -121,6 +131,14 @@ ROW = "images/000.png,good,red,yes\n"
 )
 def test_a_wrong_table(folder: Path, tiles: Domain, table: str | bytes, expected: str) -> None:
     assert message(folder, tiles, table) == expected
+
+
+def test_reasons_are_features_with_blanks_between(folder: Path, tiles: Domain) -> None:
+    head = "image,class,colour,round,reasons\n"
+    rows = ["images/000.png,good,red,yes,colour round colour", "images/001.png,good,red,,"]
+    loaded = load(folder, tiles, head + "\n".join(rows))
+    assert [own.reasons for own in loaded.scenes] == [("colour", "round"), ()]
+    assert load(folder, tiles, HEAD + ROW).scenes[0].reasons == ()
 
 
 def test_the_line_is_the_one_in_the_file(folder: Path, tiles: Domain) -> None:

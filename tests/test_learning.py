@@ -14,12 +14,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from PIL import Image
 
 from conftest import KNOWLEDGE, Run, draw_tile, write_domain
 from seewhy.agent import Agent
 from seewhy.dataset import Dataset
+from seewhy.dialogue.question import Asks
+from seewhy.dialogue.reference import ReferenceAnswers, experience_of
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DatasetError, KnowledgeError
+from seewhy.experiments.axioms import explanations
 from seewhy.induction.axiom_text import axiom_statement, conjunctions
 from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
 from seewhy.induction.generalisation import generalised, most_general
@@ -230,7 +234,150 @@ def test_a_path_that_was_narrowed_is_marked_too() -> None:
     assert learned.accepted_leaves == {0}
 
 
+# With reasons ---------------------------------------------------------------------------------
+
+RED_AND_LEANING = frozenset({"colour", "lean"})
+
+
+def test_what_is_named_stays_a_condition() -> None:
+    """All that lean are red here: by the classes alone, that it leans suffices."""
+    vectors = [v for v in SPACE if v[1] == "red" or v[2] == "no"] * 5
+    labels = ["down" if v[2] == "yes" else "up" for v in vectors]
+    reasons = [RED_AND_LEANING if own == "down" else None for own in labels]
+    down = [
+        {
+            own.candidate.conditions
+            for own in learn_axioms(
+                FEATURES, vectors, labels, decide=decide_by, reasons=some
+            ).accepted
+            if own.candidate.label == "down"
+        }
+        for some in ((), reasons)
+    ]
+    lean, red = PathCondition("lean", ("yes",)), PathCondition("colour", ("red",))
+    assert down == [{(lean,)}, {(red, lean)}]
+
+
+def test_what_is_explained_otherwise_is_rejected_and_says_so() -> None:
+    """Most who say why a scene is up name its lean; of the small ones the size is named."""
+    vectors = SPACE * 5
+    labels = ["down" if v[2] == "yes" else "up" for v in vectors]
+    reasons = [frozenset({"size"} if v[0] == "1" else {"lean"}) for v in vectors]
+    learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by, reasons=reasons)
+    said = {own.candidate.conditions: (own.fate, own.reason) for own in learned.judgements}
+    assert said[(PathCondition("lean", ("no",)),)] == (
+        Fate.REJECTED,
+        "of 60 scenes that are explained, 15 are for other reasons",
+    )
+    assert said[(PathCondition("size", ("1",)),)] == (Fate.REJECTED, "15 scenes speak against it")
+    assert not learned.accepted
+
+
+def test_rules_that_apply_together_are_learned_one_by_one() -> None:
+    """Where both apply all three features are named; each is learned where it applies alone."""
+
+    def applying(v: tuple[str, ...]) -> list[set[str]]:
+        rules = [({"lean"}, v[2] == "yes"), ({"size", "colour"}, v[0] in "12" and v[1] == "red")]
+        return [own for own, applies in rules if applies]
+
+    vectors = SPACE * 5
+    labels = ["down" if applying(v) else "up" for v in vectors]
+    reasons = [frozenset(set().union(*applying(v))) or None for v in vectors]
+    learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by, reasons=reasons)
+    assert {own.candidate for own in learned.accepted if own.candidate.label == "down"} == {
+        Candidate("down", (PathCondition("lean", ("yes",)),)),
+        Candidate("down", (PathCondition("size", ("1", "2")), PathCondition("colour", ("red",)))),
+    }
+
+
+@settings(max_examples=40, deadline=None)
+@given(data=st.data())
+def test_what_is_learned_asks_nothing_that_no_reason_names(data: st.DataObject) -> None:
+    of = {v: data.draw(st.sampled_from(["up", "down"])) for v in SPACE}
+    names = st.frozensets(st.sampled_from(list(FEATURES)), min_size=1)
+    why = {v: data.draw(st.none() | names) for v in SPACE}
+    vectors = SPACE * 6
+    learned = learn_axioms(
+        FEATURES,
+        vectors,
+        [of[v] for v in vectors],
+        decide=decide_by,
+        reasons=[why[v] for v in vectors],
+    )
+    for own in learned.accepted:
+        asked = {condition.feature for condition in own.candidate.conditions}
+        spoken = [
+            v
+            for v in SPACE
+            if all(v[list(FEATURES).index(c.feature)] in c.values for c in own.candidate.conditions)
+        ]
+        assert {of[v] for v in spoken} == {own.candidate.label}
+        assert all(asked <= (why[v] or asked) for v in spoken)
+
+
+def test_scenes_that_nobody_can_place_propose_nothing() -> None:
+    vectors = [("1", None, "yes")] * 20 + [("1", "red", "no")] * 20
+    labels = ["down"] * 20 + ["up"] * 20
+    learned = learn_axioms(
+        FEATURES,
+        vectors,
+        labels,
+        decide=decide_by,
+        reasons=[frozenset({"colour"})] * 20 + [None] * 20,
+    )
+    assert {own.candidate.label for own in learned.accepted} <= {"up"}
+
+
+def test_a_column_of_reasons_is_learned_from(tiles: Domain, tmp_path: Path) -> None:
+    """The same pictures, with and without a reason for what the knowledge leaves open."""
+    rows = [("good", "red", "yes"), ("good", "red", "no")] * 2
+    rows += [("good", "green", "yes"), *[("bad", "blue", "no")] * 3] * 8
+    (tmp_path / "images").mkdir()
+    for n in range(len(rows)):
+        Image.new("RGB", (16, 16), (n, 0, 0)).save(tmp_path / "images" / f"{n}.png")
+    found = []
+    for column, reason in (("", ""), (",reasons", ",colour round")):
+        lines = [
+            f"images/{n}.png,{','.join(own)}{reason if own[1] == 'green' else ',' * bool(column)}"
+            for n, own in enumerate(rows)
+        ]
+        table = "\n".join([f"image,class,colour,round{column}", *lines])
+        (tmp_path / "scenes.csv").write_text(table, encoding="utf-8")
+        learning = Agent(tiles).learn(Dataset.load(tmp_path, tiles), answers=False)
+        found.append({str(own) for own in learning.added})
+    assert found == [
+        {"good(S) if -colour(S, blue)."},
+        {"good(S) if -colour(S, blue), round(S)."},
+    ]
+
+
 # With knowledge -------------------------------------------------------------------------------
+
+
+def test_with_reasons_the_removed_axioms_themselves_are_found(structures: Domain) -> None:
+    """What is learned decides all scenes as the full knowledge does, and for its reasons."""
+    whole = Agent(structures)
+    rng = np.random.default_rng(0)
+    space = list(product(*(own.values for own in structures.features.values())))
+    decided = [v for v in space if whole.reasoner.decide(v).label]
+    vectors = [decided[n] for n in rng.integers(len(decided), size=800)]
+    labels = [str(whole.reasoner.decide(v).label) for v in vectors]
+    reference = ReferenceAnswers(structures, whole.reasoned, experience_of(vectors, labels))
+    reasons = explanations(reference, whole.questions, vectors, labels)
+    why = {own.label: own for own in whole.questions.all if own.asks is Asks.WHY_CLASS}
+    for gone in list(combinations(range(8), 4))[::9]:
+        kept = tuple(own for n, own in enumerate(structures.knowledge.axioms) if n not in gone)
+        domain = replace(structures, knowledge=replace(structures.knowledge, axioms=kept))
+        some = replace(scenes(vectors, labels), reasons=reasons)
+        learned = learn_for_domain(domain, some)
+        axioms = axioms_of(domain, [own.candidate for own in learned.accepted], some)
+        agent = Agent(domain, learned=axioms)
+        for vector, label in set(zip(vectors, labels, strict=True)):
+            assert agent.reasoner.decide(vector).label == label
+            told, meant = (
+                own.kind(why[label], vector, label) for own in (agent.reasoned, whole.reasoned)
+            )
+            assert set(told.mentions) == set(meant.mentions), (gone, vector)
 
 
 def test_removed_axioms_are_found_again(structures: Domain) -> None:

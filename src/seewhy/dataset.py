@@ -18,7 +18,7 @@ from seewhy.knowledge.scene import FeatureVector
 from seewhy.nearest import did_you_mean
 
 TABLE = "scenes.csv"
-RESERVED = ("image", "class", "split", "group")
+RESERVED = ("image", "class", "split", "group", "reasons")
 SPLITS = ("train", "test")
 
 
@@ -27,7 +27,8 @@ class Scene:
     """One annotated picture.
 
     ``split`` is "train", "test" or empty; pictures of one ``group`` show one physical thing and
-    are never split apart for validation.
+    are never split apart for validation. ``reasons`` are the features that somebody named as why
+    it is of its class.
     """
 
     picture: Path
@@ -35,6 +36,7 @@ class Scene:
     label: str
     split: str = ""
     group: str = ""
+    reasons: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,8 @@ class Dataset:
 
     On disk a dataset is plain: pictures, and a table ``scenes.csv`` with the columns ``image``
     (a path from the folder), ``class``, one column per feature of the domain, and optionally
-    ``split`` ("train" or "test") and ``group``. An empty cell is a value that nobody knows.
+    ``split`` ("train" or "test"), ``group`` and ``reasons`` (the features that are why the picture
+    is of its class, with blanks between). An empty cell is a value that nobody knows.
 
     Examples
     --------
@@ -269,4 +272,21 @@ def _read_row(cells: dict[str, str], domain: Domain, folder: Path, here: str) ->
         label=cells["class"],
         split=split,
         group=cells.get("group", ""),
+        reasons=_read_reasons(cells, domain, here),
     )
+
+
+def _read_reasons(cells: dict[str, str], domain: Domain, here: str) -> tuple[str, ...]:
+    reasons = tuple(dict.fromkeys(cells.get("reasons", "").split()))
+    for name in reasons:
+        if name not in domain.features:
+            raise DatasetError(
+                f"{here}: the reason '{name}' is no feature of the domain '{domain.name}'; "
+                f"{did_you_mean(name, domain.features)}"
+            )
+        if not cells[name]:
+            raise DatasetError(
+                f"{here}: '{name}' is a reason, but its cell is empty; fill it in, or take the "
+                "reason away"
+            )
+    return reasons

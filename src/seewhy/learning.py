@@ -21,7 +21,7 @@ from seewhy.induction.learning import (
     LearningOptions,
     learn_axioms,
 )
-from seewhy.induction.scene_table import scene_table
+from seewhy.induction.scene_table import Reasons, scene_table
 from seewhy.induction.sentence import say_rule, things
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.axiom import Axiom, Origin
@@ -49,12 +49,15 @@ _REASONERS = 4  # the knowledge so far is asked again for every candidate
 class AnnotatedScenes:
     """Feature vectors with their classes, and the pictures that they were seen in.
 
-    ``pictures`` names every scene's picture; it is empty where that is not known.
+    ``pictures`` names every scene's picture; it is empty where that is not known. ``reasons`` has
+    the features that somebody named as why a scene is of its class, None where nobody did; it may
+    be left out.
     """
 
     vectors: tuple[FeatureVector, ...]
     labels: tuple[str, ...]
     pictures: tuple[str, ...]
+    reasons: tuple[Reasons | None, ...] = ()
 
     @staticmethod
     def of_experience(experience: Experience) -> AnnotatedScenes:
@@ -99,9 +102,11 @@ class Learning:
 def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) -> AnnotatedScenes:
     """Return the scenes of a dataset and those that were counted before, none of them twice.
 
-    ``known`` are the digests of the pictures that ``experience`` counts.
+    ``known`` are the digests of the pictures that ``experience`` counts. Reasons that the dataset
+    has are those of all scenes that look the same.
     """
     names: dict[tuple[FeatureVector, str], list[str]] = {}
+    said: dict[tuple[FeatureVector, str], Counter[Reasons]] = {}
     counts: Counter[tuple[FeatureVector, str]] = Counter(
         {(v, label): n for v, own in experience.items() for label, n in own.items()}
     )
@@ -109,14 +114,18 @@ def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) 
         key = scene.vector, scene.label
         names.setdefault(key, []).append(_name(dataset, scene))
         counts[key] += digest not in known
+        if scene.reasons:
+            said.setdefault(key, Counter())[frozenset(scene.reasons)] += 1
     rows = [
         (vector, label, (names.get((vector, label), []) + [""] * count)[:count])
         for (vector, label), count in counts.items()
     ]
+    usual = {key: own.most_common(1)[0][0] for key, own in said.items()}
     return AnnotatedScenes(
         tuple(vector for vector, _, own in rows for _ in own),
         tuple(label for _, label, own in rows for _ in own),
         tuple(name for _, _, own in rows for name in own),
+        tuple(usual.get((vector, label)) for vector, label, own in rows for _ in own),
     )
 
 
@@ -163,7 +172,14 @@ def learn_for_domain(
         return reasoner(tuple(candidates)).decide_all(some)
 
     features = {key: feature.values for key, feature in domain.features.items()}
-    return learn_axioms(features, scenes.vectors, scenes.labels, decide=decide, options=options)
+    return learn_axioms(
+        features,
+        scenes.vectors,
+        scenes.labels,
+        decide=decide,
+        reasons=scenes.reasons,
+        options=options,
+    )
 
 
 def with_candidates(

@@ -85,7 +85,10 @@ def tally(candidate: Candidate, table: SceneTable, left: NDArray[np.int64] | Non
 
 
 def is_borne_out(candidate: Candidate, table: SceneTable, tolerance: float) -> bool:
-    """Whether all scenes that a candidate speaks about are of its class.
+    """Whether all scenes that a candidate speaks about are of its class, and for its reasons.
+
+    Where somebody said why scenes are of the class, all features that the candidate asks have to
+    be among the reasons: whoever says why names what every rule asks that applies.
 
     With a ``tolerance`` above 0, that share of the annotation is taken to be wrong: what speaks
     against the candidate must be few enough to be such errors, in all and for every feature
@@ -105,11 +108,36 @@ def is_borne_out(candidate: Candidate, table: SceneTable, tolerance: float) -> b
     rows = table.satisfying(candidate.conditions)
     if _speaks_against(table, candidate.label, tolerance)[rows].any():
         return False
+    explained, otherwise = explained_otherwise(candidate, table)
+    if otherwise and binom.sf(otherwise - 1, explained, tolerance) < _IMPLAUSIBLE:
+        return False
     if tolerance == 0.0:
         return True
     scenes = int(table.totals[rows].sum())
     wrong = scenes - int(table.of_class(candidate.label)[rows].sum())
     return bool(binom.sf(wrong - 1, scenes, tolerance) >= _IMPLAUSIBLE)
+
+
+def explained_otherwise(candidate: Candidate, table: SceneTable) -> tuple[int, int]:
+    """How many scenes that bear a candidate out are explained, and how many for other reasons.
+
+    Examples
+    --------
+    >>> from seewhy.induction.scene_table import scene_table
+    >>> table = scene_table({"lean": ("yes", "no"), "base": ("wide", "narrow")},
+    ...                     [("no", "wide"), ("no", "narrow")], ["up", "up"],
+    ...                     reasons=[frozenset({"lean"}), None])
+    >>> explained_otherwise(Candidate("up", (PathCondition("base", ("wide",)),)), table)
+    (1, 1)
+    """
+    if candidate.label not in table.classes or not table.explained.any():
+        return 0, 0
+    place = table.classes.index(candidate.label)
+    rows = table.satisfying(candidate.conditions) & table.explained[:, place]
+    asked = [list(table.features).index(own.feature) for own in candidate.conditions]
+    lacking = rows & ~table.named[:, place, asked].all(axis=1)
+    scenes = table.counts[:, place]
+    return int(scenes[rows].sum()), int(scenes[lacking].sum())
 
 
 @lru_cache(maxsize=256)
@@ -138,12 +166,15 @@ def settled(table: SceneTable, tolerance: float) -> Rows:
     return np.asarray(binom.sf(wrong - 1, table.totals, tolerance) >= _IMPLAUSIBLE)
 
 
-def chance(candidate: Candidate, table: SceneTable, found: Tally) -> float:
+def chance(
+    candidate: Candidate, table: SceneTable, found: Tally, *, searched: bool = True
+) -> float:
     """How likely a candidate would fit so well if features said nothing of the class.
 
     The probability that at least as many of the scenes spoken about are of the class, times the
-    number of axioms about the same features that could have been tried (Bonferroni), so that the
-    bound holds for all of them together. Source: none; the paper asks for support alone.
+    number of axioms about as many features that could have been tried (Bonferroni), so that the
+    bound holds for all of them together; not times it where nothing was ``searched``, since
+    somebody named the features. Source: none; the paper asks for support alone.
 
     Examples
     --------
@@ -154,6 +185,8 @@ def chance(candidate: Candidate, table: SceneTable, found: Tally) -> float:
     '0.0020'
     """
     share = table.of_class(candidate.label).sum() / max(1, table.totals.sum())
-    alone = binom.sf(found.right - 1, found.right + found.wrong, share)
+    alone = float(binom.sf(found.right - 1, found.right + found.wrong, share))
+    if not searched:
+        return alone
     tried = float(np.prod([len(table.features[own.feature]) for own in candidate.conditions]))
-    return min(1.0, float(alone) * tried * comb(len(table.features), candidate.literals))
+    return min(1.0, alone * tried * comb(len(table.features), candidate.literals))

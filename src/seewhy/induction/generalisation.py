@@ -51,6 +51,8 @@ def _narrowed(candidate: Candidate, table: SceneTable, left: NDArray[np.int64]) 
     spoken = table.satisfying(candidate.conditions)
     own = table.of_class(candidate.label)
     wrong = np.where(spoken, table.totals - own, 0)
+    if not wrong.any():
+        return None  # what speaks against it are reasons: none is named by adding one
     ours = np.where(spoken, left[:, table.classes.index(candidate.label)], 0)
     conditions = {own.feature: own.values for own in candidate.conditions}
     best: tuple[float, str, tuple[str, ...]] | None = None

@@ -11,9 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import binom
 
-from seewhy.induction.candidate import Candidate, Tally, chance, is_borne_out, settled, tally
+from seewhy.induction.candidate import (
+    Candidate,
+    Tally,
+    chance,
+    explained_otherwise,
+    is_borne_out,
+    settled,
+    tally,
+)
+from seewhy.induction.explained import explained_candidates
 from seewhy.induction.generalisation import generalised, most_general, specialised
-from seewhy.induction.scene_table import SceneTable, scene_table
+from seewhy.induction.scene_table import Reasons, SceneTable, scene_table
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.reasoner import Decision, Verdict
 from seewhy.knowledge.scene import FeatureVector
@@ -146,6 +155,7 @@ def learn_axioms(
     labels: Sequence[str],
     *,
     decide: Decide,
+    reasons: Sequence[Reasons | None] = (),
     options: LearningOptions = DEFAULTS,
 ) -> Learned:
     """Induce, generalise and validate axioms until the scenes give no further one.
@@ -157,6 +167,9 @@ def learn_axioms(
     an axiom if enough scenes bear it out, if it would hardly fit by chance, and if the knowledge
     with it classifies the scenes that it speaks about.
 
+    Scenes of which somebody said why they are of their class propose axioms with these reasons
+    (:func:`~seewhy.induction.explained.explained_candidates`); the tree is grown on the others.
+
     Parameters
     ----------
     features : mapping of str to sequence of str
@@ -164,6 +177,8 @@ def learn_axioms(
         The annotated scenes.
     decide : callable
         See :data:`Decide`.
+    reasons : sequence of (frozenset of str or None), optional
+        The features that are why each scene is of its class; None where nobody said so.
     options : LearningOptions
 
     Notes
@@ -183,7 +198,7 @@ def learn_axioms(
     up (PathCondition(feature='lean', values=('no',)),) 20
     down (PathCondition(feature='lean', values=('yes',)),) 20
     """
-    table = scene_table(features, vectors, labels)
+    table = scene_table(features, vectors, labels, reasons=reasons)
     rng = np.random.default_rng(options.seed)
     accepted: list[Judgement] = []
     judged: dict[Candidate, Judgement] = {}
@@ -194,10 +209,14 @@ def learn_axioms(
         decisions = decide(known, table.vectors)
         left = _left(table, decisions)
         left *= settled(table, options.tolerance)[:, None]
-        tree = _grown(table, left, options)
-        paths = _paths(tree, table, left)
+        unexplained = np.where(table.explained, 0, left)
+        tree = _grown(table, unexplained, options)
+        paths = _paths(tree, table, unexplained)
         first = first or (tree, paths)
-        for own in _proposed(paths, table, left, options):
+        for own in (
+            *_explained(table, left, options),
+            *_proposed(paths, table, unexplained, options),
+        ):
             if own.candidate in judged:
                 continue
             if own.fate is Fate.ACCEPTED:
@@ -256,6 +275,30 @@ def _paths(
         label = table.classes[int(counts.argmax())] if counts.any() else None
         found.append(None if label is None else Candidate(label, conditions))
     return found
+
+
+def _explained(
+    table: SceneTable, left: NDArray[np.int64], options: LearningOptions
+) -> Iterator[Judgement]:
+    """What explanations propose. It needs no support: somebody says that it is the rule."""
+    seen: set[Candidate] = set()
+    for path, candidate in explained_candidates(table, left, tolerance=options.tolerance):
+        if candidate in seen:
+            continue
+        seen.add(candidate)
+        own = tally(candidate, table, left)
+        explained, otherwise = explained_otherwise(candidate, table)
+        fate, reason = Fate.ACCEPTED, ""
+        if not is_borne_out(candidate, table, options.tolerance):
+            fate = Fate.REJECTED
+            reason = (
+                f"of {explained} scenes that are explained, {otherwise} are for other reasons"
+                if otherwise
+                else f"{own.wrong} scenes speak against it"
+            )
+        elif chance(candidate, table, own, searched=False) > BY_CHANCE:
+            fate, reason = Fate.DROPPED, "so few scenes could be alike by chance"
+        yield Judgement(path, candidate, own, fate, reason)
 
 
 def _proposed(

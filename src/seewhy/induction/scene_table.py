@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,6 +14,9 @@ from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.scene import FeatureVector
 
 UNKNOWN = -1
+
+Reasons = frozenset[str]
+"""The features that somebody names as the reasons for a scene's class."""
 
 Rows = NDArray[np.bool_]
 """Which rows of a table are meant, shape (rows,)."""
@@ -34,6 +38,10 @@ class SceneTable:
         How many scenes of each class look like this.
     scenes : tuple of tuple of int, length rows
         The positions of these scenes among those that the table was made of.
+    explained : ndarray of bool, shape (rows, classes)
+        Whether somebody said why scenes that look like this are of the class.
+    named : ndarray of bool, shape (rows, classes, features)
+        Which features are the reasons, as most of those who said why have it.
 
     Examples
     --------
@@ -49,6 +57,8 @@ class SceneTable:
     codes: NDArray[np.int64]
     counts: NDArray[np.int64]
     scenes: tuple[tuple[int, ...], ...]
+    explained: NDArray[np.bool_]
+    named: NDArray[np.bool_]
 
     def satisfying(self, conditions: Sequence[PathCondition]) -> Rows:
         """Return which rows satisfy all conditions; a value that is not known satisfies none.
@@ -95,8 +105,21 @@ def scene_table(
     features: Mapping[str, Sequence[str]],
     vectors: Sequence[FeatureVector],
     labels: Sequence[str],
+    *,
+    reasons: Sequence[Reasons | None] = (),
 ) -> SceneTable:
-    """Make a table of annotated scenes, rows in the order of their first scene."""
+    """Make a table of annotated scenes, rows in the order of their first scene.
+
+    ``reasons`` has the features that are why a scene is of its class, None where nobody said so;
+    it may be left out.
+
+    Examples
+    --------
+    >>> table = scene_table({"lean": ("yes", "no"), "base": ("wide", "narrow")},
+    ...                     [("no", "wide")], ["up"], reasons=[frozenset({"lean"})])
+    >>> table.explained.tolist(), table.named.tolist()
+    ([[True]], [[[True, False]]])
+    """
     values = {name: tuple(own) for name, own in features.items()}
     places = [{value: n for n, value in enumerate(own)} for own in values.values()]
     classes = tuple(sorted(set(labels)))
@@ -112,6 +135,24 @@ def scene_table(
             for place, value in zip(places, vector, strict=True)
         ]
         np.add.at(counts[row], [numbers[labels[n]] for n in positions], 1)
+    explained = np.zeros(counts.shape, dtype=bool)
+    named = np.zeros((*counts.shape, len(values)), dtype=bool)
+    said: dict[tuple[int, int], Counter[Reasons]] = {}
+    for row, positions in enumerate(found.values()) if any(reasons) else ():
+        for n in positions:
+            if own := reasons[n]:
+                said.setdefault((row, numbers[labels[n]]), Counter())[own] += 1
+    for place, heard in said.items():
+        explained[place] = True
+        most = max(heard, key=lambda own: (heard[own], -len(own), sorted(own)))
+        named[place] = [feature in most for feature in values]
     return SceneTable(
-        values, classes, tuple(found), codes, counts, tuple(map(tuple, found.values()))
+        values,
+        classes,
+        tuple(found),
+        codes,
+        counts,
+        tuple(map(tuple, found.values())),
+        explained,
+        named,
     )
