@@ -23,10 +23,11 @@ from seewhy.cli.main import main
 from seewhy.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
+from seewhy.dialogue.reference import ReferenceAnswers, experience_of
 from seewhy.domain import Domain
 from seewhy.errors import ExperimentError
 from seewhy.experiments import drawing, running
-from seewhy.experiments.axioms import agreement, incomplete, learned_again
+from seewhy.experiments.axioms import agreement, explanations, incomplete, learned_again
 from seewhy.experiments.catalogue import NAMES, experiment
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.conclusions import conclude, summary
@@ -196,6 +197,45 @@ def test_other_experiments_use_what_networks_saw(
             assert rows[0][key] == whole[key]
 
 
+def test_another_way_of_reading_has_a_folder_of_its_own(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    """Its rows are others, of the same networks; as the domain reads is what there is already."""
+    command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data, "--out", finished)
+    few = ("--trials", 1, "--sizes", "20", "--tested", 15, "--jobs", 1)
+    seen = {file.name for file in (finished / "networks").iterdir()}
+    vqa = (finished / "vqa" / "rows.csv").read_bytes()
+    result = run(*command, *few, "--reading", "with_class")
+    own = finished / "vqa-with_class"
+    assert result.out.splitlines()[-1] == f"page: {own / 'index.html'}"
+    page = (own / "index.html").read_text(encoding="utf-8")
+    assert "Features are read with_class, otherwise than the domain says." in page
+    theirs, ours = rows_of(finished / "vqa"), rows_of(own)
+    assert ours[2] == theirs[2]  # end to end, which reads nothing
+    assert int(ours[0]["weights"]) > int(theirs[0]["weights"])
+    assert {file.name for file in (finished / "networks").iterdir()} == seen
+    assert (finished / "vqa" / "rows.csv").read_bytes() == vqa
+    result = run(*command, *SMALL, "--reading", "argmax")
+    assert result.out.splitlines()[-1] == f"page: {finished / 'vqa' / 'index.html'}"
+    assert (finished / "vqa" / "rows.csv").read_bytes() == vqa
+    result = run("experiment", "reading", *command[2:], *few, "--reading", "argmax")
+    assert (result.code, result.out) == (2, "")
+    assert result.err == (
+        "seewhy: --reading goes with the other experiments; reading compares all ways to read\n"
+    )
+
+
+def test_reasons_are_those_of_the_annotator(structures: Domain) -> None:
+    agent = Agent(structures)
+    vectors = [("4", "narrow", "yes", "no"), ("2", "wide", "no", "no")]
+    labels = ["unstable", "stable"]
+    reference = ReferenceAnswers(structures, agent.reasoned, experience_of(vectors, labels))
+    assert explanations(reference, agent.questions, vectors, labels) == (
+        frozenset({"num_blocks", "base", "lean"}),
+        frozenset({"num_blocks", "base", "lean", "block_displaced"}),
+    )
+
+
 def test_pictures_are_drawn_where_none_are_given(
     tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -286,6 +326,7 @@ def test_one_process_draws_the_pictures_of_a_folder(
         (("--tested", "60"), "60 pictures are too few to train on 20 and test on 60 of them"),
         (("--drawn", "5"), "the domain 'tiles' has no source of pictures; put your own"),
         (("--data", None), "the domain 'tiles' has no source of pictures; name a folder of"),
+        (("--reading", "consistant"), "'consistant' is no way to read features; did you mean"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_run_is_refused(

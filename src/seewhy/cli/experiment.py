@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from seewhy.cli.command_line import as_typed
-from seewhy.cli.options import Json
+from seewhy.cli.options import Json, Reading
 from seewhy.cli.screen import print_json, progress, remark, say
 
 if TYPE_CHECKING:
@@ -68,6 +68,7 @@ def experiment(
             "--drawn", min=0, help="Pictures of the domain's source that networks see before."
         ),
     ] = 0,
+    reading: Reading = None,
     before: Annotated[
         int | None,
         typer.Option(
@@ -97,7 +98,13 @@ def experiment(
 
     if jobs == 0:
         raise ExperimentError("--jobs must be -1 or at least 1, got 0")
-    pictures = {"--domain": domain, "--data": data, "--sizes": sizes, "--tested": tested}
+    pictures = {
+        "--domain": domain,
+        "--data": data,
+        "--sizes": sizes,
+        "--tested": tested,
+        "--reading": reading,
+    }
     of_robot = {"--before": before is not None, "--answer-sets": answer_sets}
     if name == PLANNING:
         for option, given in {**pictures, "--drawn": drawn or None}.items():
@@ -128,6 +135,7 @@ def experiment(
             quick=quick,
             tested=tested,
             drawn=drawn,
+            reading=reading,
             workers=jobs,
             on_picture=lambda done: bars.update(drawing, completed=done, visible=True),
         )

@@ -8,7 +8,7 @@ from seewhy.errors import ExperimentError
 from seewhy.experiments.experiment import Experiment
 from seewhy.nearest import did_you_mean
 
-__all__ = ["NAMES", "PLANNING", "experiment"]
+__all__ = ["COMPARES_READINGS", "NAMES", "PLANNING", "experiment"]
 
 _HOMES = {
     "vqa": ("seewhy.experiments.vqa", "VQA"),
@@ -19,6 +19,8 @@ _HOMES = {
 }
 
 NAMES = tuple(_HOMES)
+COMPARES_READINGS = "reading"
+"""The experiment that has every way of reading features for a system."""
 PLANNING = "planning"
 """The experiment that needs no pictures; see :mod:`seewhy.experiments.planning_run`."""
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from seewhy.dataset import TABLE
 from seewhy.domain import FILES, load_domain
 from seewhy.errors import ExperimentError
-from seewhy.experiments.catalogue import experiment
+from seewhy.experiments.catalogue import COMPARES_READINGS, experiment
 from seewhy.experiments.drawing import load_pictures, pool_of, require_enough
 from seewhy.experiments.experiment import Plan, Row, Setting, Trial
 from seewhy.experiments.jobs import run_all
@@ -19,6 +19,7 @@ from seewhy.experiments.published import take_up
 from seewhy.experiments.rows import ROWS, TIMINGS, finish, read_trial, write_table
 from seewhy.experiments.settings import check_settings, digest
 from seewhy.picture_source import load_source
+from seewhy.reading import ReadingRule, reading_rule
 
 __all__ = ["Run", "finished_rows", "prepare", "run_missing", "setting_of", "write_tables"]
 
@@ -42,6 +43,8 @@ class Run:
         See :class:`~seewhy.experiments.experiment.Setting`.
     trials : tuple of Trial
         Seed by seed, so that what is finished early has every size.
+    reading : {"argmax", "consistent", "with_class"}, optional
+        How SeeWhy reads features, where that is not as the domain says.
     """
 
     experiment: str
@@ -51,11 +54,13 @@ class Run:
     tested: int
     drawn: int
     trials: tuple[Trial, ...]
+    reading: ReadingRule | None = None
 
     @property
     def folder(self) -> Path:
         """Where the results of the experiment lie; beside it, what experiments share."""
-        return self.out / self.experiment
+        name = self.experiment if self.reading is None else f"{self.experiment}-{self.reading}"
+        return self.out / name
 
 
 def prepare(
@@ -70,6 +75,7 @@ def prepare(
     quick: bool = False,
     tested: int | None = None,
     drawn: int = 0,
+    reading: str | None = None,
     workers: int = -1,
     on_picture: Callable[[int], None] | None = None,
 ) -> Run:
@@ -92,6 +98,9 @@ def prepare(
         Pictures that a trial tests on; what the experiment says where left out.
     drawn : int, default 0
         Pictures of the domain's source that networks are trained on before.
+    reading : {"argmax", "consistent", "with_class"}, optional
+        How SeeWhy reads features; as the domain says where left out. Results of another way go
+        into a folder of their own, ``vqa-with_class`` say; what networks saw is shared.
     workers : int, default -1
         Processes that draw pictures.
     on_picture : callable, optional
@@ -105,6 +114,13 @@ def prepare(
     own = experiment(name)
     loaded = load_domain(domain)
     plan: Plan = own.plan(loaded.name, quick=quick)
+    rule = None if reading is None else reading_rule(reading)
+    if rule is not None and name == COMPARES_READINGS:
+        raise ExperimentError(
+            "--reading goes with the other experiments; reading compares all ways to read"
+        )
+    if rule == loaded.reading:
+        rule = None
     count = plan.trials if trials is None else trials
     chosen = tuple(dict.fromkeys(plan.sizes if sizes is None else sizes))
     try:
@@ -128,6 +144,7 @@ def prepare(
         trials=tuple(
             Trial(seed, size) for seed in range(first_seed, first_seed + count) for size in chosen
         ),
+        reading=rule,
     )
     setting = setting_of(run)
     for trial in run.trials:
@@ -201,7 +218,10 @@ def write_tables(run: Run) -> list[Row]:
 def setting_of(run: Run) -> Setting:
     """Return what all trials of a run share."""
     scenes = load_pictures(run.domain, run.pictures, run.out)
-    return Setting(scenes.domain, scenes, run.tested, run.drawn, run.out)
+    domain = scenes.domain
+    if run.reading is not None:
+        domain = replace(domain, reading=run.reading)
+    return Setting(domain, scenes, run.tested, run.drawn, run.out)
 
 
 def _run_one(run: Run, trial: Trial) -> None:

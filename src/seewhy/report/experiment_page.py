@@ -45,6 +45,7 @@ def experiment_page(
         "experiment.html",
         experiment=own,
         domain=run.domain,
+        reading=run.reading,
         finished=finished,
         planned=len(run.trials),
         measures=[_measure(own, measure, rows, sizes) for measure in own.measures],
