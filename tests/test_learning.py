@@ -347,7 +347,7 @@ def test_a_column_of_reasons_is_learned_from(tiles: Domain, tmp_path: Path) -> N
         found.append({str(own) for own in learning.added})
     assert found == [
         {"good(S) if -colour(S, blue)."},
-        {"good(S) if -colour(S, blue), round(S)."},
+        {"good(S) if colour(S, green), round(S)."},
     ]
 
 

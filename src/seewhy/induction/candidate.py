@@ -108,18 +108,24 @@ def is_borne_out(candidate: Candidate, table: SceneTable, tolerance: float) -> b
     rows = table.satisfying(candidate.conditions)
     if _speaks_against(table, candidate.label, tolerance)[rows].any():
         return False
-    explained, otherwise = explained_otherwise(candidate, table)
-    if otherwise and binom.sf(otherwise - 1, explained, tolerance) < _IMPLAUSIBLE:
-        return False
+    if table.explains:
+        explained, otherwise = explained_otherwise(candidate, table)
+        if _beyond_errors(otherwise, explained, tolerance).any() or _beyond_errors(
+            otherwise.sum(), explained.sum(), tolerance
+        ):
+            return False
     if tolerance == 0.0:
         return True
-    scenes = int(table.totals[rows].sum())
-    wrong = scenes - int(table.of_class(candidate.label)[rows].sum())
-    return bool(binom.sf(wrong - 1, scenes, tolerance) >= _IMPLAUSIBLE)
+    scenes = table.totals[rows].sum()
+    return not _beyond_errors(
+        scenes - table.of_class(candidate.label)[rows].sum(), scenes, tolerance
+    )
 
 
-def explained_otherwise(candidate: Candidate, table: SceneTable) -> tuple[int, int]:
-    """How many scenes that bear a candidate out are explained, and how many for other reasons.
+def explained_otherwise(
+    candidate: Candidate, table: SceneTable
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Count, row by row, explained scenes that bear a candidate out; and those for other reasons.
 
     Examples
     --------
@@ -127,26 +133,33 @@ def explained_otherwise(candidate: Candidate, table: SceneTable) -> tuple[int, i
     >>> table = scene_table({"lean": ("yes", "no"), "base": ("wide", "narrow")},
     ...                     [("no", "wide"), ("no", "narrow")], ["up", "up"],
     ...                     reasons=[frozenset({"lean"}), None])
-    >>> explained_otherwise(Candidate("up", (PathCondition("base", ("wide",)),)), table)
-    (1, 1)
+    >>> wide = Candidate("up", (PathCondition("base", ("wide",)),))
+    >>> [own.tolist() for own in explained_otherwise(wide, table)]
+    [[1, 0], [1, 0]]
     """
-    if candidate.label not in table.classes or not table.explained.any():
-        return 0, 0
+    if candidate.label not in table.classes:
+        none = np.zeros(len(table.vectors), dtype=np.int64)
+        return none, none
     place = table.classes.index(candidate.label)
-    rows = table.satisfying(candidate.conditions) & table.explained[:, place]
+    explained = np.where(table.satisfying(candidate.conditions), table.explained[:, place], 0)
     asked = [list(table.features).index(own.feature) for own in candidate.conditions]
-    lacking = rows & ~table.named[:, place, asked].all(axis=1)
-    scenes = table.counts[:, place]
-    return int(scenes[rows].sum()), int(scenes[lacking].sum())
+    return explained, np.where(table.named[:, place, asked].all(axis=1), 0, explained)
+
+
+def _beyond_errors(
+    wrong: NDArray[np.int64], scenes: NDArray[np.int64], tolerance: float
+) -> NDArray[np.bool_]:
+    """Whether more of some scenes are annotated wrongly than errors of annotation explain."""
+    if tolerance == 0.0:
+        return np.asarray(wrong > 0)
+    return np.asarray(binom.sf(wrong - 1, scenes, tolerance) < _IMPLAUSIBLE)
 
 
 @lru_cache(maxsize=256)
 def _speaks_against(table: SceneTable, label: str, tolerance: float) -> Rows:
     """The rows with more scenes of other classes than errors of annotation explain."""
     wrong = table.totals - table.of_class(label)
-    if tolerance == 0.0:
-        return np.asarray(wrong > 0)
-    return np.asarray(binom.sf(wrong - 1, table.totals, tolerance) < _IMPLAUSIBLE)
+    return _beyond_errors(wrong, table.totals, tolerance)
 
 
 def settled(table: SceneTable, tolerance: float) -> Rows:
@@ -161,9 +174,7 @@ def settled(table: SceneTable, tolerance: float) -> Rows:
     [False, True]
     """
     wrong = table.totals - table.counts.max(axis=1, initial=0)
-    if tolerance == 0.0:
-        return np.asarray(wrong == 0)
-    return np.asarray(binom.sf(wrong - 1, table.totals, tolerance) >= _IMPLAUSIBLE)
+    return ~_beyond_errors(wrong, table.totals, tolerance)
 
 
 def chance(

@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 from numpy.typing import NDArray
 
-from seewhy.induction.candidate import Candidate, is_borne_out, tally
+from seewhy.induction.candidate import Candidate, is_borne_out
 from seewhy.induction.scene_table import UNKNOWN, SceneTable
 from seewhy.induction.tree import PathCondition
 
@@ -20,8 +20,8 @@ def explained_candidates(
     """What the explanations of scenes that are left propose.
 
     A scene's values of the features that are named as its reasons are a candidate. Further values
-    are allowed where a scene with them speaks for it and none against, but no condition is
-    dropped: whoever said why takes it to matter.
+    are allowed where a scene with them is explained by the same features, and none speaks against
+    it. No condition is dropped: whoever said why takes it to matter.
 
     Parameters
     ----------
@@ -50,14 +50,15 @@ def explained_candidates(
     >>> from seewhy.induction.scene_table import scene_table
     >>> table = scene_table({"n": ("1", "2", "3"), "lean": ("yes", "no")},
     ...                     [("1", "no"), ("2", "no"), ("3", "no")], ["up", "up", "down"],
-    ...                     reasons=[frozenset({"n"}), None, None])
-    >>> [(seed, grown)] = explained_candidates(table, table.counts, tolerance=0.0)
-    >>> grown.conditions
-    (PathCondition(feature='n', values=('1', '2')),)
+    ...                     reasons=[frozenset({"n"}), frozenset({"n"}), None])
+    >>> for seed, grown in explained_candidates(table, table.counts, tolerance=0.0):
+    ...     print(seed.conditions[0].values, grown.conditions[0].values)
+    ('1',) ('1', '2')
+    ('2',) ('1', '2')
     """
     seeds: Counter[Candidate] = Counter()
     features = list(table.features)
-    for row, place in np.argwhere(table.explained & (left > 0)).tolist():
+    for row, place in np.argwhere((table.explained > 0) & (left > 0)).tolist():
         named = np.flatnonzero(table.named[row, place]).tolist()
         if any(table.codes[row, own] == UNKNOWN for own in named):
             continue
@@ -71,6 +72,9 @@ def explained_candidates(
 def _widened(candidate: Candidate, table: SceneTable, tolerance: float) -> Candidate:
     if not is_borne_out(candidate, table, tolerance):
         return candidate
+    place = table.classes.index(candidate.label)
+    asked = {own.feature for own in candidate.conditions}
+    same = (table.named[:, place] == [own in asked for own in table.features]).all(axis=1)
     for number, condition in enumerate(candidate.conditions):
         values = table.features[condition.feature]
         for value in values:
@@ -81,7 +85,7 @@ def _widened(candidate: Candidate, table: SceneTable, tolerance: float) -> Candi
             conditions = list(candidate.conditions)
             conditions[number] = PathCondition(condition.feature, wider)
             grown = Candidate(candidate.label, tuple(conditions))
-            more = tally(grown, table).right > tally(candidate, table).right
-            if more and is_borne_out(grown, table, tolerance):
+            new = table.satisfying(grown.conditions) & ~table.satisfying(candidate.conditions)
+            if (new & same).any() and is_borne_out(grown, table, tolerance):
                 candidate = grown
     return candidate

@@ -40,6 +40,13 @@ __all__ = [
 BY_CHANCE = 0.01
 """A candidate that would fit by chance more often than this is not proposed."""
 
+ENOUGH_EXPLAINED = 2
+"""So many scenes that somebody explains alike are no accident, whatever chance says.
+
+Chosen on structures of seed 77, which no table of the evaluation has: with 100 of them 98.8 % of
+the others are decided as by the full knowledge, against 95.0 % where chance is always asked.
+"""
+
 _MOST_ROUNDS = 100
 
 Decide = Callable[[Sequence[Candidate], Sequence[FeatureVector]], Sequence[Decision]]
@@ -209,7 +216,7 @@ def learn_axioms(
         decisions = decide(known, table.vectors)
         left = _left(table, decisions)
         left *= settled(table, options.tolerance)[:, None]
-        unexplained = np.where(table.explained, 0, left)
+        unexplained = np.where(table.explained > 0, 0, left)
         tree = _grown(table, unexplained, options)
         paths = _paths(tree, table, unexplained)
         first = first or (tree, paths)
@@ -287,7 +294,7 @@ def _explained(
             continue
         seen.add(candidate)
         own = tally(candidate, table, left)
-        explained, otherwise = explained_otherwise(candidate, table)
+        explained, otherwise = (int(own.sum()) for own in explained_otherwise(candidate, table))
         fate, reason = Fate.ACCEPTED, ""
         if not is_borne_out(candidate, table, options.tolerance):
             fate = Fate.REJECTED
@@ -296,7 +303,10 @@ def _explained(
                 if otherwise
                 else f"{own.wrong} scenes speak against it"
             )
-        elif chance(candidate, table, own, searched=False) > BY_CHANCE:
+        elif (
+            explained < ENOUGH_EXPLAINED
+            and chance(candidate, table, own, searched=False) > BY_CHANCE
+        ):
             fate, reason = Fate.DROPPED, "so few scenes could be alike by chance"
         yield Judgement(path, candidate, own, fate, reason)
 

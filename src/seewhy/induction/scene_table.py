@@ -38,8 +38,8 @@ class SceneTable:
         How many scenes of each class look like this.
     scenes : tuple of tuple of int, length rows
         The positions of these scenes among those that the table was made of.
-    explained : ndarray of bool, shape (rows, classes)
-        Whether somebody said why scenes that look like this are of the class.
+    explained : ndarray of int, shape (rows, classes)
+        Of how many of them somebody said why they are of the class.
     named : ndarray of bool, shape (rows, classes, features)
         Which features are the reasons, as most of those who said why have it.
 
@@ -57,7 +57,7 @@ class SceneTable:
     codes: NDArray[np.int64]
     counts: NDArray[np.int64]
     scenes: tuple[tuple[int, ...], ...]
-    explained: NDArray[np.bool_]
+    explained: NDArray[np.int64]
     named: NDArray[np.bool_]
 
     def satisfying(self, conditions: Sequence[PathCondition]) -> Rows:
@@ -95,6 +95,11 @@ class SceneTable:
         return own
 
     @cached_property
+    def explains(self) -> bool:
+        """Whether somebody said of any scene why it is of its class."""
+        return bool(self.explained.any())
+
+    @cached_property
     def totals(self) -> NDArray[np.int64]:
         """How many scenes each row stands for."""
         totals: NDArray[np.int64] = self.counts.sum(axis=1)
@@ -118,7 +123,7 @@ def scene_table(
     >>> table = scene_table({"lean": ("yes", "no"), "base": ("wide", "narrow")},
     ...                     [("no", "wide")], ["up"], reasons=[frozenset({"lean"})])
     >>> table.explained.tolist(), table.named.tolist()
-    ([[True]], [[[True, False]]])
+    ([[1]], [[[True, False]]])
     """
     values = {name: tuple(own) for name, own in features.items()}
     places = [{value: n for n, value in enumerate(own)} for own in values.values()]
@@ -135,7 +140,7 @@ def scene_table(
             for place, value in zip(places, vector, strict=True)
         ]
         np.add.at(counts[row], [numbers[labels[n]] for n in positions], 1)
-    explained = np.zeros(counts.shape, dtype=bool)
+    explained = np.zeros_like(counts)
     named = np.zeros((*counts.shape, len(values)), dtype=bool)
     said: dict[tuple[int, int], Counter[Reasons]] = {}
     for row, positions in enumerate(found.values()) if any(reasons) else ():
@@ -143,7 +148,7 @@ def scene_table(
             if own := reasons[n]:
                 said.setdefault((row, numbers[labels[n]]), Counter())[own] += 1
     for place, heard in said.items():
-        explained[place] = True
+        explained[place] = heard.total()
         most = max(heard, key=lambda own: (heard[own], -len(own), sorted(own)))
         named[place] = [feature in most for feature in values]
     return SceneTable(
