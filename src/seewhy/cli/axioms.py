@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from seewhy.cli.learn import axiom_dict, withdrawn_dict, withdrawn_line
+from seewhy.cli.axiom_lines import axiom_dict, withdrawn_dict, withdrawn_line
 from seewhy.cli.options import Json, ModelFolder
 from seewhy.cli.screen import add_row, output, print_json, say, table
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from seewhy.cli.axiom_lines import axiom_dict, rests, withdrawn_dict, withdrawn_line
 from seewhy.cli.options import Json, Seed
 from seewhy.cli.robot import Without, with_knowledge_of_robot
 from seewhy.cli.screen import percent, print_json, say
@@ -176,7 +177,7 @@ def _ask(axioms: Sequence[Axiom], *, else_: str = _MODEL_STAYS) -> list[Axiom]:
     chosen = []
     for axiom in axioms:
         say(f"{axiom.text}")
-        say(f"  {axiom}  learned from {_rests(axiom)}")
+        say(f"  {axiom}  learned from {rests(axiom)}")
         if _confirmed("add this axiom?", else_=else_):
             chosen.append(axiom)
     return chosen
@@ -204,11 +205,6 @@ def _confirmed(question: str, *, else_: str = _MODEL_STAYS) -> bool:
 
 def _none(_: Sequence[object]) -> list[Any]:
     return []
-
-
-def _rests(axiom: Axiom) -> str:
-    origin = axiom.origin
-    return f"{origin.support} {origin.things}, {percent(origin.precision)} of them rightly"
 
 
 def _accuracy(agent: Agent, dataset: Dataset) -> dict[str, float]:
@@ -250,43 +246,6 @@ def learning_dict(agent: Agent, learning: Learning) -> dict[str, Any]:
     }
 
 
-def axiom_dict(axiom: Axiom) -> dict[str, Any]:
-    """An axiom as values that JSON can hold."""
-    origin = axiom.origin
-    return {
-        "identifier": axiom.identifier,
-        "statement": str(axiom),
-        "text": axiom.text,
-        "learned": origin.learned,
-        **(
-            {
-                "support": origin.support,
-                "precision": origin.precision,
-                "pictures": list(origin.pictures),
-            }
-            if origin.learned
-            else {}
-        ),
-    }
-
-
-def withdrawn_dict(agent: Agent, gone: Withdrawn) -> dict[str, Any]:
-    """An axiom that is known no more, as values that JSON can hold."""
-    found = {"statement": gone.statement, "reason": gone.reason, "given": gone.given}
-    return {**found, "identifier": _identifier(agent, gone)} if gone.given else found
-
-
-def withdrawn_line(agent: Agent, gone: Withdrawn) -> str:
-    """An axiom that is known no more, and why; given ones with the name to restore them by."""
-    name = f" {_identifier(agent, gone)}" if gone.given else ""
-    return f"{gone.fate}{name}: {gone.statement} {gone.reason}"
-
-
-def _identifier(agent: Agent, gone: Withdrawn) -> str:
-    axioms = agent.given.knowledge.axioms
-    return next((own.identifier for own in axioms if str(own) == gone.statement), "")
-
-
 def print_learning(agent: Agent, learning: Learning) -> None:
     """Print every candidate with its verdict, and what was added and withdrawn."""
     from seewhy.induction.sentence import say_rule, things
@@ -300,4 +259,4 @@ def print_learning(agent: Agent, learning: Learning) -> None:
     if not learning.found:
         say("no axiom is to be learned from these pictures")
     for axiom in learning.added:
-        say(f"added {axiom.identifier}: {axiom}  ({_rests(axiom)})")
+        say(f"added {axiom.identifier}: {axiom}  ({rests(axiom)})")

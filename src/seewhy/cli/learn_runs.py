@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from seewhy.cli.axiom_lines import axiom_dict
 from seewhy.cli.screen import percent, print_json, remark, say
 
 if TYPE_CHECKING:
@@ -79,8 +80,6 @@ def _print(found: LearnedFromRuns, added: Sequence[Axiom]) -> None:
 
 
 def _to_dict(found: LearnedFromRuns, added: Sequence[Axiom]) -> dict[str, Any]:
-    from seewhy.cli.learn import axiom_dict
-
     return {
         "runs": found.runs,
         "observations": found.observations,
