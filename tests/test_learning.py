@@ -267,7 +267,7 @@ def test_what_is_explained_otherwise_is_rejected_and_says_so() -> None:
     said = {own.candidate.conditions: (own.fate, own.reason) for own in learned.judgements}
     assert said[(PathCondition("lean", ("no",)),)] == (
         Fate.REJECTED,
-        "of 60 scenes that are explained, 15 are for other reasons",
+        "15 of 60 are explained by other reasons",
     )
     assert said[(PathCondition("size", ("1",)),)] == (Fate.REJECTED, "15 scenes speak against it")
     assert not learned.accepted

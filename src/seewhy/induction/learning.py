@@ -298,11 +298,10 @@ def _explained(
         fate, reason = Fate.ACCEPTED, ""
         if not is_borne_out(candidate, table, options.tolerance):
             fate = Fate.REJECTED
-            reason = (
-                f"of {explained} scenes that are explained, {otherwise} are for other reasons"
-                if otherwise
-                else f"{own.wrong} scenes speak against it"
-            )
+            against = [f"{own.wrong} scenes speak against it"] if own.wrong else []
+            if otherwise:
+                against.append(f"{otherwise} of {explained} are explained by other reasons")
+            reason = " and ".join(against)
         elif (
             explained < ENOUGH_EXPLAINED
             and chance(candidate, table, own, searched=False) > BY_CHANCE
