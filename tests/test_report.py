@@ -108,7 +108,7 @@ def test_a_tree_with_unknown_values_is_drawn(tiles: Domain) -> None:
 def test_no_tree_as_a_figure(tiles: Domain) -> None:
     tree = DecisionTree({key: own.values for key, own in tiles.features.items()})
     assert " ".join(texts(draw_tree(tiles, tree))) == (
-        "The knowledge decides every training scene rightly: there is no tree."
+        "No training scene is left for it: there is no tree."
     )
 
 

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seewhy.domain import Domain
+from seewhy.domain_tables import RESERVED
 from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.nearest import did_you_mean
 
 TABLE = "scenes.csv"
-RESERVED = ("image", "class", "split", "group", "reasons")
 SPLITS = ("train", "test")
 
 

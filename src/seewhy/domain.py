@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from seewhy.domain_tables import (
     CLASS,
+    RESERVED,
     TOGETHER,
     BeliefTable,
     ClassTable,
@@ -301,6 +302,11 @@ def _feature(
         raise DomainError(
             f"{here()}: '{key}' is what other networks than a feature's are called; call the "
             "feature otherwise"
+        )
+    if key in RESERVED:
+        raise DomainError(
+            f"{here()}: '{key}' is what another column of scenes.csv is called; call the feature "
+            "otherwise"
         )
     if predicate is None:
         raise DomainError(

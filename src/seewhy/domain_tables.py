@@ -13,6 +13,8 @@ ReadingRule = OneOf["argmax", "consistent", "with_class"]
 READINGS: tuple[ReadingRule, ...] = get_args(ReadingRule)
 
 CLASS = "class"
+RESERVED = ("image", CLASS, "split", "group", "reasons")
+"""Columns of scenes.csv that are no features."""
 """What the network of the class is called among those of the features."""
 
 TOGETHER = "together"

@@ -102,11 +102,10 @@ class Learning:
 def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) -> AnnotatedScenes:
     """Return the scenes of a dataset and those that were counted before, none of them twice.
 
-    ``known`` are the digests of the pictures that ``experience`` counts. Reasons that the dataset
-    has are those of all scenes that look the same.
+    ``known`` are the digests of the pictures that ``experience`` counts.
     """
     names: dict[tuple[FeatureVector, str], list[str]] = {}
-    said: dict[tuple[FeatureVector, str], Counter[Reasons]] = {}
+    said: dict[tuple[FeatureVector, str], list[Reasons | None]] = {}
     counts: Counter[tuple[FeatureVector, str]] = Counter(
         {(v, label): n for v, own in experience.items() for label, n in own.items()}
     )
@@ -114,18 +113,20 @@ def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) 
         key = scene.vector, scene.label
         names.setdefault(key, []).append(_name(dataset, scene))
         counts[key] += digest not in known
-        if scene.reasons:
-            said.setdefault(key, Counter())[frozenset(scene.reasons)] += 1
+        said.setdefault(key, []).append(frozenset(scene.reasons) or None)
     rows = [
-        (vector, label, (names.get((vector, label), []) + [""] * count)[:count])
-        for (vector, label), count in counts.items()
+        (
+            *key,
+            (names.get(key, []) + [""] * count)[:count],
+            (said.get(key, []) + [None] * count)[:count],
+        )
+        for key, count in counts.items()
     ]
-    usual = {key: own.most_common(1)[0][0] for key, own in said.items()}
     return AnnotatedScenes(
-        tuple(vector for vector, _, own in rows for _ in own),
-        tuple(label for _, label, own in rows for _ in own),
-        tuple(name for _, _, own in rows for name in own),
-        tuple(usual.get((vector, label)) for vector, label, own in rows for _ in own),
+        tuple(vector for vector, _, own, _ in rows for _ in own),
+        tuple(label for _, label, own, _ in rows for _ in own),
+        tuple(name for _, _, own, _ in rows for name in own),
+        tuple(reasons for _, _, _, own in rows for reasons in own),
     )
 
 

@@ -106,9 +106,9 @@ def is_borne_out(candidate: Candidate, table: SceneTable, tolerance: float) -> b
     False
     """
     rows = table.satisfying(candidate.conditions)
-    if _speaks_against(table, candidate.label, tolerance)[rows].any():
+    if speaks_against(table, candidate.label, tolerance)[rows].any():
         return False
-    if table.explains:
+    if len(table.explanations.rows):
         explained, otherwise = explained_otherwise(candidate, table)
         if _beyond_errors(otherwise, explained, tolerance).any() or _beyond_errors(
             otherwise.sum(), explained.sum(), tolerance
@@ -137,13 +137,16 @@ def explained_otherwise(
     >>> [own.tolist() for own in explained_otherwise(wide, table)]
     [[1, 0], [1, 0]]
     """
-    if candidate.label not in table.classes:
-        none = np.zeros(len(table.vectors), dtype=np.int64)
-        return none, none
-    place = table.classes.index(candidate.label)
-    explained = np.where(table.satisfying(candidate.conditions), table.explained[:, place], 0)
+    said = table.explanations
     asked = [list(table.features).index(own.feature) for own in candidate.conditions]
-    return explained, np.where(table.named[:, place, asked].all(axis=1), 0, explained)
+    place = table.classes.index(candidate.label) if candidate.label in table.classes else -1
+    ours = table.satisfying(candidate.conditions)[said.rows] & (said.classes == place)
+    lacking = ours & ~said.named[:, asked].all(axis=1)
+    explained, otherwise = (
+        np.bincount(said.rows, weights=said.counts * some, minlength=len(table.vectors))
+        for some in (ours, lacking)
+    )
+    return explained.astype(np.int64), otherwise.astype(np.int64)
 
 
 def _beyond_errors(
@@ -156,7 +159,7 @@ def _beyond_errors(
 
 
 @lru_cache(maxsize=256)
-def _speaks_against(table: SceneTable, label: str, tolerance: float) -> Rows:
+def speaks_against(table: SceneTable, label: str, tolerance: float) -> Rows:
     """The rows with more scenes of other classes than errors of annotation explain."""
     wrong = table.totals - table.of_class(label)
     return _beyond_errors(wrong, table.totals, tolerance)

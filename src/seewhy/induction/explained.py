@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 from numpy.typing import NDArray
 
-from seewhy.induction.candidate import Candidate, is_borne_out
+from seewhy.induction.candidate import Candidate, is_borne_out, speaks_against
 from seewhy.induction.scene_table import UNKNOWN, SceneTable
 from seewhy.induction.tree import PathCondition
 
@@ -57,14 +57,18 @@ def explained_candidates(
     ('2',) ('1', '2')
     """
     seeds: Counter[Candidate] = Counter()
-    features = list(table.features)
-    for row, place in np.argwhere((table.explained > 0) & (left > 0)).tolist():
-        named = np.flatnonzero(table.named[row, place]).tolist()
-        if any(table.codes[row, own] == UNKNOWN for own in named):
+    features, said = list(table.features), table.explanations
+    for n, (row, place) in enumerate(zip(said.rows.tolist(), said.classes.tolist(), strict=True)):
+        named = np.flatnonzero(said.named[n]).tolist()
+        label, vector = table.classes[place], table.vectors[row]
+        if (
+            not left[row, place]
+            or speaks_against(table, label, tolerance)[row]
+            or any(table.codes[row, own] == UNKNOWN for own in named)
+        ):
             continue
-        vector = table.vectors[row]
         conditions = tuple(PathCondition(features[own], (str(vector[own]),)) for own in named)
-        seeds[Candidate(table.classes[place], conditions)] += int(left[row, place])
+        seeds[Candidate(label, conditions)] += int(said.counts[n])
     ordered = sorted(seeds, key=lambda own: (own.literals, -seeds[own]))
     return [(own, _widened(own, table, tolerance)) for own in ordered]
 
@@ -72,9 +76,11 @@ def explained_candidates(
 def _widened(candidate: Candidate, table: SceneTable, tolerance: float) -> Candidate:
     if not is_borne_out(candidate, table, tolerance):
         return candidate
-    place = table.classes.index(candidate.label)
+    said = table.explanations
     asked = {own.feature for own in candidate.conditions}
-    same = (table.named[:, place] == [own in asked for own in table.features]).all(axis=1)
+    alike = (said.classes == table.classes.index(candidate.label)) & (
+        said.named == [own in asked for own in table.features]
+    ).all(axis=1)
     for number, condition in enumerate(candidate.conditions):
         values = table.features[condition.feature]
         for value in values:
@@ -86,6 +92,6 @@ def _widened(candidate: Candidate, table: SceneTable, tolerance: float) -> Candi
             conditions[number] = PathCondition(condition.feature, wider)
             grown = Candidate(candidate.label, tuple(conditions))
             new = table.satisfying(grown.conditions) & ~table.satisfying(candidate.conditions)
-            if (new & same).any() and is_borne_out(grown, table, tolerance):
+            if new[said.rows[alike]].any() and is_borne_out(grown, table, tolerance):
                 candidate = grown
     return candidate

@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from seewhy.induction.candidate import Candidate, is_borne_out, tally
+from seewhy.induction.candidate import Candidate, explained_otherwise, is_borne_out, tally
 from seewhy.induction.scene_table import SceneTable
 from seewhy.induction.tree import PathCondition
 
@@ -50,9 +50,7 @@ def _narrowed(candidate: Candidate, table: SceneTable, left: NDArray[np.int64]) 
     """The candidate with the best value demanded alone, or the worst one excluded."""
     spoken = table.satisfying(candidate.conditions)
     own = table.of_class(candidate.label)
-    wrong = np.where(spoken, table.totals - own, 0)
-    if not wrong.any():
-        return None  # what speaks against it are reasons: none is named by adding one
+    wrong = np.where(spoken, table.totals - own, 0) + explained_otherwise(candidate, table)[1]
     ours = np.where(spoken, left[:, table.classes.index(candidate.label)], 0)
     conditions = {own.feature: own.values for own in candidate.conditions}
     best: tuple[float, str, tuple[str, ...]] | None = None

@@ -23,6 +23,26 @@ Rows = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
+class Explanations:
+    """Why scenes are of their class, as somebody said: equal ones about equal scenes are one.
+
+    Attributes
+    ----------
+    rows, classes : ndarray of int, shape (explanations,)
+        The row of the table, and the place of the class.
+    named : ndarray of bool, shape (explanations, features)
+        Which features are the reasons.
+    counts : ndarray of int, shape (explanations,)
+        Of how many scenes this was said.
+    """
+
+    rows: NDArray[np.int64]
+    classes: NDArray[np.int64]
+    named: NDArray[np.bool_]
+    counts: NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
 class SceneTable:
     """Annotated scenes, equal feature vectors put together; a table equals itself alone.
 
@@ -38,10 +58,8 @@ class SceneTable:
         How many scenes of each class look like this.
     scenes : tuple of tuple of int, length rows
         The positions of these scenes among those that the table was made of.
-    explained : ndarray of int, shape (rows, classes)
-        Of how many of them somebody said why they are of the class.
-    named : ndarray of bool, shape (rows, classes, features)
-        Which features are the reasons, as most of those who said why have it.
+    explanations : Explanations
+        What somebody said of why they are of their class.
 
     Examples
     --------
@@ -57,8 +75,7 @@ class SceneTable:
     codes: NDArray[np.int64]
     counts: NDArray[np.int64]
     scenes: tuple[tuple[int, ...], ...]
-    explained: NDArray[np.int64]
-    named: NDArray[np.bool_]
+    explanations: Explanations
 
     def satisfying(self, conditions: Sequence[PathCondition]) -> Rows:
         """Return which rows satisfy all conditions; a value that is not known satisfies none.
@@ -95,9 +112,12 @@ class SceneTable:
         return own
 
     @cached_property
-    def explains(self) -> bool:
-        """Whether somebody said of any scene why it is of its class."""
-        return bool(self.explained.any())
+    def explained(self) -> NDArray[np.int64]:
+        """Of how many scenes of each row and class somebody said why: shape (rows, classes)."""
+        found = np.zeros_like(self.counts)
+        said = self.explanations
+        np.add.at(found, (said.rows, said.classes), said.counts)
+        return found
 
     @cached_property
     def totals(self) -> NDArray[np.int64]:
@@ -122,8 +142,8 @@ def scene_table(
     --------
     >>> table = scene_table({"lean": ("yes", "no"), "base": ("wide", "narrow")},
     ...                     [("no", "wide")], ["up"], reasons=[frozenset({"lean"})])
-    >>> table.explained.tolist(), table.named.tolist()
-    ([[1]], [[[True, False]]])
+    >>> table.explained.tolist(), table.explanations.named.tolist()
+    ([[1]], [[True, False]])
     """
     values = {name: tuple(own) for name, own in features.items()}
     places = [{value: n for n, value in enumerate(own)} for own in values.values()]
@@ -140,17 +160,9 @@ def scene_table(
             for place, value in zip(places, vector, strict=True)
         ]
         np.add.at(counts[row], [numbers[labels[n]] for n in positions], 1)
-    explained = np.zeros_like(counts)
-    named = np.zeros((*counts.shape, len(values)), dtype=bool)
-    said: dict[tuple[int, int], Counter[Reasons]] = {}
+    said: Counter[tuple[int, int, Reasons]] = Counter()
     for row, positions in enumerate(found.values()) if any(reasons) else ():
-        for n in positions:
-            if own := reasons[n]:
-                said.setdefault((row, numbers[labels[n]]), Counter())[own] += 1
-    for place, heard in said.items():
-        explained[place] = heard.total()
-        most = max(heard, key=lambda own: (heard[own], -len(own), sorted(own)))
-        named[place] = [feature in most for feature in values]
+        said.update((row, numbers[labels[n]], own) for n in positions if (own := reasons[n]))
     return SceneTable(
         values,
         classes,
@@ -158,6 +170,12 @@ def scene_table(
         codes,
         counts,
         tuple(map(tuple, found.values())),
-        explained,
-        named,
+        Explanations(
+            np.array([row for row, _, _ in said], dtype=np.int64),
+            np.array([place for _, place, _ in said], dtype=np.int64),
+            np.array([[f in own for f in values] for _, _, own in said], dtype=bool).reshape(
+                len(said), len(values)
+            ),
+            np.array(list(said.values()), dtype=np.int64),
+        ),
     )

@@ -33,7 +33,7 @@ def draw_tree(domain: Domain, tree: DecisionTree, *, accepted: Collection[int] =
     root = tree.root()
     if root is None:
         text, _ = text_lines(
-            "The knowledge decides every training scene rightly: there is no tree.",
+            "No training scene is left for it: there is no tree.",
             10, 24, width=80, fill="#222222",
         )  # fmt: skip
         return Figure(width=480, height=40, content=text)
