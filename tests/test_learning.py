@@ -50,6 +50,7 @@ from seewhy.learning import (
     axioms_of,
     contradicted,
     learn_for_domain,
+    scenes_of,
     with_candidates,
 )
 from seewhy.refutation import refuted
@@ -313,6 +314,96 @@ def test_what_is_learned_asks_nothing_that_no_reason_names(data: st.DataObject) 
         ]
         assert {of[v] for v in spoken} == {own.candidate.label}
         assert all(asked <= (why[v] or asked) for v in spoken)
+
+
+LEAN, COLOUR, BOTH = frozenset({"lean"}), frozenset({"colour"}), frozenset({"lean", "colour"})
+
+
+@pytest.mark.parametrize(
+    ("said", "fate"),
+    [
+        ([BOTH], Fate.DROPPED),
+        ([BOTH, BOTH], Fate.ACCEPTED),
+        ([BOTH, None], Fate.DROPPED),
+        ([BOTH, LEAN], Fate.REJECTED),
+    ],
+    ids=["one", "two alike", "one, and one that nobody explains", "two that differ"],
+)
+def test_two_scenes_explained_alike_are_enough(
+    said: list[frozenset[str] | None], fate: Fate
+) -> None:
+    """Half of all scenes are of the class: so few prove nothing by themselves."""
+    vectors = [("1", "red", "yes")] * len(said) + [("2", "green", "no")] * len(said)
+    labels = ["down"] * len(said) + ["up"] * len(said)
+    reasons = [*said, *([LEAN] * len(said))]
+    learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by, reasons=reasons)
+    conditions = (PathCondition("colour", ("red",)), PathCondition("lean", ("yes",)))
+    fates = {own.candidate: own.fate for own in learned.judgements}
+    assert fates[Candidate("down", conditions)] is fate
+
+
+def test_where_one_is_otherwise_two_are_not_enough() -> None:
+    vectors = [("1", "red", "yes")] * 2 + [("1", "blue", "yes")] + [("2", "green", "no")] * 3
+    labels = ["down", "down", "up", "up", "up", "up"]
+    learned = learn_axioms(
+        FEATURES,
+        vectors,
+        labels,
+        decide=decide_by,
+        reasons=[LEAN, LEAN, None, None, None, None],
+        options=LearningOptions(tolerance=0.4),
+    )
+    (own,) = [own for own in learned.judgements if own.path.label == "down" and own.tally.wrong]
+    assert (own.fate, own.tally.right, own.tally.wrong) == (Fate.DROPPED, 2, 1)
+
+
+def test_a_slip_of_who_says_why_is_tolerated_two_of_a_kind_are_not() -> None:
+    vectors = [v for v in SPACE if v[0] in "12"] * 8
+    labels = ["down" if v[2] == "yes" else "up" for v in vectors]
+    down = Candidate("down", (PathCondition("lean", ("yes",)),))
+    for slips, tolerance, learned_again in ((1, 0.0, False), (1, 0.05, True), (4, 0.05, False)):
+        reasons = [LEAN if own == "down" else None for own in labels]
+        ours = [n for n, v in enumerate(vectors) if v == ("1", "red", "yes")]
+        for n in ours[:slips]:
+            reasons[n] = COLOUR
+        learned = learn_axioms(
+            FEATURES,
+            vectors,
+            labels,
+            decide=decide_by,
+            reasons=reasons,
+            options=LearningOptions(tolerance=tolerance),
+        )
+        assert (down in {own.candidate for own in learned.accepted}) == learned_again, slips
+
+
+def test_paths_are_narrowed_around_what_is_explained_otherwise() -> None:
+    """Up are the small ones of one colour, and those that lean: only the latter are explained."""
+    vectors = [v for v in SPACE if not (v[0] == "1" and v[1] == "blue" and v[2] == "no")] * 8
+
+    def is_up(v: tuple[str, ...]) -> bool:
+        return v[2] == "yes" or (v[0] == "1" and v[1] == "red")
+
+    labels = ["up" if is_up(v) else "down" for v in vectors]
+    leaning = frozenset({"lean"})
+    reasons = [leaning if v[2] == "yes" and v[1] != "red" else None for v in vectors]
+    learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by, reasons=reasons)
+    decided = decide_by([own.candidate for own in learned.accepted], vectors)
+    assert [own.label for own in decided] == labels
+
+
+def test_reasons_are_of_the_scenes_that_they_were_given_for(tiles: Domain, tmp_path: Path) -> None:
+    """One of three pictures that look the same is explained, and one was counted before."""
+    (tmp_path / "images").mkdir()
+    rows = []
+    for n, cell in enumerate(("", "colour", "")):
+        Image.new("RGB", (16, 16), (n, 0, 0)).save(tmp_path / "images" / f"{n}.png")
+        rows.append(f"images/{n}.png,good,green,yes,{cell}")
+    table = "\n".join(["image,class,colour,round,reasons", *rows])
+    (tmp_path / "scenes.csv").write_text(table, encoding="utf-8")
+    found = scenes_of(Dataset.load(tmp_path, tiles), {("green", "yes"): {"good": 1}}, ())
+    assert found.pictures == ("images/0.png", "images/1.png", "images/2.png", "")
+    assert found.reasons == (None, frozenset({"colour"}), None, None)
 
 
 def test_scenes_that_nobody_can_place_propose_nothing() -> None:

@@ -504,8 +504,16 @@ def test_a_witness_that_is_not_there_cannot_be_called(tiles: Domain) -> None:
     )
 
 
-@pytest.mark.parametrize("name", ["class", "together"])
-def test_names_of_other_networks_are_no_features(tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [
+        ("class", "other networks than a feature's are"),
+        ("together", "other networks than a feature's are"),
+        ("reasons", "another column of scenes.csv is"),
+        ("group", "another column of scenes.csv is"),
+    ],
+)
+def test_names_of_other_things_are_no_features(tmp_path: Path, name: str, what: str) -> None:
     folder = write_domain(tmp_path / "tiles")
     for file in ("domain.toml", "knowledge.al", "questions.toml"):
         text = (folder / file).read_text()
@@ -513,7 +521,7 @@ def test_names_of_other_networks_are_no_features(tmp_path: Path, name: str) -> N
     with pytest.raises(DomainError) as problem:
         load_domain(folder)
     assert str(problem.value).endswith(
-        f": '{name}' is what other networks than a feature's are called; call the feature otherwise"
+        f": '{name}' is what {what} called; call the feature otherwise"
     )
 
 
