@@ -41,6 +41,12 @@ def test_wilcoxon_is_the_share_of_all_signs() -> None:
     assert found.p_wilcoxon == pytest.approx(2 * above)
 
 
+def test_differences_that_are_the_same_but_for_rounding_are_ties() -> None:
+    # 0.3 - 0.2 and 0.8 - 0.7 are not the same number.
+    found = compare([0.3, 0.8, 0.5, 0.4], [0.2, 0.7, 0.4, 0.5])
+    assert found.p_wilcoxon == stats.wilcoxon([1, 1, 1, -1]).pvalue
+
+
 def test_holm_by_hand() -> None:
     # 0.01·4, then 0.02·3, then 0.03·2 = 0.06 at least as large as the one before, then 0.2.
     assert holm([0.02, 0.2, 0.01, 0.03]) == pytest.approx([0.06, 0.2, 0.04, 0.06])

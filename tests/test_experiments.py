@@ -8,7 +8,7 @@ import json
 import os
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -37,7 +37,7 @@ from seewhy.experiments.end_to_end import questions_to_learn
 from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
 from seewhy.experiments.origin import here
 from seewhy.experiments.questioning import answer_scores, draw_questions, suitable
-from seewhy.experiments.rows import trial_file, write_trial
+from seewhy.experiments.rows import ROWS, TIMINGS, trial_file, write_trial
 from seewhy.experiments.vqa import annotator
 from seewhy.learning import AnnotatedScenes
 
@@ -82,6 +82,20 @@ def finished(hasty: Path, tiles_data: Path, tmp_path_factory: pytest.TempPathFac
             main()
     assert end.value.code == 0
     return out
+
+
+@contextmanager
+def lost(trial: Path) -> Iterator[None]:
+    """A trial that was never run, in a block: neither its file nor a table has it."""
+    tables = [trial.parents[1] / name for name in (ROWS, TIMINGS)]
+    kept = {file: file.read_bytes() for file in (trial, *tables)}
+    for file in kept:
+        file.unlink()
+    try:
+        yield
+    finally:
+        for file, content in kept.items():
+            file.write_bytes(content)
 
 
 def rows_of(folder: Path) -> list[dict[str, str]]:
@@ -136,19 +150,34 @@ def test_a_run_adds_only_what_is_missing(
     trials = finished / "vqa" / "trials"
     before = {file.name: file.stat().st_mtime_ns for file in trials.iterdir()}
     table = (finished / "vqa" / "rows.csv").read_bytes()
-    lost = trials / "30-1.json"
-    lost.unlink()
     (finished / "networks" / "0-30-1.npz").unlink()
     command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
-    result = run(*command, "--out", finished, *SMALL, "--json")
-    assert (result.code, result.err) == (0, "")
-    after = {file.name: file.stat().st_mtime_ns for file in trials.iterdir()}
-    assert after.keys() == before.keys()
-    assert [name for name in before if after[name] != before[name]] == ["30-1.json"]
-    assert (finished / "vqa" / "rows.csv").read_bytes() == table
+    with lost(trials / "30-1.json"):
+        result = run(*command, "--out", finished, *SMALL, "--json")
+        assert (result.code, result.err) == (0, "")
+        after = {file.name: file.stat().st_mtime_ns for file in trials.iterdir()}
+        assert after.keys() == before.keys()
+        assert [name for name in before if after[name] != before[name]] == ["30-1.json"]
+        assert (finished / "vqa" / "rows.csv").read_bytes() == table
     findings = json.loads(result.out)["findings"]
     assert [own["measure"] for own in findings][:2] == ["accuracy", "answers"]
     assert [own["size"] for own in findings[0]["sizes"]] == ["20", "30"]
+
+
+def test_asking_for_less_loses_nothing(
+    run: Run, finished: Path, hasty: Path, tiles_data: Path
+) -> None:
+    tables = [finished / "vqa" / name for name in (ROWS, TIMINGS)]
+    kept = [table.read_bytes() for table in tables]
+    page = (finished / "vqa" / "index.html").read_bytes()
+    command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+    less = ("--trials", 1, "--sizes", "20", "--seed", 1, "--tested", 15, "--jobs", 1)
+    result = run(*command, "--out", finished, *less)
+    assert (result.code, result.err) == (0, "")
+    assert "1 trial:" in result.out.splitlines()[0]
+    assert "1 of 1 trials are finished" in (finished / "vqa" / "index.html").read_text("utf-8")
+    assert [table.read_bytes() for table in tables] == kept
+    (finished / "vqa" / "index.html").write_bytes(page)
 
 
 def test_tables_alone_are_gone_on_from(
@@ -393,8 +422,8 @@ def test_a_damaged_trial_is_named(
         file.write_bytes(kept)
     assert result.code == 2
     assert result.err == (
-        f"seewhy: {file}: is not as it was written; delete it, and the same command runs the "
-        "trial again\n"
+        f"seewhy: {file}: is not as it was written; delete it, and the same command makes it "
+        "again\n"
     )
 
 
@@ -420,15 +449,12 @@ def test_trials_of_a_version_that_compared_others_are_named(
     run: Run, finished: Path, hasty: Path, tiles_data: Path
 ) -> None:
     file = finished / "vqa" / "trials" / "30-1.json"
-    kept = file.read_bytes()
-    content = json.loads(kept)
+    content = json.loads(file.read_bytes())
     earlier = [row for row in content["rows"] if row["system"] != "believing"]
-    try:
+    with lost(file):
         write_trial(finished / "vqa", Trial(1, 30), earlier, made=content["made"])
         command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
         result = run(*command, "--out", finished, *SMALL)
-    finally:
-        file.write_bytes(kept)
     assert result.code == 2
     assert result.err == (
         f"seewhy: {finished / 'vqa'}: holds trials of an earlier version, which compared others "
@@ -447,7 +473,7 @@ def test_what_is_kept_for_trials_may_be_damaged(
         pytest.skip("pixels have no numbers beside them")
     (file,) = finished.glob(pattern)
     trial = finished / "vqa" / "trials" / "20-0.json"
-    kept, lost = file.read_bytes(), trial.read_bytes()
+    kept = file.read_bytes()
     middle = len(kept) // 3
     other = io.BytesIO()
     if file.suffix == ".npz":
@@ -466,14 +492,13 @@ def test_what_is_kept_for_trials_may_be_damaged(
             "byte": kept[:middle] + bytes([kept[middle] ^ 255]) + kept[middle + 1 :],
         }.get(damage, other.getvalue())
     )
-    trial.unlink()
     load_pictures.cache_clear()
     try:
         command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
-        result = run(*command, "--out", finished, *SMALL)
+        with lost(trial):
+            result = run(*command, "--out", finished, *SMALL)
     finally:
         file.write_bytes(kept)
-        trial.write_bytes(lost)
         load_pictures.cache_clear()
     assert (result.code, result.out) == (2, "")
     assert result.err.startswith(f"seewhy: {file}: is not as it was written; delete it, and the")
@@ -485,15 +510,10 @@ def test_trials_of_another_process_are_not_waited_for(
     run: Run, finished: Path, hasty: Path, tiles_data: Path
 ) -> None:
     trial = finished / "vqa" / "trials" / "20-0.json"
-    lost = trial.read_bytes()
-    trial.unlink()
-    try:
-        with claimed(trial):
-            command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
-            result = run(*command, "--out", finished, *SMALL)
+    with lost(trial), claimed(trial):
+        command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
+        result = run(*command, "--out", finished, *SMALL)
         page = (finished / "vqa" / "index.html").read_text(encoding="utf-8")
-    finally:
-        trial.write_bytes(lost)
     assert result.code == 0
     assert result.err == (
         "1 of 4 trials are with other processes; the same command adds them when they are "
@@ -512,6 +532,41 @@ def test_a_folder_of_other_settings(
         f"seewhy: {finished}: holds trials with other settings (tested); choose another folder "
         "with --out, or delete this one\n"
     )
+
+
+def test_pictures_are_kept_where_a_folder_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan = Plan(trials=1, sizes=(20,), pictures=30, tested=5)
+    vqa = replace(experiment("vqa"), full={"": plan}, trial=lambda *_: [])
+    monkeypatch.setattr("seewhy.experiments.running.experiment", lambda _: vqa)
+    running.prepare("vqa", "structure_stability", tmp_path, workers=1)
+    table = tmp_path / "pictures" / "scenes.csv"
+    kept = table.read_bytes()
+    smaller = replace(vqa, full={"": replace(plan, pictures=28)})
+    monkeypatch.setattr("seewhy.experiments.running.experiment", lambda _: smaller)
+    for tested, why in ((4, "other settings (tested)"), (5, "30 pictures, and 28 are asked for")):
+        with pytest.raises(ExperimentError) as error:
+            running.prepare("vqa", "structure_stability", tmp_path, tested=tested, workers=1)
+        assert why in str(error.value)
+        assert table.read_bytes() == kept
+
+
+@pytest.mark.parametrize(
+    ("name", "seed", "says"),
+    [
+        ("vqa", 2**32 - 1, "seeds go up to 4,294,967,295"),
+        ("planning", 10**6 - 1, "from 1,000,000 on they are those of the runs"),
+    ],
+)
+def test_seeds_that_there_are_not(
+    run: Run, tmp_path: Path, name: str, seed: int, says: str
+) -> None:
+    result = run("experiment", name, "--out", tmp_path / "out", "--trials", 2, "--seed", seed)
+    assert (result.code, result.out) == (2, "")
+    assert result.err.startswith("seewhy: --seed: the last of 2 seeds would be ")
+    assert says in result.err
+    assert not list((tmp_path / "out").glob("*"))
 
 
 @pytest.mark.parametrize("text", ["[", "[]", "null", "3", "\xff"])
@@ -571,10 +626,16 @@ def test_work_is_claimed_once(tmp_path: Path) -> None:
     with claimed(work) as first, claimed(work) as second:
         assert (first, second) == (True, False)
     assert not claim.exists()
-    gone = {"host": os.uname().nodename, "process": 2**22 + 1}
+    with claimed(work):
+        this = json.loads(claim.read_text())
+    gone = {**this, "process": 2**22 + 1}
     for text, ours in (
         (json.dumps(gone), True),
-        (json.dumps({**gone, "process": os.getpid()}), False),
+        (json.dumps({**gone, "process": 2**70}), True),
+        (json.dumps(this), False),
+        # The number of a process that ended was given to another.
+        (json.dumps({**this, "started": "before a restart"}), True),
+        (json.dumps({**this, "started": None}), False),
         (json.dumps({**gone, "host": "elsewhere"}), False),
         ("", False),
     ):
@@ -582,10 +643,11 @@ def test_work_is_claimed_once(tmp_path: Path) -> None:
         with claimed(work) as found:
             assert found is ours
         claim.unlink(missing_ok=True)
-    claim.write_text(json.dumps({**gone, "host": "elsewhere"}))
-    os.utime(claim, (1.0, 1.0))
-    with claimed(work) as found:
-        assert found
+    for content in ({**gone, "host": "elsewhere"}, {**this, "started": None}, []):
+        claim.write_text(json.dumps(content))
+        os.utime(claim, (1.0, 1.0))
+        with claimed(work) as found:
+            assert found
 
 
 # Questions ---------------------------------------------------------------------------------------
@@ -778,6 +840,11 @@ def test_one_trial_proves_nothing() -> None:
     assert summary(few).startswith("There are too few")
     assert summary(enough) == "8 of 8 claims hold at every size that was tried."
     assert json.dumps(finding.to_dict(), allow_nan=False)
+    # One trial more of another size takes nothing from what many trials told.
+    more = [*made([0.9] * 9, [0.1] * 9), *made([0.9], [0.1], size=200)]
+    said = summary(conclude("vqa", more, domain="tiles"))
+    assert said.startswith("0 of 8 claims hold at every size that was tried. The hypothesis is")
+    assert said.endswith("At 200 there are too few trials to tell.")
 
 
 def test_an_experiment_is_found_by_name() -> None:

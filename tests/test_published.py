@@ -11,9 +11,18 @@ from hypothesis import strategies as st
 
 from conftest import Run
 from seewhy.errors import ExperimentError
-from seewhy.experiments.experiment import Row, Trial
+from seewhy.experiments.experiment import Measure, Row, Trial
 from seewhy.experiments.published import take_up
-from seewhy.experiments.rows import ROWS, TIMINGS, TRIALS, read_trial, write_table
+from seewhy.experiments.row_check import fault
+from seewhy.experiments.rows import (
+    ROWS,
+    TIMINGS,
+    TRIALS,
+    read_trial,
+    trial_file,
+    write_table,
+    write_trial,
+)
 
 RESULTS = Path(__file__).parents[1] / "results"
 TABLES = sorted(path.parent.relative_to(RESULTS) for path in RESULTS.glob("*/*/rows.csv"))
@@ -71,11 +80,24 @@ def test_every_cell_comes_back(cells: list[tuple[object, object]]) -> None:
         assert read_trial(folder, Trial(0, 9)) == rows
 
 
-def test_a_folder_with_trials_is_left_alone(tmp_path: Path) -> None:
-    # A trial's file that was deleted is to be made again.
-    published(tmp_path, [row(0)])
-    (tmp_path / TRIALS).mkdir()
-    take_up(tmp_path)
+def test_trials_and_tables_are_put_together(tmp_path: Path) -> None:
+    write_trial(tmp_path, Trial(1, 9), [row(1)], made={})
+    times = trial_file(tmp_path, Trial(1, 9)).stat().st_mtime_ns
+    take_up(published(tmp_path, [row(0), row(1)]))
+    assert [read_trial(tmp_path, Trial(seed, 9)) for seed in (0, 1)] == [[row(0)], [row(1)]]
+    assert trial_file(tmp_path, Trial(1, 9)).stat().st_mtime_ns == times
+
+
+@pytest.mark.parametrize("kept", [row(1, accuracy=0.6), row(1, seconds=2.5)])
+def test_a_trial_that_has_other_rows_than_the_tables_is_named(tmp_path: Path, kept: Row) -> None:
+    write_trial(tmp_path, Trial(1, 9), [kept], made={})
+    published(tmp_path, [row(0), row(1)])
+    with pytest.raises(ExperimentError) as error:
+        take_up(tmp_path)
+    assert str(error.value) == (
+        f"{tmp_path}/rows.csv: has other rows than {tmp_path}/trials/9-1.json; delete trials to go "
+        "on from the tables, or rows.csv and timings.csv to write them anew"
+    )
     assert read_trial(tmp_path, Trial(0, 9)) is None
 
 
@@ -100,7 +122,11 @@ def test_there_may_be_nothing(tmp_path: Path) -> None:
         (ROWS, lambda text: text.replace("1,9,a,0.5", "1,9,a,0.5,0.6"),
          "rows.csv: line 3 has not as many columns as the first"),
         (TIMINGS, lambda text: text.replace("1.5", "soon", 1),
-         "timings.csv: line 2 has a time that is no number"),
+         "timings.csv: line 2 has a time that is no number of seconds"),
+        (TIMINGS, lambda text: text.replace("1.5", "-1.5", 1),
+         "timings.csv: line 2 has a time that is no number of seconds"),
+        (TIMINGS, lambda text: text.replace("1.5", "inf", 1),
+         "timings.csv: line 2 has a time that is no number of seconds"),
         (ROWS, lambda text: "\udcff" + text, "rows.csv: is no table"),
         (ROWS, lambda text: text + '3,9,"a', "rows.csv: is no table"),
     ],
@@ -115,6 +141,55 @@ def test_damaged_tables_are_refused(tmp_path: Path, table: str, change, why: str
         f"{folder}/{why}; put rows.csv and timings.csv back as they were written, or delete both, "
         "and the same command runs their trials"
     )
+    assert not (folder / TRIALS).exists()
+
+
+REMEDY = (
+    "; put rows.csv and timings.csv back as they were written, or delete both, and the same "
+    "command runs their trials"
+)
+
+
+@pytest.mark.parametrize(
+    ("rows", "why"),
+    [
+        ([row(0), row(0)], "the trial 9-0 has several rows of 'a'"),
+        ([row(0, "a"), row(0, "b"), row(1, "a")], "the trial 9-1 has no row of 'b'"),
+    ],
+)
+def test_a_trial_has_a_row_of_every_system(tmp_path: Path, rows: list[Row], why: str) -> None:
+    published(tmp_path, rows)
+    with pytest.raises(ExperimentError) as error:
+        take_up(tmp_path)
+    assert str(error.value) == f"{tmp_path}/rows.csv: {why}{REMEDY}"
+    assert not (tmp_path / TRIALS).exists()
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        (("0.5", "abc"), "accuracy is abc, not a share between 0 and 1"),
+        (("0.5", "70.7"), "accuracy is 70.7, not a share between 0 and 1"),
+        (("0.5", "nan"), "accuracy is nan, not a share between 0 and 1"),
+        (("0.5", "True"), "accuracy is True, not a share between 0 and 1"),
+        (("accuracy", "precision"), "accuracy is missing, not a share between 0 and 1"),
+        ((",7,", ",,"), "trained is missing, not a number of pictures or scenes"),
+        ((",8\n", ",x\n"), "tested is x, not a number of pictures or scenes"),
+    ],
+)
+def test_a_row_holds_what_is_told_of_it(tmp_path: Path, change: tuple[str, str], why: str) -> None:
+    rows: list[Row] = [
+        {"seed": 0, "size": 9, "system": "a", "accuracy": 0.5, "trained": 7, "tested": 8}
+    ]
+    folder = published(tmp_path, rows)
+    measures = [Measure("accuracy", "classified rightly")]
+    take_up(folder, fault=lambda row: fault(row, measures))
+    shutil.rmtree(folder / TRIALS)
+    text = (folder / ROWS).read_text()
+    (folder / ROWS).write_text(text.replace(*change))
+    with pytest.raises(ExperimentError) as error:
+        take_up(folder, fault=lambda row: fault(row, measures))
+    assert str(error.value) == f"{folder}/rows.csv: line 2: {why}{REMEDY}"
     assert not (folder / TRIALS).exists()
 
 
@@ -133,6 +208,25 @@ def test_one_table_alone_is_refused(tmp_path: Path) -> None:
     (tmp_path / TIMINGS).unlink()
     with pytest.raises(ExperimentError, match=r"timings\.csv: is missing; put"):
         take_up(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        ((",before,3,", ",before,many,"), "plans is many, not a number"),
+        (("achieved,True,", "achieved,x,"), "it does not say how the trial ended"),
+    ],
+)
+def test_damaged_tables_of_planning_are_refused(
+    run: Run, tmp_path: Path, change: tuple[str, str], why: str
+) -> None:
+    folder = tmp_path / "planning"
+    shutil.copytree(RESULTS / "robot" / "planning", folder)
+    text = (folder / ROWS).read_text(encoding="utf-8")
+    (folder / ROWS).write_text(text.replace(*change, 1), encoding="utf-8")
+    result = run("experiment", "planning", "--out", tmp_path, "--jobs", 1)
+    assert (result.code, result.out) == (2, "")
+    assert result.err == f"seewhy: {folder / ROWS}: line 2: {why}{REMEDY}\n"
 
 
 def test_planning_goes_on_from_published_tables(run: Run, tmp_path: Path) -> None:

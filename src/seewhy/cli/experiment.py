@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -92,7 +91,8 @@ def experiment(
     from seewhy.errors import ExperimentError
     from seewhy.experiments.catalogue import PLANNING
     from seewhy.experiments.conclusions import conclude, summary
-    from seewhy.experiments.running import prepare, run_missing, write_tables
+    from seewhy.experiments.rows import write_tables
+    from seewhy.experiments.running import finished_rows, prepare, run_missing
     from seewhy.files import write_whole
     from seewhy.report.experiment_page import experiment_page
 
@@ -144,7 +144,8 @@ def experiment(
         try:
             run_missing(run, jobs=jobs, on_trial=lambda done: bars.update(task, completed=done))
         finally:
-            rows = write_tables(run)
+            write_tables(run.folder)
+    rows = finished_rows(run)
     findings = conclude(run.experiment, rows, domain=load_domain(domain).name)
     page = run.folder / "index.html"
     write_whole(page, experiment_page(run, rows, findings, command=as_typed()))
@@ -207,7 +208,7 @@ def _planning(
     _remark_unfinished(rows, run.trials)
     found = summary(rows)
     if json:
-        print_json({"page": str(page), "ratios": [asdict(own) for own in found]})
+        print_json({"page": str(page), "ratios": [own.to_dict() for own in found]})
         return
     for sentence in conclusions(found):
         say(sentence)

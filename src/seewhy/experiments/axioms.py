@@ -191,6 +191,9 @@ AXIOMS = Experiment(
         "traffic_signs": Plan(trials=30, sizes=(100, 200, 500, 1000, 2000)),
         "": Plan(trials=30, sizes=(100, 400)),
     },
-    quick={"": Plan(trials=3, sizes=(100, 300), pictures=900, tested=400)},
+    quick={
+        "traffic_signs": Plan(trials=2, sizes=(50, 100)),
+        "": Plan(trials=3, sizes=(100, 300), pictures=900, tested=400),
+    },
     across="annotated scenes to learn from",
 )

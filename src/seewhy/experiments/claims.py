@@ -12,7 +12,7 @@ from pathlib import Path
 
 __all__ = ["claimed"]
 
-_ABANDONED = 2 * 3600.0  # seconds after which a claim of another machine counts for nothing
+_ABANDONED = 2 * 3600.0  # seconds after which a claim lapses that nobody can be asked about
 _WRITING = 60.0  # seconds that a claim may take to be written
 
 
@@ -20,7 +20,7 @@ _WRITING = 60.0  # seconds that a claim may take to be written
 def claimed(work: Path) -> Iterator[bool]:
     """Claim the work whose result will be the file ``work``; yield whether the claim is ours.
 
-    A claim of a process that is gone, or of another machine hours ago, is taken over.
+    A claim of a process that is gone, or of another machine two hours ago, is taken over.
 
     Examples
     --------
@@ -36,7 +36,14 @@ def claimed(work: Path) -> Iterator[bool]:
         file.unlink(missing_ok=True)
     try:
         with file.open("x", encoding="utf-8") as stream:
-            json.dump({"host": socket.gethostname(), "process": os.getpid()}, stream)
+            json.dump(
+                {
+                    "host": socket.gethostname(),
+                    "process": os.getpid(),
+                    "started": _started(os.getpid()),
+                },
+                stream,
+            )
     except FileExistsError:
         yield False
         return
@@ -50,17 +57,33 @@ def _is_abandoned(file: Path) -> bool:
     try:
         age = time.time() - file.stat().st_mtime
         claim = json.loads(file.read_text(encoding="utf-8"))
-        host, process = claim["host"], int(claim["process"])
+        host, process, started = claim["host"], int(claim["process"]), claim.get("started")
     except FileNotFoundError:
         return False
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, AttributeError):
         return age > _WRITING  # half written by a process that was killed, or just being written
     if host != socket.gethostname():
         return age > _ABANDONED
     try:
         os.kill(process, 0)
-    except ProcessLookupError:
+    except (ProcessLookupError, OverflowError):
         return True
     except PermissionError:
-        return False
-    return False
+        pass  # somebody else's process
+    now = _started(process)
+    if started is None or now is None:
+        return age > _ABANDONED
+    return bool(started != now)
+
+
+def _started(process: int) -> str | None:
+    """When a process began, where the system says so (Linux).
+
+    Numbers of processes are used again, after a restart soon.
+    """
+    try:
+        boot = Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
+        status = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace")
+        return f"{boot} {status.rpartition(')')[2].split()[19]}"
+    except (OSError, UnicodeDecodeError, IndexError):
+        return None

@@ -11,7 +11,7 @@ from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.experiment import ALL, Claim, Experiment, Row, say_size
 from seewhy.experiments.statistics import LEVEL, Paired, compare, holm
 
-__all__ = ["Compared", "Finding", "conclude", "summary", "values_of"]
+__all__ = ["Compared", "Finding", "conclude", "finite", "summary", "values_of"]
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,19 @@ class Compared:
         if math.isnan(largest) or largest >= LEVEL or self.paired.difference.mean == 0.0:
             return "open"
         return "better" if self.paired.difference.mean > 0.0 else "worse"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the comparison as values that JSON can hold."""
+        return {
+            **finite(asdict(self.paired)),
+            **finite(
+                {
+                    "corrected_t": self.corrected_t,
+                    "corrected_wilcoxon": self.corrected_wilcoxon,
+                }
+            ),
+            "verdict": self.verdict,
+        }
 
 
 @dataclass(frozen=True)
@@ -57,22 +70,20 @@ class Finding:
             **asdict(self.claim),
             "supported": self.supported,
             "text": self.text,
-            "sizes": [
-                {
-                    "size": say_size(own.size),
-                    **_finite(asdict(own.paired)),
-                    "corrected_t": _number(own.corrected_t),
-                    "corrected_wilcoxon": _number(own.corrected_wilcoxon),
-                    "verdict": own.verdict,
-                }
-                for own in self.compared
-            ],
+            "sizes": [{"size": say_size(own.size), **own.to_dict()} for own in self.compared],
         }
 
 
-def _finite(values: dict[str, Any]) -> dict[str, Any]:
+def finite(values: dict[str, Any]) -> dict[str, Any]:
+    """Return values with None for every number that JSON has no word for.
+
+    Examples
+    --------
+    >>> finite({"p": float("nan"), "interval": {"low": 0.5}})
+    {'p': None, 'interval': {'low': 0.5}}
+    """
     return {
-        key: _finite(own) if isinstance(own, dict) else _number(own) for key, own in values.items()
+        key: finite(own) if isinstance(own, dict) else _number(own) for key, own in values.items()
     }
 
 
@@ -98,10 +109,12 @@ def conclude(name: str, rows: Sequence[Row], *, domain: str) -> list[Finding]:
 
 def summary(findings: Sequence[Finding]) -> str:
     """Say in a sentence or two how many claims the trials bear out, and where they do not."""
-    if any(map(_too_few, findings)):
+    sizes = {found.size for own in findings for found in own.compared}
+    thin = {size for own in findings for size in _too_few(own)}
+    if sizes and thin == sizes:
         return (
-            "There are too few trials for any difference to be significant after correction; what "
-            "follows says where to look, and no more."
+            "There are too few trials for any difference to be significant after correction; the "
+            "differences say where to look, and no more."
         )
     held = sum(own.supported for own in findings)
     said = f"{held} of {len(findings)} claims hold at every size that was tried."
@@ -109,6 +122,8 @@ def summary(findings: Sequence[Finding]) -> str:
     if missed:
         parts = [f"{own.subject} at {_say_sizes(own)}" for own in missed]
         said += f" The hypothesis is not supported for {'; '.join(parts)}."
+    if thin:
+        said += f" At {', '.join(map(say_size, sorted(thin)))} there are too few trials to tell."
     return said
 
 
@@ -118,10 +133,14 @@ def _say_sizes(finding: Finding) -> str:
     return ", ".join(map(say_size, finding.failed))
 
 
-def _too_few(finding: Finding) -> bool:
-    """Whether Wilcoxon's test could not reach the level, were one system better in every trial."""
-    sizes = len(finding.compared)
-    return any(sizes * 2.0 ** (1 - own.paired.trials) >= LEVEL for own in finding.compared)
+def _too_few(finding: Finding) -> list[int]:
+    """Sizes at which Wilcoxon's test cannot reach the level, were one always better."""
+    # The more trials, the smaller a p-value can be; where Holm's procedure ends, none counts.
+    ordered = sorted(finding.compared, key=lambda own: -own.paired.trials)
+    for rank, own in enumerate(ordered):
+        if (len(ordered) - rank) * 2.0 ** (1 - own.paired.trials) >= LEVEL:
+            return [found.size for found in ordered[rank:]]
+    return []
 
 
 def _finding(own: Experiment, claim: Claim, rows: Sequence[Row], domain: str) -> Finding:

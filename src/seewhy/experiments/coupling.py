@@ -39,7 +39,10 @@ _FULL = {
     "traffic_signs": Plan(trials=50, sizes=(100, 500, 2000)),
     "": Plan(trials=50, sizes=(100, 400)),
 }
-_QUICK = {"": Plan(trials=3, sizes=(100, 300), pictures=900, tested=400)}
+_QUICK = {
+    "traffic_signs": Plan(trials=2, sizes=(50, 100)),
+    "": Plan(trials=3, sizes=(100, 300), pictures=900, tested=400),
+}
 
 
 def _scored(

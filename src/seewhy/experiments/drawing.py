@@ -17,6 +17,7 @@ from seewhy.domain import Domain, load_domain
 from seewhy.errors import ExperimentError
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import ALL, Setting, Trial, say_size
+from seewhy.experiments.settings import SETTINGS
 from seewhy.files import whole_file
 from seewhy.picture_source import load_source
 from seewhy.pictures import make_dataset
@@ -58,6 +59,12 @@ def pool_of(
         )
     load_source(domain)
     pool, finished = out / _POOL, False
+    found = _drawn(pool)
+    if (out / SETTINGS).exists() and found not in (0, count):
+        raise ExperimentError(
+            f"{pool}: holds {found:,} pictures, and {count:,} are asked for; choose another folder "
+            "with --out, or delete this one"
+        )
     while not finished:
         with claimed(pool / TABLE) as finished:
             if not finished:
@@ -67,6 +74,14 @@ def pool_of(
                 domain, pool, count=count, workers=workers, test_share=0.0, on_progress=on_picture
             )
     return pool
+
+
+def _drawn(pool: Path) -> int:
+    """How many pictures the table of a pool names."""
+    try:
+        return max(0, (pool / TABLE).read_bytes().count(b"\n") - 1)
+    except FileNotFoundError:
+        return 0
 
 
 @lru_cache(maxsize=1)

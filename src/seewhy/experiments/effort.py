@@ -12,7 +12,7 @@ from seewhy.experiments.experiment import Row
 from seewhy.experiments.origin import one_machine
 from seewhy.experiments.rows import is_timing
 
-__all__ = ["Effort", "efforts", "reached"]
+__all__ = ["Effort", "efforts", "reached", "training_parts"]
 
 LEVELS = (0.7, 0.8, 0.85, 0.9, 0.95)
 
@@ -54,17 +54,28 @@ def efforts(rows: Sequence[Row], systems: Sequence[str], measure: str) -> list[E
     return found
 
 
+def training_parts(rows: Sequence[Row]) -> list[str]:
+    """Name what was timed of training, in the order of the rows.
+
+    Examples
+    --------
+    >>> training_parts([{"seconds_networks": 9.0, "seconds_answers": 2.0, "seconds_test": 1.0}])
+    ['networks', 'answers']
+    """
+    columns = dict.fromkeys(key for row in rows for key in row if _is_training(key))
+    return [key.removeprefix("seconds_") for key in columns]
+
+
+def _is_training(column: str) -> bool:
+    return is_timing(column) and column != "seconds_test"
+
+
 def _curve(
     rows: Sequence[Row], timed: Sequence[Row], system: str, measure: str
 ) -> list[tuple[float, float, float | None]]:
     """Pictures, mean of the measure, mean seconds of training; size by size."""
     curve: list[tuple[float, float, float | None]] = []
-    timings = {
-        key
-        for row in timed
-        for key in row
-        if row["system"] == system and is_timing(key) and key != "seconds_test"
-    }
+    timings = {key for row in timed for key in row if row["system"] == system and _is_training(key)}
     for size in dict.fromkeys(row["size"] for row in rows):
         values = values_of(rows, system, size, measure)
         own = [row for row in rows if row["system"] == system and row["size"] == size]

@@ -8,16 +8,19 @@ follows the whole knowledge. The runs that are learned from have seeds of their 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seewhy.experiments.conclusions import Compared, finite
 from seewhy.experiments.experiment import ALL, Row
 from seewhy.experiments.origin import one_machine
 from seewhy.experiments.rows import is_timing
-from seewhy.experiments.statistics import Interval, interval, ratio_interval
+from seewhy.experiments.statistics import Interval, compare, holm, interval, ratio_interval
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.history import History
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
@@ -34,6 +37,7 @@ __all__ = [
     "PAPER",
     "SYSTEMS",
     "Ratio",
+    "fault",
     "learned_from",
     "recipients_elsewhere",
     "recorded_run",
@@ -185,6 +189,26 @@ def _row(arm: str, robot: PlanningDomain, seed: int, before: int | None) -> Row:
     }
 
 
+def fault(row: Row) -> str:
+    """Say what is wrong with a row of this experiment; nothing: "".
+
+    Examples
+    --------
+    >>> row = {"system": "after", "plans": 1, "actions": 2, "execution": 30.0, "achieved": True}
+    >>> fault({**row, "outcome": "achieved"}), fault({**row, "plans": "many"})
+    ('', 'plans is many, not a number')
+    """
+    if row.get("system") not in SYSTEMS:
+        return f"{row.get('system')} is no robot; there are {' and '.join(SYSTEMS)}"
+    for key in ("plans", "actions", "execution"):
+        value: Any = row.get(key)
+        if type(value) not in (int, float) or not 0 <= value < math.inf:
+            return f"{key} is {'missing' if value is None else value}, not a number"
+    if type(row.get("achieved")) is not bool or not row.get("outcome"):
+        return "it does not say how the trial ended"
+    return ""
+
+
 @dataclass(frozen=True)
 class Ratio:
     """How much more of something there is before learning than after, over paired trials.
@@ -200,6 +224,9 @@ class Ratio:
         The mean of the trials' ratios, as in the paper.
     ratio_of_means : Interval
     paper : float
+    compared : Compared or None
+        Tests of what there is more before than after, corrected for the number of measures;
+        "better" is what learning saves. None where there is no pair.
     """
 
     measure: str
@@ -209,10 +236,16 @@ class Ratio:
     mean_of_ratios: Interval
     ratio_of_means: Interval
     paper: float
+    compared: Compared | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the ratio as values that JSON can hold."""
+        own = {key: value for key, value in asdict(self).items() if key != "compared"}
+        return {**finite(own), "compared": self.compared and self.compared.to_dict()}
 
 
 def summary(rows: Iterable[Row], *, machine: str | None = None) -> list[Ratio]:
-    """Return the ratios of all measures, with 95 % intervals by bootstrap over the pairs.
+    """Return the ratios of all measures, with intervals by bootstrap, and tests over the pairs.
 
     Pairs count whatever their outcome: who gives up or runs out of steps has made so many plans
     and actions until then. Times are those of one kind of machine: of the one that is given, or
@@ -232,7 +265,19 @@ def summary(rows: Iterable[Row], *, machine: str | None = None) -> list[Ratio]:
         timed, _ = one_machine(rows)
     else:
         timed = [row for row in rows if row.get("machine", "") == machine]
-    return [_ratio(own, _pairs(own, timed if is_timing(own) else rows)) for own in MEASURES]
+    pairs = {own: _pairs(own, timed if is_timing(own) else rows) for own in MEASURES}
+    tested = {
+        own: compare(both[:, 0].tolist(), both[:, 1].tolist())
+        for own, both in pairs.items()
+        if len(both)
+    }
+    t = holm([own.p_t for own in tested.values()])
+    wilcoxon = holm([own.p_wilcoxon for own in tested.values()])
+    compared = {
+        own: Compared(ALL, paired, p_t, p_wilcoxon)
+        for (own, paired), p_t, p_wilcoxon in zip(tested.items(), t, wilcoxon, strict=True)
+    }
+    return [replace(_ratio(own, both), compared=compared.get(own)) for own, both in pairs.items()]
 
 
 def _pairs(measure: str, rows: Iterable[Row]) -> NDArray[np.float64]:

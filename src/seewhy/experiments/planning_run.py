@@ -10,9 +10,17 @@ from seewhy.errors import ExperimentError
 from seewhy.experiments.catalogue import PLANNING
 from seewhy.experiments.experiment import ALL, Row, Trial
 from seewhy.experiments.jobs import run_all
-from seewhy.experiments.planning import RECORDED, learned_from, recorded_run, robot_before, trial
+from seewhy.experiments.planning import (
+    FIRST_RECORDED,
+    RECORDED,
+    fault,
+    learned_from,
+    recorded_run,
+    robot_before,
+    trial,
+)
 from seewhy.experiments.published import take_up
-from seewhy.experiments.rows import ROWS, TIMINGS, finish, read_trial, write_table
+from seewhy.experiments.rows import finish, read_trial, write_tables
 from seewhy.experiments.settings import check_settings, digest
 from seewhy.files import write_whole
 from seewhy.knowledge.history import history_text, read_history_file
@@ -73,16 +81,20 @@ def run_planning(
     ExperimentError
         If the folder holds trials with other settings.
     """
+    if run.seeds[-1] >= FIRST_RECORDED:
+        raise ExperimentError(
+            f"--seed: the last of {run.trials} seeds would be {run.seeds[-1]:,}; from "
+            f"{FIRST_RECORDED:,} on they are those of the runs that are learned from"
+        )
     _check_settings(run)
     own = replace(run, out=run.out.absolute())  # other machines work in other folders
-    take_up(run.folder)
+    take_up(run.folder, fault=fault)
     _learn(own, jobs=jobs)
     for done in run_all(_try, [(own, seed) for seed in run.seeds], jobs=jobs):
         if on_trial is not None:
             on_trial(done)
     rows = [row for seed in run.seeds for row in read_trial(run.folder, Trial(seed, ALL)) or ()]
-    write_table(run.folder / ROWS, rows, timings=False)
-    write_table(run.folder / TIMINGS, rows, timings=True)
+    write_tables(run.folder)
     return rows
 
 

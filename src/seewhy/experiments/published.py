@@ -3,35 +3,45 @@
 from __future__ import annotations
 
 import csv
-import shutil
-import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 from seewhy.errors import ExperimentError
 from seewhy.experiments.experiment import Row, Trial
 from seewhy.experiments.origin import COLUMNS
-from seewhy.experiments.rows import ROWS, TIMINGS, TRIALS, is_timing, write_trial
+from seewhy.experiments.row_check import incomplete, is_time
+from seewhy.experiments.rows import (
+    ROWS,
+    TIMINGS,
+    TRIALS,
+    is_timing,
+    read_trial,
+    trial_file,
+    write_trial,
+)
 
 __all__ = ["take_up"]
 
 
-def take_up(folder: Path) -> None:
-    """Write the trials whose rows the tables of an experiment have, where no trial is kept.
+def take_up(folder: Path, *, fault: Callable[[Row], str] | None = None) -> None:
+    """Write the trials whose rows the tables of an experiment have, where they are not kept.
 
     What is committed, or handed on, of an experiment are its tables: whoever has these goes on
-    from them, on a machine of another kind too. A folder with files of trials is left as it is.
+    from them, on a machine of another kind too.
 
     Parameters
     ----------
     folder : Path
         The folder of an experiment.
+    fault : callable, optional
+        Says what is wrong with a row, nothing where it is sound.
 
     Raises
     ------
     ExperimentError
-        If a table is damaged, or the two do not belong together.
+        If a table is damaged, the two do not belong together, or a trial that is kept has other
+        rows than they.
 
     Examples
     --------
@@ -45,31 +55,36 @@ def take_up(folder: Path) -> None:
     >>> read_trial(folder, Trial(seed=0, size=9)) == rows
     True
     """
-    trials, tables = folder / TRIALS, (folder / ROWS, folder / TIMINGS)
-    if trials.exists() or not any(table.exists() for table in tables):
+    table, timings = folder / ROWS, folder / TIMINGS
+    if not (table.exists() or timings.exists()):
         return
     found: dict[Trial, list[Row]] = {}
-    made: dict[Trial, dict[str, str]] = {}
-    for row in _rows(*tables):
-        trial = Trial(row["seed"], row["size"])
-        made[trial] = {key: str(row.pop(key)) for key in COLUMNS if row.get(key) is not None}
-        found.setdefault(trial, []).append({key: row[key] for key in row if key not in COLUMNS})
-    if not found:
-        return
-    # Whole or not at all: with half of them, the others would be run again.
-    begun = Path(tempfile.mkdtemp(prefix=".trials-", dir=folder))
-    try:
-        for trial, rows in found.items():
-            write_trial(begun, trial, rows, made=made[trial])
-        (begun / TRIALS).rename(trials)
-    except OSError:
-        if not trials.exists():  # else another process was faster
-            raise
-    finally:
-        shutil.rmtree(begun)
+    for row in _rows(table, timings, fault):
+        found.setdefault(Trial(row["seed"], row["size"]), []).append(row)
+    systems = list(dict.fromkeys(row["system"] for rows in found.values() for row in rows))
+    for trial, rows in found.items():
+        if wrong := incomplete([row["system"] for row in rows], systems):
+            raise _unfit(table, f"the trial {trial.name} {wrong}")
+        kept = read_trial(folder, trial)
+        if kept is not None and [_known(row) for row in kept] != [_known(row) for row in rows]:
+            raise ExperimentError(
+                f"{table}: has other rows than {trial_file(folder, trial)}; delete {TRIALS} to go "
+                f"on from the tables, or {ROWS} and {TIMINGS} to write them anew"
+            )
+    # Everything is read before anything is written: nothing of a damaged table is kept.
+    for trial, rows in found.items():
+        if not trial_file(folder, trial).exists():
+            made = {key: str(rows[0][key]) for key in COLUMNS if rows[0].get(key) is not None}
+            own = [{key: row[key] for key in row if key not in COLUMNS} for row in rows]
+            write_trial(folder, trial, own, made=made)
 
 
-def _rows(table: Path, timings: Path) -> Iterator[Row]:
+def _known(row: Row) -> Row:
+    """What a row says: a table has a cell for what other rows say, too."""
+    return {key: value for key, value in row.items() if value is not None}
+
+
+def _rows(table: Path, timings: Path, fault: Callable[[Row], str] | None) -> Iterator[Row]:
     """The lines of both tables, put together."""
     results, times = _lines(table), _lines(timings)
     for number, result in enumerate(results, start=2):
@@ -81,8 +96,10 @@ def _rows(table: Path, timings: Path) -> Iterator[Row]:
             raise _unfit(timings, f"line {number} is not of the row in line {number} of {ROWS}")
         if not (_is_count(row.get("seed")) and _is_count(row.get("size")) and row["system"]):
             raise _unfit(table, f"line {number} does not say its seed, size, and system")
-        if not all(isinstance(row[key], int | float | None) for key in row if is_timing(key)):
-            raise _unfit(timings, f"line {number} has a time that is no number")
+        if not all(is_time(row[key]) for key in row if is_timing(key)):
+            raise _unfit(timings, f"line {number} has a time that is no number of seconds")
+        if fault and (wrong := fault(row)):
+            raise _unfit(table, f"line {number}: {wrong}")
         yield row
     if len(times) > len(results):
         raise _unfit(timings, f"has more lines than {ROWS}")

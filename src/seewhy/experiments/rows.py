@@ -13,7 +13,7 @@ from typing import Any
 
 from seewhy.errors import ExperimentError
 from seewhy.experiments.claims import claimed
-from seewhy.experiments.experiment import Row, Trial
+from seewhy.experiments.experiment import ALL, Row, Trial, say_size
 from seewhy.experiments.origin import COLUMNS, here
 from seewhy.files import write_whole
 
@@ -23,9 +23,11 @@ __all__ = [
     "TRIALS",
     "finish",
     "is_timing",
+    "kept_trials",
     "read_trial",
     "trial_file",
     "write_table",
+    "write_tables",
     "write_trial",
 ]
 
@@ -50,6 +52,35 @@ def is_timing(column: str) -> bool:
 def trial_file(out: Path, trial: Trial) -> Path:
     """Where a trial's rows lie."""
     return out / TRIALS / f"{trial.name}.json"
+
+
+def kept_trials(out: Path) -> list[Trial]:
+    """The trials that have a file, size by size, all pictures last.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> for size, seed in ((0, 1), (20, 0), (9, 3)):
+    ...     write_trial(folder, Trial(seed, size), [])
+    >>> [own.name for own in kept_trials(folder)]
+    ['9-3', '20-0', 'all-1']
+    """
+    found = []
+    for file in (out / TRIALS).glob("*.json"):
+        size, _, seed = file.stem.partition("-")
+        if seed.isdecimal() and (size.isdecimal() or size == say_size(ALL)):
+            trial = Trial(int(seed), ALL if size == say_size(ALL) else int(size))
+            if file == trial_file(out, trial):
+                found.append(trial)
+    return sorted(found, key=lambda own: (own.size == ALL, own.size, own.seed))
+
+
+def write_tables(out: Path) -> None:
+    """Write the rows of all trials that have a file as tables, the timings in one of their own."""
+    rows = [row for trial in kept_trials(out) for row in read_trial(out, trial) or ()]
+    write_table(out / ROWS, rows, timings=False)
+    write_table(out / TIMINGS, rows, timings=True)
 
 
 def write_trial(
@@ -125,7 +156,7 @@ def _digest(rows: Sequence[Row]) -> str:
 
 def _damaged(file: Path) -> ExperimentError:
     return ExperimentError(
-        f"{file}: is not as it was written; delete it, and the same command runs the trial again"
+        f"{file}: is not as it was written; delete it, and the same command makes it again"
     )
 
 

@@ -8,6 +8,8 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from joblib import cpu_count
+
 from seewhy.dataset import TABLE
 from seewhy.domain import FILES, load_domain
 from seewhy.errors import ExperimentError
@@ -16,12 +18,16 @@ from seewhy.experiments.drawing import load_pictures, pool_of, require_enough
 from seewhy.experiments.experiment import Plan, Row, Setting, Trial
 from seewhy.experiments.jobs import run_all
 from seewhy.experiments.published import take_up
-from seewhy.experiments.rows import ROWS, TIMINGS, finish, read_trial, write_table
-from seewhy.experiments.settings import check_settings, digest
+from seewhy.experiments.row_check import fault
+from seewhy.experiments.rows import finish, kept_trials, read_trial
+from seewhy.experiments.settings import check_settings, digest, require_settings
 from seewhy.picture_source import load_source
 from seewhy.reading import ReadingRule, reading_rule
 
-__all__ = ["Run", "finished_rows", "prepare", "run_missing", "setting_of", "write_tables"]
+__all__ = ["Run", "finished_rows", "prepare", "run_missing", "setting_of", "side_by_side"]
+
+SEEDS = 2**32
+"""The seeds that there are: scikit-learn's are as many."""
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3  # glibc's numbers for what mallopt sets
 _KEPT = 2**30  # bytes
@@ -42,7 +48,7 @@ class Run:
     tested, drawn : int
         See :class:`~seewhy.experiments.experiment.Setting`.
     trials : tuple of Trial
-        Seed by seed, so that what is finished early has every size.
+        Seed by seed.
     reading : {"argmax", "consistent", "with_class"}, optional
         How SeeWhy reads features, where that is not as the domain says.
     """
@@ -131,6 +137,19 @@ def prepare(
         ) from None
     if drawn:
         load_source(loaded)  # or the folder would be kept for trials that cannot be run
+    if first_seed + count > SEEDS:
+        raise ExperimentError(
+            f"--seed: the last of {count} seeds would be {first_seed + count - 1:,}; seeds go up "
+            f"to {SEEDS - 1:,}"
+        )
+    tests = plan.tested if tested is None else tested
+    settings = {
+        "domain": loaded.name,
+        "knowledge": digest(*(loaded.folder / name for name in FILES)),
+        "tested": tests,
+        "drawn": drawn,
+    }
+    require_settings(out, settings)  # or pictures would be drawn for trials that cannot be run
     pictures = pool_of(
         loaded, data, out, count=plan.pictures, workers=workers, on_picture=on_picture
     )
@@ -139,7 +158,7 @@ def prepare(
         domain=domain,
         pictures=pictures,
         out=out,
-        tested=plan.tested if tested is None else tested,
+        tested=tests,
         drawn=drawn,
         trials=tuple(
             Trial(seed, size) for seed in range(first_seed, first_seed + count) for size in chosen
@@ -149,8 +168,8 @@ def prepare(
     setting = setting_of(run)
     for trial in run.trials:
         require_enough(setting, trial)
-    _check_settings(run)
-    take_up(run.folder)
+    check_settings(out, {**settings, "pictures": digest(pictures / TABLE)})
+    take_up(run.folder, fault=lambda row: fault(row, own.measures))
     _check_systems(run)
     return run
 
@@ -158,7 +177,7 @@ def prepare(
 def _check_systems(run: Run) -> None:
     """Refuse trials of an earlier version, which compared other systems."""
     systems = set(experiment(run.experiment).systems)
-    for trial in run.trials:
+    for trial in kept_trials(run.folder):
         rows = read_trial(run.folder, trial)
         if rows is not None and {row["system"] for row in rows} != systems:
             found = ", ".join(dict.fromkeys(str(row["system"]) for row in rows))
@@ -185,9 +204,27 @@ def run_missing(run: Run, *, jobs: int = -1, on_trial: Callable[[int], None] | N
     if on_trial is not None:
         on_trial(done)
     own = _anywhere(run)
-    for more in run_all(_run_one, [(own, trial) for trial in missing], jobs=jobs):
+    ordered = side_by_side(missing, cpu_count() if jobs < 1 else jobs)
+    for more in run_all(_run_one, [(own, trial) for trial in ordered], jobs=jobs):
         if on_trial is not None:
             on_trial(done + more)
+
+
+def side_by_side(trials: Sequence[Trial], count: int) -> list[Trial]:
+    """Order trials so that those run at the same time are of different seeds.
+
+    Of one seed they may need the same networks, which one would train while the others wait. Every
+    so many seeds are finished before the next are begun, so that what is finished has every size.
+
+    Examples
+    --------
+    >>> trials = [Trial(seed, size) for seed in range(3) for size in (20, 30)]
+    >>> [own.name for own in side_by_side(trials, 2)]
+    ['20-0', '20-1', '30-0', '30-1', '20-2', '30-2']
+    """
+    seeds = {seed: n for n, seed in enumerate(dict.fromkeys(own.seed for own in trials))}
+    sizes = {size: n for n, size in enumerate(dict.fromkeys(own.size for own in trials))}
+    return sorted(trials, key=lambda own: (seeds[own.seed] // count, sizes[own.size]))
 
 
 def _anywhere(run: Run) -> Run:
@@ -203,16 +240,13 @@ def _anywhere(run: Run) -> Run:
 
 def finished_rows(run: Run) -> list[Row]:
     """The rows of all trials of a run that are finished, size by size."""
-    ordered = sorted(run.trials, key=lambda own: (own.size == 0, own.size, own.seed))
-    return [row for trial in ordered for row in read_trial(run.folder, trial) or ()]
-
-
-def write_tables(run: Run) -> list[Row]:
-    """Write all finished rows as tables, the timings in one of their own; return the rows."""
-    rows = finished_rows(run)
-    write_table(run.folder / ROWS, rows, timings=False)
-    write_table(run.folder / TIMINGS, rows, timings=True)
-    return rows
+    asked = set(run.trials)
+    return [
+        row
+        for trial in kept_trials(run.folder)
+        if trial in asked
+        for row in read_trial(run.folder, trial) or ()
+    ]
 
 
 def setting_of(run: Run) -> Setting:
@@ -247,17 +281,3 @@ def _keep_memory() -> None:
         library = ctypes.CDLL(None)
         for parameter in (_TRIM_THRESHOLD, _MMAP_THRESHOLD):
             library.mallopt(parameter, _KEPT)
-
-
-def _check_settings(run: Run) -> None:
-    domain = load_domain(run.domain)
-    check_settings(
-        run.out,
-        {
-            "domain": domain.name,
-            "knowledge": digest(*(domain.folder / name for name in FILES)),
-            "pictures": digest(run.pictures / TABLE),
-            "tested": run.tested,
-            "drawn": run.drawn,
-        },
-    )

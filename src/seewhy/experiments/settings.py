@@ -11,7 +11,7 @@ from typing import Any
 from seewhy.errors import ExperimentError
 from seewhy.files import write_whole
 
-__all__ = ["check_settings", "digest"]
+__all__ = ["SETTINGS", "check_settings", "digest", "require_settings"]
 
 SETTINGS = "settings.json"
 
@@ -34,12 +34,18 @@ def check_settings(folder: Path, settings: Mapping[str, Any]) -> None:
     ...
     seewhy.errors.ExperimentError: ...: holds trials with other settings (tested); choose ...
     """
+    require_settings(folder, settings)
+    if not (folder / SETTINGS).exists():
+        write_whole(folder / SETTINGS, json.dumps(settings, indent=1))
+
+
+def require_settings(folder: Path, settings: Mapping[str, Any]) -> None:
+    """Refuse a folder that has other settings, as :func:`check_settings` does; keep none."""
     file = folder / SETTINGS
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
         wrong = [key for key, value in settings.items() if found.get(key) != value]
     except FileNotFoundError:
-        write_whole(file, json.dumps(settings, indent=1))
         return
     except NotADirectoryError:
         raise ExperimentError(

@@ -15,7 +15,7 @@ LEVEL = 0.05
 """Level of significance."""
 
 _RESAMPLES = 4999
-_EQUAL = 1e-12  # of differences between shares: nothing but rounding
+_EQUAL, _DIGITS = 1e-12, 12  # of differences between shares: beyond is nothing but rounding
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,8 @@ def compare(system: Sequence[float], against: Sequence[float], *, seed: int = 0)
         constant = deviation < _EQUAL
         # Of differences that are all alike, a t-test knows no error to compare them with.
         p_t = (0.0 if mean else 1.0) if constant else float(ttest_rel(one, other).pvalue)
-        p_wilcoxon = float(wilcoxon(apart).pvalue) if apart.any() else 1.0
+        # Two differences that are the same but for rounding are a tie.
+        p_wilcoxon = float(wilcoxon(np.round(apart, _DIGITS)).pvalue) if apart.any() else 1.0
     return Paired(
         trials=count,
         mean=float(one.mean()),

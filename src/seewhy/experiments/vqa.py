@@ -244,6 +244,7 @@ VQA = Experiment(
         "": Plan(trials=50, sizes=(100, 200, 400, 800), pictures=2000, tested=500),
     },
     quick={
+        "traffic_signs": Plan(trials=2, sizes=(50, 100)),
         "": Plan(trials=3, sizes=(100, 300), pictures=900, tested=400),
     },
 )

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.conclusions import Compared, Finding, summary, values_of
-from seewhy.experiments.effort import efforts
+from seewhy.experiments.effort import efforts, training_parts
 from seewhy.experiments.experiment import Experiment, Measure, Row, say_size
 from seewhy.experiments.origin import here, installed, one_machine, say_machine, say_origins
 from seewhy.experiments.rows import is_timing
@@ -17,7 +17,7 @@ from seewhy.experiments.statistics import interval
 from seewhy.report.html import rendered
 from seewhy.report.line_chart import Line, Point, draw_lines
 
-__all__ = ["LIBRARIES", "experiment_page"]
+__all__ = ["LIBRARIES", "comparison_cells", "experiment_page"]
 
 LIBRARIES = ("seewhy", "torch", "clingo", "scikit-learn", "scipy", "numpy", "mujoco-core")
 
@@ -52,6 +52,7 @@ def experiment_page(
         summary=summary(findings),
         findings=[_tested(own, finding) for finding in findings],
         efforts=_efforts(own, rows),
+        parts=training_parts(timed),
         timings=_timings(own, timed, sizes),
         timed=say_machine(rows, timed, machine),
         maker=here().commit,
@@ -100,18 +101,23 @@ def _tested(own: Experiment, finding: Finding) -> dict[str, object]:
         "against": own.systems[claim.against],
         "text": finding.text,
         "supported": finding.supported,
-        "sizes": [_cells(compared) for compared in finding.compared],
+        "sizes": [
+            [say_size(own.size), *comparison_cells(own, times=100)] for own in finding.compared
+        ],
     }
 
 
-def _cells(compared: Compared) -> list[str]:
+def comparison_cells(compared: Compared, *, times: float = 1) -> list[str]:
+    """Return trials, difference, interval, effect, p-values and verdict, as a line of a table.
+
+    Differences are given so many ``times``: 100 makes points of shares.
+    """
     paired = compared.paired
     difference = paired.difference
     return [
-        say_size(compared.size),
         str(paired.trials),
-        f"{100 * difference.mean:+.2f}",
-        f"{100 * difference.low:+.2f} to {100 * difference.high:+.2f}",
+        f"{times * difference.mean:+.2f}",
+        f"{times * difference.low:+.2f} to {times * difference.high:+.2f}",
         "–" if not math.isfinite(paired.effect) else f"{paired.effect:+.2f}",
         _p(paired.p_t),
         _p(compared.corrected_t),

@@ -8,15 +8,27 @@ from html import escape
 
 from seewhy.experiments.experiment import Row
 from seewhy.experiments.origin import here, installed, one_machine, say_machine, say_origins
-from seewhy.experiments.planning import NAMES, SYSTEMS, Ratio, recipients_elsewhere, summary
+from seewhy.experiments.planning import (
+    NAMES,
+    SYSTEMS,
+    Ratio,
+    recipients_elsewhere,
+    summary,
+)
 from seewhy.experiments.planning_run import PlanningRun
 from seewhy.experiments.statistics import Interval
 from seewhy.knowledge.learned_file import LEARNED
-from seewhy.report.experiment_page import LIBRARIES
+from seewhy.report.experiment_page import LIBRARIES, comparison_cells
 from seewhy.report.figure import Figure
 from seewhy.report.html import rendered
 
 __all__ = ["conclusions", "draw_ratios", "planning_page"]
+
+_VERDICTS = {
+    "better": "significantly less after learning",
+    "worse": "significantly more after learning",
+    "open": "not told apart",
+}
 
 _WIDTH, _LEFT, _ROW, _TOP = 640, 190, 34, 10
 
@@ -43,6 +55,9 @@ def planning_page(run: PlanningRun, rows: Sequence[Row], *, command: str) -> str
             for name, own in parts
             if own
         ],
+        tests=[
+            [NAMES[own.measure], *comparison_cells(own.compared)] for own in found if own.compared
+        ],
         ended=[_ended(system, rows) for system in SYSTEMS],
         finished=len(rows) // 2,
         planned=run.trials,
@@ -59,13 +74,19 @@ def planning_page(run: PlanningRun, rows: Sequence[Row], *, command: str) -> str
 
 
 def conclusions(found: Sequence[Ratio]) -> list[str]:
-    """Return a sentence for every measure, whatever the numbers say.
+    """Return a sentence for every measure, and one for the hypothesis, whatever the numbers say.
 
     Examples
     --------
-    >>> ratio = Ratio("plans", 9, 4.0, 2.0, Interval(2.0, 1.5, 3.0), Interval(2.0, 1.6, 2.5), 4.0)
-    >>> conclusions([ratio])
-    ['plans in a trial: 2.00 before to 1 after (1.50 to 3.00); less than in the paper (4.0).']
+    >>> from seewhy.experiments.planning import MEASURES
+    >>> rows = [{"seed": seed, "system": arm, **dict.fromkeys(MEASURES, number)}
+    ...         for seed in range(9) for arm, number in (("before", 8.0 + seed), ("after", 4.0))]
+    >>> first, *_, last = conclusions(summary(rows))
+    >>> first
+    'plans in a trial: 3.00 before to 1 after (2.56 to 3.42), significantly less after learning; \
+less than in the paper (4.0).'
+    >>> last
+    'What is learned saves all of these: the hypothesis is supported.'
     """
     said = []
     for own in found:
@@ -73,6 +94,7 @@ def conclusions(found: Sequence[Ratio]) -> list[str]:
         if not own.trials:
             said.append(f"{NAMES[own.measure]}: there is no finished pair yet.")
             continue
+        verdict = own.compared.verdict if own.compared else "open"
         if ratio.mean >= own.paper:
             beside = f"at least as in the paper ({own.paper})"
         elif ratio.high >= own.paper:
@@ -80,9 +102,27 @@ def conclusions(found: Sequence[Ratio]) -> list[str]:
         else:
             beside = f"less than in the paper ({own.paper})"
         times = f"{ratio.mean:.2f} before to 1 after ({ratio.low:.2f} to {ratio.high:.2f})"
-        open_ = ", not told apart" if ratio.low <= 1.0 <= ratio.high else ""
-        said.append(f"{NAMES[own.measure]}: {times}{open_}; {beside}.")
-    return said
+        said.append(f"{NAMES[own.measure]}: {times}, {_VERDICTS[verdict]}; {beside}.")
+    return [*said, _hypothesis(found)]
+
+
+def _hypothesis(found: Sequence[Ratio]) -> str:
+    """Say of which measures the trials bear out that learning saves some of it."""
+    told = {own.measure: own.compared.verdict for own in found if own.compared}
+    saved = [NAMES[own] for own, verdict in told.items() if verdict == "better"]
+    other = [f"{NAMES[own]} ({_VERDICTS[v]})" for own, v in told.items() if v != "better"]
+    if told and not other:
+        return "What is learned saves all of these: the hypothesis is supported."
+    if not saved:
+        return "The hypothesis is not supported by any measure."
+    return (
+        f"The hypothesis is supported for {_listed(saved)}; it is not supported for "
+        f"{_listed(other)}."
+    )
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return " and ".join(filter(None, [", ".join(parts[:-1]), parts[-1]]))
 
 
 def draw_ratios(found: Sequence[Ratio]) -> Figure:
