@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import os
+import shutil
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -224,6 +225,11 @@ def test_other_experiments_use_what_networks_saw(
         whole = next(row for row in rows_of(finished / "vqa") if row["size"] == "30")
         for key in ("accuracy", "answers", *EXPLAINED):
             assert rows[0][key] == whole[key]
+    # Another time, from the tables alone: every system's rows are taken for what they are.
+    shutil.rmtree(finished / name / "trials")
+    again = run(*command, "--out", finished, *few)
+    assert (again.code, again.out) == (0, result.out)
+    assert rows_of(finished / name) == rows
 
 
 def test_another_way_of_reading_has_a_folder_of_its_own(
@@ -550,6 +556,11 @@ def test_pictures_are_kept_where_a_folder_is_refused(
             running.prepare("vqa", "structure_stability", tmp_path, tested=tested, workers=1)
         assert why in str(error.value)
         assert table.read_bytes() == kept
+    # As in a clone: nothing drawn yet. The right command must not find the wrong pictures.
+    shutil.rmtree(tmp_path / "pictures")
+    with pytest.raises(ExperimentError, match=r"other settings \(pictures\)"):
+        running.prepare("vqa", "structure_stability", tmp_path, workers=1)
+    assert not (tmp_path / "pictures").exists()
 
 
 @pytest.mark.parametrize(
@@ -643,7 +654,11 @@ def test_work_is_claimed_once(tmp_path: Path) -> None:
         with claimed(work) as found:
             assert found is ours
         claim.unlink(missing_ok=True)
-    for content in ({**gone, "host": "elsewhere"}, {**this, "started": None}, []):
+    with claimed(work):
+        # Another machine took the work over; its claim is not ours to take away.
+        claim.write_text(json.dumps({**this, "host": "elsewhere"}))
+    assert claim.exists()
+    for content in ({**gone, "host": "elsewhere"}, []):
         claim.write_text(json.dumps(content))
         os.utime(claim, (1.0, 1.0))
         with claimed(work) as found:
@@ -840,11 +855,16 @@ def test_one_trial_proves_nothing() -> None:
     assert summary(few).startswith("There are too few")
     assert summary(enough) == "8 of 8 claims hold at every size that was tried."
     assert json.dumps(finding.to_dict(), allow_nan=False)
-    # One trial more of another size takes nothing from what many trials told.
-    more = [*made([0.9] * 9, [0.1] * 9), *made([0.9], [0.1], size=200)]
-    said = summary(conclude("vqa", more, domain="tiles"))
-    assert said.startswith("0 of 8 claims hold at every size that was tried. The hypothesis is")
-    assert said.endswith("At 200 there are too few trials to tell.")
+    # One trial more of another size takes nothing from what enough trials told.
+    more = [*made([0.9] * 6, [0.1] * 6), *made([0.9], [0.1], size=200)]
+    assert summary(conclude("vqa", more, domain="tiles")) == (
+        "8 of 8 claims hold at every size that was tried often enough to tell. At 200 there are "
+        "too few trials to tell."
+    )
+    worse = [*made([0.1] * 9, [0.9] * 9), *made([0.9] * 2, [0.1] * 2, size=200)]
+    said = summary(conclude("vqa", worse, domain="tiles"))
+    assert said.startswith("0 of 8 claims hold")
+    assert "classified rightly: SeeWhy against end to end at 100;" in said
 
 
 def test_an_experiment_is_found_by_name() -> None:

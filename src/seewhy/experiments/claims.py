@@ -7,12 +7,12 @@ import os
 import socket
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 __all__ = ["claimed"]
 
-_ABANDONED = 2 * 3600.0  # seconds after which a claim lapses that nobody can be asked about
+_ABANDONED = 2 * 3600.0  # seconds after which a claim of another machine counts for nothing
 _WRITING = 60.0  # seconds that a claim may take to be written
 
 
@@ -34,23 +34,21 @@ def claimed(work: Path) -> Iterator[bool]:
     file.parent.mkdir(parents=True, exist_ok=True)
     if _is_abandoned(file):
         file.unlink(missing_ok=True)
+    claim = json.dumps(
+        {"host": socket.gethostname(), "process": os.getpid(), "started": _started(os.getpid())}
+    )
     try:
         with file.open("x", encoding="utf-8") as stream:
-            json.dump(
-                {
-                    "host": socket.gethostname(),
-                    "process": os.getpid(),
-                    "started": _started(os.getpid()),
-                },
-                stream,
-            )
+            stream.write(claim)
     except FileExistsError:
         yield False
         return
     try:
         yield True
     finally:
-        file.unlink(missing_ok=True)
+        with suppress(FileNotFoundError):
+            if file.read_text(encoding="utf-8") == claim:  # else another took it over
+                file.unlink()
 
 
 def _is_abandoned(file: Path) -> bool:
@@ -71,9 +69,7 @@ def _is_abandoned(file: Path) -> bool:
     except PermissionError:
         pass  # somebody else's process
     now = _started(process)
-    if started is None or now is None:
-        return age > _ABANDONED
-    return bool(started != now)
+    return started is not None and now is not None and bool(started != now)
 
 
 def _started(process: int) -> str | None:

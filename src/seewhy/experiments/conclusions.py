@@ -9,7 +9,7 @@ from typing import Any
 
 from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.experiment import ALL, Claim, Experiment, Row, say_size
-from seewhy.experiments.statistics import LEVEL, Paired, compare, holm
+from seewhy.experiments.statistics import LEVEL, Paired, compare, holm, least_p
 
 __all__ = ["Compared", "Finding", "conclude", "finite", "summary", "values_of"]
 
@@ -116,31 +116,35 @@ def summary(findings: Sequence[Finding]) -> str:
             "There are too few trials for any difference to be significant after correction; the "
             "differences say where to look, and no more."
         )
-    held = sum(own.supported for own in findings)
-    said = f"{held} of {len(findings)} claims hold at every size that was tried."
-    missed = [own for own in findings if not own.supported and own.compared]
-    if missed:
-        parts = [f"{own.subject} at {_say_sizes(own)}" for own in missed]
+    held = sum(bool(own.compared) and thin.issuperset(own.failed) for own in findings)
+    said = f"{held} of {len(findings)} claims hold at every size that was tried"
+    said += " often enough to tell." if thin else "."
+    parts = [
+        f"{own.subject} at {_say_sizes(own, missed)}"
+        for own in findings
+        if (missed := [size for size in own.failed if size not in thin])
+    ]
+    if parts:
         said += f" The hypothesis is not supported for {'; '.join(parts)}."
     if thin:
         said += f" At {', '.join(map(say_size, sorted(thin)))} there are too few trials to tell."
     return said
 
 
-def _say_sizes(finding: Finding) -> str:
-    if len(finding.failed) == len(finding.compared) > 1:
+def _say_sizes(finding: Finding, missed: Sequence[int]) -> str:
+    if len(missed) == len(finding.compared) > 1:
         return "any size"
-    return ", ".join(map(say_size, finding.failed))
+    return ", ".join(map(say_size, missed))
 
 
 def _too_few(finding: Finding) -> list[int]:
     """Sizes at which Wilcoxon's test cannot reach the level, were one always better."""
-    # The more trials, the smaller a p-value can be; where Holm's procedure ends, none counts.
-    ordered = sorted(finding.compared, key=lambda own: -own.paired.trials)
-    for rank, own in enumerate(ordered):
-        if (len(ordered) - rank) * 2.0 ** (1 - own.paired.trials) >= LEVEL:
-            return [found.size for found in ordered[rank:]]
-    return []
+    least = [least_p(own.paired.trials) for own in finding.compared]
+    return [
+        own.size
+        for own, p in zip(finding.compared, holm(least), strict=True)
+        if not p < LEVEL  # nan: one trial is no test
+    ]
 
 
 def _finding(own: Experiment, claim: Claim, rows: Sequence[Row], domain: str) -> Finding:

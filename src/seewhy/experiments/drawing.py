@@ -22,12 +22,13 @@ from seewhy.files import whole_file
 from seewhy.picture_source import load_source
 from seewhy.pictures import make_dataset
 
-__all__ = ["available", "divide", "in_fold", "load_pictures", "pool_of", "require_enough"]
+__all__ = ["POOL", "available", "divide", "in_fold", "load_pictures", "pool_of", "require_enough"]
 
 FOLDS = 5
 """Where pictures have groups, a fifth of the groups of every class is tested on."""
 
-_POOL = "pictures"
+POOL = "pictures"
+"""The folder of the pictures that are drawn for the experiments in a folder."""
 
 Indices = npt.NDArray[np.int64]
 
@@ -58,12 +59,12 @@ def pool_of(
             "pictures with --data"
         )
     load_source(domain)
-    pool, finished = out / _POOL, False
+    pool, finished = out / POOL, False
     found = _drawn(pool)
     if (out / SETTINGS).exists() and found not in (0, count):
         raise ExperimentError(
             f"{pool}: holds {found:,} pictures, and {count:,} are asked for; choose another folder "
-            "with --out, or delete this one"
+            "with --out"
         )
     while not finished:
         with claimed(pool / TABLE) as finished:

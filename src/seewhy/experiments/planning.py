@@ -195,8 +195,9 @@ def fault(row: Row) -> str:
     Examples
     --------
     >>> row = {"system": "after", "plans": 1, "actions": 2, "execution": 30.0, "achieved": True}
-    >>> fault({**row, "outcome": "achieved"}), fault({**row, "plans": "many"})
-    ('', 'plans is many, not a number')
+    >>> row |= {"outcome": "achieved", "seconds_planning": 0.2}
+    >>> fault({**row, "plans": "many"}), fault(row)
+    ('plans is many, not a number', 'seconds_per_plan is missing')
     """
     if row.get("system") not in SYSTEMS:
         return f"{row.get('system')} is no robot; there are {' and '.join(SYSTEMS)}"
@@ -204,6 +205,9 @@ def fault(row: Row) -> str:
         value: Any = row.get(key)
         if type(value) not in (int, float) or not 0 <= value < math.inf:
             return f"{key} is {'missing' if value is None else value}, not a number"
+    for key in filter(is_timing, MEASURES):
+        if key not in row:
+            return f"{key} is missing"
     if type(row.get("achieved")) is not bool or not row.get("outcome"):
         return "it does not say how the trial ended"
     return ""

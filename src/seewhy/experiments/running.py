@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import shutil
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -14,7 +15,7 @@ from seewhy.dataset import TABLE
 from seewhy.domain import FILES, load_domain
 from seewhy.errors import ExperimentError
 from seewhy.experiments.catalogue import COMPARES_READINGS, experiment
-from seewhy.experiments.drawing import load_pictures, pool_of, require_enough
+from seewhy.experiments.drawing import POOL, load_pictures, pool_of, require_enough
 from seewhy.experiments.experiment import Plan, Row, Setting, Trial
 from seewhy.experiments.jobs import run_all
 from seewhy.experiments.published import take_up
@@ -150,6 +151,7 @@ def prepare(
         "drawn": drawn,
     }
     require_settings(out, settings)  # or pictures would be drawn for trials that cannot be run
+    new = data is None and not (out / POOL).exists()
     pictures = pool_of(
         loaded, data, out, count=plan.pictures, workers=workers, on_picture=on_picture
     )
@@ -165,6 +167,12 @@ def prepare(
         ),
         reading=rule,
     )
+    try:
+        require_settings(out, {"pictures": digest(pictures / TABLE)})
+    except ExperimentError:
+        if new:  # or the right command would find the wrong pictures
+            shutil.rmtree(pictures)
+        raise
     setting = setting_of(run)
     for trial in run.trials:
         require_enough(setting, trial)

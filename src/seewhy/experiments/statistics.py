@@ -9,7 +9,16 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["LEVEL", "Interval", "Paired", "compare", "holm", "interval", "ratio_interval"]
+__all__ = [
+    "LEVEL",
+    "Interval",
+    "Paired",
+    "compare",
+    "holm",
+    "interval",
+    "least_p",
+    "ratio_interval",
+]
 
 LEVEL = 0.05
 """Level of significance."""
@@ -147,6 +156,17 @@ def compare(system: Sequence[float], against: Sequence[float], *, seed: int = 0)
         p_t=p_t,
         p_wilcoxon=p_wilcoxon,
     )
+
+
+def least_p(trials: int) -> float:
+    """The smallest p-value that Wilcoxon's two-sided test can have; nan below two trials.
+
+    Examples
+    --------
+    >>> least_p(6)
+    0.03125
+    """
+    return 2.0 ** (1 - trials) if trials > 1 else math.nan
 
 
 def _effect(mean: float, deviation: float) -> float:

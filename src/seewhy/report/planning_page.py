@@ -16,7 +16,7 @@ from seewhy.experiments.planning import (
     summary,
 )
 from seewhy.experiments.planning_run import PlanningRun
-from seewhy.experiments.statistics import Interval
+from seewhy.experiments.statistics import LEVEL, Interval, holm, least_p
 from seewhy.knowledge.learned_file import LEARNED
 from seewhy.report.experiment_page import LIBRARIES, comparison_cells
 from seewhy.report.figure import Figure
@@ -81,12 +81,11 @@ def conclusions(found: Sequence[Ratio]) -> list[str]:
     >>> from seewhy.experiments.planning import MEASURES
     >>> rows = [{"seed": seed, "system": arm, **dict.fromkeys(MEASURES, number)}
     ...         for seed in range(9) for arm, number in (("before", 8.0 + seed), ("after", 4.0))]
-    >>> first, *_, last = conclusions(summary(rows))
-    >>> first
-    'plans in a trial: 3.00 before to 1 after (2.56 to 3.42), significantly less after learning; \
-less than in the paper (4.0).'
-    >>> last
-    'What is learned saves all of these: the hypothesis is supported.'
+    >>> conclusions(summary(rows))[0]
+    'plans in a trial: 12.00 before, 4.00 after, significantly less after learning; the mean of \
+the ratios 3.00 (2.56 to 3.42), less than in the paper (4.0).'
+    >>> conclusions(summary(rows[:10]))[-1]
+    'There are too few pairs for any difference to be significant after correction.'
     """
     said = []
     for own in found:
@@ -101,24 +100,28 @@ less than in the paper (4.0).'
             beside = f"the paper's figure ({own.paper}) lies within the interval"
         else:
             beside = f"less than in the paper ({own.paper})"
-        times = f"{ratio.mean:.2f} before to 1 after ({ratio.low:.2f} to {ratio.high:.2f})"
-        said.append(f"{NAMES[own.measure]}: {times}, {_VERDICTS[verdict]}; {beside}.")
+        means = f"{own.before:.2f} before, {own.after:.2f} after, {_VERDICTS[verdict]}"
+        times = f"{ratio.mean:.2f} ({ratio.low:.2f} to {ratio.high:.2f})"
+        said.append(f"{NAMES[own.measure]}: {means}; the mean of the ratios {times}, {beside}.")
     return [*said, _hypothesis(found)]
 
 
 def _hypothesis(found: Sequence[Ratio]) -> str:
     """Say of which measures the trials bear out that learning saves some of it."""
-    told = {own.measure: own.compared.verdict for own in found if own.compared}
-    saved = [NAMES[own] for own, verdict in told.items() if verdict == "better"]
-    other = [f"{NAMES[own]} ({_VERDICTS[v]})" for own, v in told.items() if v != "better"]
-    if told and not other:
-        return "What is learned saves all of these: the hypothesis is supported."
+    told = [(own.measure, own.compared) for own in found if own.compared]
+    least = holm([least_p(compared.paired.trials) for _, compared in told])
+    if not any(p < LEVEL for p in least):
+        return "There are too few pairs for any difference to be significant after correction."
+    saved = [NAMES[own] for own, compared in told if compared.verdict == "better"]
+    other = [
+        f"{NAMES[own]} ({_VERDICTS[compared.verdict]})"
+        for own, compared in told
+        if compared.verdict != "better"
+    ]
     if not saved:
         return "The hypothesis is not supported by any measure."
-    return (
-        f"The hypothesis is supported for {_listed(saved)}; it is not supported for "
-        f"{_listed(other)}."
-    )
+    said = f"The hypothesis is supported for {_listed(saved)}"
+    return f"{said}; it is not supported for {_listed(other)}." if other else f"{said}."
 
 
 def _listed(parts: Sequence[str]) -> str:
