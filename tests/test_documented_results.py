@@ -37,6 +37,9 @@ TABLES: list[tuple[str, str, str, list[tuple[str, str]]]] = [
     ("docs/results.md", "## Axioms learned again", "structures/axioms",
      [(key, own) for key in ("accuracy", *QUESTIONS, "by_knowledge", "agreement")
       for own in KNOWN]),
+    ("docs/results.md", "### Signs, a quarter", "signs/axioms",
+     [(key, own) for key in ("accuracy", *QUESTIONS, "by_knowledge", "agreement")
+      for own in KNOWN]),
     ("README.md", "## The paper's claims", "structures/vqa",
      [("accuracy", "seewhy"), ("accuracy", "end_to_end"),
       ("answers", "believing"), ("answers", "end_to_end")]),
