@@ -27,6 +27,8 @@ from seewhy.experiments.rows import (
 )
 
 RESULTS = Path(__file__).parents[1] / "results"
+UNTRACKED = shutil.ignore_patterns("trials", "runs")
+"""What a folder of results has where its trials were run, and a clone has not."""
 TABLES = sorted(path.parent.relative_to(RESULTS) for path in RESULTS.glob("*/*/rows.csv"))
 
 
@@ -43,7 +45,7 @@ def row(seed: int, system: str = "a", **more: object) -> Row:
 @pytest.mark.parametrize("name", TABLES, ids=str)
 def test_committed_tables_are_taken_up_to_the_byte(name: Path, tmp_path: Path) -> None:
     folder = tmp_path / name.name
-    shutil.copytree(RESULTS / name, folder)
+    shutil.copytree(RESULTS / name, folder, ignore=UNTRACKED)
     own = name.name.partition("-")[0]
     if own == PLANNING:
         take_up(folder, fault=planning_fault)
@@ -234,7 +236,7 @@ def test_damaged_tables_of_planning_are_refused(
     run: Run, tmp_path: Path, change: tuple[str, str], why: str
 ) -> None:
     folder = tmp_path / "planning"
-    shutil.copytree(RESULTS / "robot" / "planning", folder)
+    shutil.copytree(RESULTS / "robot" / "planning", folder, ignore=UNTRACKED)
     text = (folder / ROWS).read_text(encoding="utf-8")
     (folder / ROWS).write_text(text.replace(*change, 1), encoding="utf-8")
     result = run("experiment", "planning", "--out", tmp_path, "--jobs", 1)
@@ -245,7 +247,7 @@ def test_damaged_tables_of_planning_are_refused(
 def test_planning_goes_on_from_published_tables(run: Run, tmp_path: Path) -> None:
     # Nothing is learned or run again: a copy of what is committed is finished.
     folder = tmp_path / "planning"
-    shutil.copytree(RESULTS / "robot" / "planning", folder)
+    shutil.copytree(RESULTS / "robot" / "planning", folder, ignore=UNTRACKED)
     before = {name: (folder / name).read_bytes() for name in (ROWS, TIMINGS, "learned.al")}
     result = run("experiment", "planning", "--out", tmp_path, "--jobs", 1)
     assert (result.code, result.err) == (0, "")
