@@ -9,7 +9,7 @@ from typing import Any
 
 from seewhy.experiments.catalogue import experiment
 from seewhy.experiments.experiment import ALL, Claim, Experiment, Row, say_size
-from seewhy.experiments.statistics import LEVEL, Paired, compare, holm, least_p
+from seewhy.experiments.statistics import LEVEL, Paired, can_tell, compare, holm
 
 __all__ = ["Compared", "Finding", "conclude", "finite", "summary", "values_of"]
 
@@ -138,13 +138,9 @@ def _say_sizes(finding: Finding, missed: Sequence[int]) -> str:
 
 
 def _too_few(finding: Finding) -> list[int]:
-    """Sizes at which Wilcoxon's test cannot reach the level, were one always better."""
-    least = [least_p(own.paired.trials) for own in finding.compared]
-    return [
-        own.size
-        for own, p in zip(finding.compared, holm(least), strict=True)
-        if not p < LEVEL  # nan: one trial is no test
-    ]
+    """Sizes at which no difference could be significant."""
+    enough = can_tell([own.paired.trials for own in finding.compared])
+    return [own.size for own, told in zip(finding.compared, enough, strict=True) if not told]
 
 
 def _finding(own: Experiment, claim: Claim, rows: Sequence[Row], domain: str) -> Finding:

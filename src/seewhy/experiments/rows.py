@@ -15,6 +15,7 @@ from seewhy.errors import ExperimentError
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import ALL, Row, Trial, say_size
 from seewhy.experiments.origin import COLUMNS, here
+from seewhy.experiments.row_check import is_time
 from seewhy.files import write_whole
 
 __all__ = [
@@ -146,7 +147,7 @@ def _is_row(row: Row, trial: Trial) -> bool:
     return (
         (row["seed"], row["size"]) == (trial.seed, trial.size)
         and isinstance(row["system"], str)
-        and all(isinstance(row[key], int | float | None) for key in row if is_timing(key))
+        and all(is_time(row[key]) for key in row if is_timing(key))
     )
 
 

@@ -13,10 +13,10 @@ __all__ = [
     "LEVEL",
     "Interval",
     "Paired",
+    "can_tell",
     "compare",
     "holm",
     "interval",
-    "least_p",
     "ratio_interval",
 ]
 
@@ -158,15 +158,19 @@ def compare(system: Sequence[float], against: Sequence[float], *, seed: int = 0)
     )
 
 
-def least_p(trials: int) -> float:
-    """The smallest p-value that Wilcoxon's two-sided test can have; nan below two trials.
+def can_tell(trials: Sequence[int]) -> list[bool]:
+    """Whether each of some comparisons, of so many trials, could be significant after correction.
+
+    Were one system better in every trial, the p-value of Wilcoxon's two-sided test would be as
+    small as it can be; one trial is no test.
 
     Examples
     --------
-    >>> least_p(6)
-    0.03125
+    >>> can_tell([6, 1]), can_tell([6, 6])
+    ([True, False], [False, False])
     """
-    return 2.0 ** (1 - trials) if trials > 1 else math.nan
+    least = [2.0 ** (1 - own) if own > 1 else math.nan for own in trials]
+    return [own < LEVEL for own in holm(least)]
 
 
 def _effect(mean: float, deviation: float) -> float:

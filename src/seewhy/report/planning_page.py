@@ -8,15 +8,9 @@ from html import escape
 
 from seewhy.experiments.experiment import Row
 from seewhy.experiments.origin import here, installed, one_machine, say_machine, say_origins
-from seewhy.experiments.planning import (
-    NAMES,
-    SYSTEMS,
-    Ratio,
-    recipients_elsewhere,
-    summary,
-)
+from seewhy.experiments.planning import NAMES, SYSTEMS, Ratio, recipients_elsewhere, summary
 from seewhy.experiments.planning_run import PlanningRun
-from seewhy.experiments.statistics import LEVEL, Interval, holm, least_p
+from seewhy.experiments.statistics import Interval, can_tell
 from seewhy.knowledge.learned_file import LEARNED
 from seewhy.report.experiment_page import LIBRARIES, comparison_cells
 from seewhy.report.figure import Figure
@@ -109,8 +103,7 @@ the ratios 3.00 (2.56 to 3.42), less than in the paper (4.0).'
 def _hypothesis(found: Sequence[Ratio]) -> str:
     """Say of which measures the trials bear out that learning saves some of it."""
     told = [(own.measure, own.compared) for own in found if own.compared]
-    least = holm([least_p(compared.paired.trials) for _, compared in told])
-    if not any(p < LEVEL for p in least):
+    if not any(can_tell([compared.paired.trials for _, compared in told])):
         return "There are too few pairs for any difference to be significant after correction."
     saved = [NAMES[own] for own, compared in told if compared.verdict == "better"]
     other = [
