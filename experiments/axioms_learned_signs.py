@@ -23,7 +23,7 @@ from scipy.stats import ttest_rel
 from signs_against_end_to_end import DOMAIN, in_fold
 
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.evaluation import evaluate
 from seewhy.learning import AnnotatedScenes, axioms_of, learn_for_domain

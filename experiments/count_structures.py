@@ -8,7 +8,7 @@ from __future__ import annotations
 import sys
 from collections import Counter
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import load_domain
 
 

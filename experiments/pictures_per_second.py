@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.dialogue.question import Asks
 
 QUESTIONS = 8

@@ -23,7 +23,7 @@ from joblib import Parallel, delayed
 from scipy.stats import ttest_1samp
 
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import load_domain
 from seewhy.domain_tables import ReadingRule
 from seewhy.evaluation import evaluate

@@ -23,7 +23,7 @@ from signs_zero_shot import decided_vectors
 from sklearn.metrics import roc_auc_score
 
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.domains.traffic_signs.non_signs import draw_non_sign
 from seewhy.perception.picture import as_picture

@@ -21,7 +21,7 @@ import numpy as np
 from signs_against_end_to_end import DOMAIN, end_to_end, in_fold
 
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.files import write_whole
 from seewhy.knowledge.scene import FeatureVector

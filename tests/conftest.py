@@ -24,7 +24,7 @@ from PIL import Image, ImageDraw
 
 from seewhy.agent import Agent
 from seewhy.cli.main import main
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception import extractor, parallel

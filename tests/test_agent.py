@@ -12,7 +12,7 @@ from PIL import Image
 import seewhy
 from conftest import TRUTH, draw_tile, seen
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
 from seewhy.domain import Domain

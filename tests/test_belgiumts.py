@@ -27,7 +27,7 @@ from belgiumts_archives import (
 from conftest import Run, write_domain
 from seewhy.belgiumts.conversion import ImportedDataset, import_photographs
 from seewhy.belgiumts.layout import Region
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError
 

@@ -542,14 +542,14 @@ def test_a_contact_sheet(run: Run, tiles_folder: Path, fresh_data: Path) -> None
 def test_the_demonstration_of_a_domain(
     run: Run, made: Domain, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from seewhy import pictures
+    from seewhy.data import making
 
-    make_dataset = pictures.make_dataset
+    make_dataset = making.make_dataset
 
     def here(*args: Any, **options: Any) -> Any:
         return make_dataset(*args, **{**options, "workers": 1})
 
-    monkeypatch.setattr(pictures, "make_dataset", here)
+    monkeypatch.setattr(making, "make_dataset", here)
     out = tmp_path / "demo"
     result = run("demo", "--domain", made.folder, "--out", out, "--count", 60)
     assert result.code == 0

@@ -8,8 +8,8 @@ import pytest
 
 from conftest import write_tiles
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
-from seewhy.dataset_domain import domain_of
+from seewhy.data.dataset import Dataset
+from seewhy.data.dataset_domain import domain_of
 from seewhy.domain import Domain
 from seewhy.errors import DatasetError, PictureError
 from seewhy.report.contact_sheet import draw_contact_sheet

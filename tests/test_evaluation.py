@@ -10,7 +10,7 @@ import pytest
 
 from conftest import seen, write_tiles
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
 from seewhy.domain import Domain
 from seewhy.evaluation import AxiomRecord, axiom_records, evaluate, score_answer

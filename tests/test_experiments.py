@@ -21,7 +21,7 @@ import pytest
 from conftest import DOMAIN, Run, write_domain
 from seewhy.agent import Agent
 from seewhy.cli.main import main
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of

@@ -18,7 +18,7 @@ from PIL import Image
 
 from conftest import KNOWLEDGE, Run, draw_tile, write_domain
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.dialogue.question import Asks
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of
 from seewhy.domain import Domain, load_domain

@@ -10,7 +10,7 @@ import pytest
 
 from conftest import draw_tile, write_domain
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain
 from seewhy.errors import DatasetError, ModelError, NotFittedError
 from seewhy.evaluation import evaluate

@@ -12,10 +12,10 @@ import pytest
 from joblib.externals.loky import get_reusable_executor
 
 from conftest import DOMAIN, write_domain
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
+from seewhy.data.making import determined_share, make_dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError
-from seewhy.pictures import determined_share, make_dataset
 
 SOURCE = """\
 import os

@@ -11,10 +11,10 @@ import pytest
 from conftest import DOMAIN, KNOWLEDGE, write_domain, write_tiles
 from seewhy.agent import Agent
 from seewhy.cli.main import main
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
+from seewhy.data.making import make_dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError
-from seewhy.pictures import make_dataset
 from seewhy.pretraining import is_drawn, pretrained
 
 SOURCE = """\

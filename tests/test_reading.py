@@ -17,7 +17,7 @@ from conftest import draw_tile, one_process, write_domain
 from knowledge_builders import VALUES, Rule, World, worlds
 from seewhy.agent import Agent
 from seewhy.cli.ask import print_reply
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.domain_tables import CLASS
 from seewhy.errors import DomainError, ModelError, NotFittedError

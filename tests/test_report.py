@@ -12,7 +12,7 @@ import pytest
 
 from conftest import seen, write_domain
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import SeeWhyError
 from seewhy.evaluation import evaluate

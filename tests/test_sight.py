@@ -11,10 +11,10 @@ import pytest
 
 from conftest import Run, one_process
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
+from seewhy.data.making import make_dataset
 from seewhy.domain import load_domain
 from seewhy.errors import DomainError, PlanningError
-from seewhy.pictures import make_dataset
 from seewhy.planning.diagnosis import SurpriseKind
 from seewhy.planning.dialogue.replying import answer
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
@@ -367,7 +367,7 @@ def test_a_run_with_pictures_from_the_command_line(
 
 
 def test_depict_shows_what_draw_annotates() -> None:
-    from seewhy.picture_source import load_depict
+    from seewhy.data.picture_source import load_depict
 
     depict = load_depict(load_domain("robot_assistant"))
     one, two = (depict({"desk": "yes", "bob": "no"}, seed=4, size=48) for _ in range(2))

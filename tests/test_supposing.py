@@ -14,7 +14,7 @@ from conftest import draw_tile, seen
 from knowledge_builders import World, worlds
 from seewhy.agent import Agent
 from seewhy.cli.ask import print_reply
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import load_domain
 from seewhy.domain_tables import CLASS
 from seewhy.errors import DomainError

@@ -16,7 +16,7 @@ from conftest import DOMAIN, QUESTIONS, one_process, seen, write_domain, write_t
 from seewhy.agent import Agent
 from seewhy.cli.main import main
 from seewhy.cli.train import print_refusal
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DomainError
 from seewhy.evaluation import evaluate

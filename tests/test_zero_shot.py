@@ -13,7 +13,7 @@ from seewhy.agent import Agent
 from seewhy.cli.evaluate import print_classes
 from seewhy.cli.main import main
 from seewhy.cli.training import trained_already
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DatasetError
 from seewhy.evaluation import evaluate

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
-    from seewhy.dataset import Dataset
+    from seewhy.data.dataset import Dataset
     from seewhy.domain import Domain, load_domain
     from seewhy.errors import SeeWhyError
     from seewhy.evaluation import Evaluation, evaluate
@@ -33,7 +33,7 @@ __all__ = [
 
 _HOMES = {
     "Agent": "seewhy.agent",
-    "Dataset": "seewhy.dataset",
+    "Dataset": "seewhy.data.dataset",
     "Domain": "seewhy.domain",
     "Evaluation": "seewhy.evaluation",
     "Node": "seewhy.knowledge.justification",

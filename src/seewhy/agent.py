@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.answering import Answering
 from seewhy.dialogue.question import Question, Questions

@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
+from seewhy.data.picture_source import load_source
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.question import Questions
 from seewhy.domain import Domain
@@ -20,7 +21,6 @@ from seewhy.evaluation import AxiomRecord, axiom_records
 from seewhy.knowledge.consistency import never_applies
 from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.picture_source import load_source
 
 MOST_VECTORS = 20_000
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
+from seewhy.data.making import determined_share
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
 from seewhy.errors import DatasetError
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.pictures import determined_share
 from seewhy.reply import UNKNOWN
 
 if TYPE_CHECKING:

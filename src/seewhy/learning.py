@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from seewhy.dataset import Dataset, Scene
+from seewhy.data.dataset import Dataset, Scene
 from seewhy.dialogue.reference import Experience
 from seewhy.domain import Domain
 from seewhy.induction.axiom_text import axiom_statement, conjunctions

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
+from seewhy.data.making import MADE, make_dataset
 from seewhy.domain import Domain
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.pictures import MADE, make_dataset
 
 if TYPE_CHECKING:
     from seewhy.perception.extractor import FeatureExtractor

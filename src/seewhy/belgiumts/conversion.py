@@ -17,7 +17,7 @@ from PIL import Image, ImageOps, PngImagePlugin, UnidentifiedImageError
 from seewhy.belgiumts.classes import SignClass, read_classes
 from seewhy.belgiumts.container import DamagedFileError
 from seewhy.belgiumts.layout import PHOTOGRAPHS, Half, LeftOut, Photograph, open_halves
-from seewhy.dataset import TABLE
+from seewhy.data.dataset import TABLE
 from seewhy.domain import Domain
 from seewhy.errors import DatasetError, PictureError
 from seewhy.files import whole_file, write_whole

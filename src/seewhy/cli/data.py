@@ -40,9 +40,9 @@ def make(
     One picture in three is marked split = test in scenes.csv. An interrupted call goes on
     where it was.
     """
+    from seewhy.data.making import make_dataset
     from seewhy.domain import load_domain
     from seewhy.errors import SeeWhyError
-    from seewhy.pictures import make_dataset
 
     if workers == 0:
         raise SeeWhyError("--workers must be -1 or at least 1, got 0")
@@ -102,11 +102,11 @@ def show(
     json: Json = False,
 ) -> None:
     """Write a contact sheet: pictures with their labels."""
-    from seewhy.dataset import Dataset
-    from seewhy.dataset_domain import domain_of
+    from seewhy.data.dataset import Dataset
+    from seewhy.data.dataset_domain import domain_of
+    from seewhy.data.making import determined_share
     from seewhy.domain import load_domain
     from seewhy.files import whole_file
-    from seewhy.pictures import determined_share
     from seewhy.report.contact_sheet import draw_contact_sheet
 
     own = load_domain(domain) if domain else domain_of(folder)

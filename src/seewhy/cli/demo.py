@@ -13,7 +13,7 @@ from seewhy.cli.screen import output, print_json, progress, say
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
-    from seewhy.dataset import Dataset, Scene
+    from seewhy.data.dataset import Dataset, Scene
     from seewhy.reply import Classification, Reply
 
 
@@ -34,11 +34,11 @@ def demo(
     from seewhy.cli.evaluate import print_evaluation
     from seewhy.cli.train import print_learned
     from seewhy.cli.training import train_model, trained_already
-    from seewhy.dataset import Dataset
+    from seewhy.data.dataset import Dataset
+    from seewhy.data.making import make_dataset
     from seewhy.domain import load_domain
     from seewhy.evaluation import evaluate
     from seewhy.files import write_whole
-    from seewhy.pictures import make_dataset
     from seewhy.report.page import report_page
 
     start = perf_counter()

@@ -27,7 +27,7 @@ def evaluate(
 ) -> None:
     """Evaluate a model on a dataset (on the rows with split = test, where there are splits)."""
     from seewhy.agent import Agent
-    from seewhy.dataset import Dataset
+    from seewhy.data.dataset import Dataset
     from seewhy.evaluation import evaluate as evaluate_agent
 
     agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)

@@ -17,7 +17,7 @@ from seewhy.errors import SeeWhyError
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
-    from seewhy.dataset import Dataset
+    from seewhy.data.dataset import Dataset
     from seewhy.knowledge.axiom import Axiom
     from seewhy.knowledge.learned_file import Withdrawn
     from seewhy.learning import Learning
@@ -104,7 +104,7 @@ def learn(
         given = "--out" if out is not None else "--without"
         raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the model")
     from seewhy.agent import Agent
-    from seewhy.dataset import Dataset
+    from seewhy.data.dataset import Dataset
     from seewhy.induction.learning import DEFAULTS, LearningOptions
 
     agent = Agent.load(model)

@@ -11,7 +11,7 @@ from seewhy.cli.screen import percent, progress, remark
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
-    from seewhy.dataset import Dataset
+    from seewhy.data.dataset import Dataset
     from seewhy.domain import Domain
     from seewhy.perception.events import TrainingEvent
 
@@ -61,7 +61,7 @@ def train_model(
     beside ``out`` until the model is written.
     """
     from seewhy.agent import Agent
-    from seewhy.dataset import Dataset
+    from seewhy.data.dataset import Dataset
     from seewhy.domain_tables import CLASS, TOGETHER
     from seewhy.model import check_target
 

@@ -12,15 +12,15 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from seewhy.dataset import TABLE, Dataset
+from seewhy.data.dataset import TABLE, Dataset
+from seewhy.data.making import make_dataset
+from seewhy.data.picture_source import load_source
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import ExperimentError
 from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import ALL, Setting, Trial, say_size
 from seewhy.experiments.settings import SETTINGS
 from seewhy.files import whole_file
-from seewhy.picture_source import load_source
-from seewhy.pictures import make_dataset
 
 __all__ = ["POOL", "available", "divide", "in_fold", "load_pictures", "pool_of", "require_enough"]
 

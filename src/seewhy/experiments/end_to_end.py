@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 import torch
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Question, Questions
 from seewhy.dialogue.recurrent import Asked, grown_network, hold_out

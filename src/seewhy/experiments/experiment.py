@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain
 
 __all__ = ["ALL", "Claim", "Experiment", "Measure", "Plan", "Setting", "Trial", "say_size"]

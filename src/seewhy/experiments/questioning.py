@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks, Query, Question, Questions
 from seewhy.dialogue.reference import ReferenceAnswers

@@ -11,7 +11,8 @@ from pathlib import Path
 
 from joblib import cpu_count
 
-from seewhy.dataset import TABLE
+from seewhy.data.dataset import TABLE
+from seewhy.data.picture_source import load_source
 from seewhy.domain import FILES, load_domain
 from seewhy.errors import ExperimentError
 from seewhy.experiments.catalogue import COMPARES_READINGS, experiment
@@ -22,7 +23,6 @@ from seewhy.experiments.published import take_up
 from seewhy.experiments.row_check import fault
 from seewhy.experiments.rows import finish, kept_trials, read_trial
 from seewhy.experiments.settings import check_settings, digest, require_settings
-from seewhy.picture_source import load_source
 from seewhy.reading import ReadingRule, reading_rule
 
 __all__ = ["Run", "finished_rows", "prepare", "run_missing", "setting_of", "side_by_side"]

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.domain_tables import CLASS
 from seewhy.errors import ExperimentError
 from seewhy.experiments.claims import claimed

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from seewhy.agent import Agent
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
+from seewhy.data.making import determined_share
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of
 from seewhy.domain import Domain
 from seewhy.experiments.experiment import Claim, Experiment, Measure, Plan, Row, Setting, Trial
@@ -18,7 +19,6 @@ from seewhy.experiments.questioning import Asked, answer_scores, draw_questions
 from seewhy.experiments.seeing import Remembered, Seen, pretrain, see
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import Withdrawn
-from seewhy.pictures import determined_share
 
 __all__ = [
     "MEASURES",

@@ -11,9 +11,9 @@ import clingo
 import numpy as np
 from numpy.typing import NDArray
 
+from seewhy.data.picture_source import load_depict
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import PlanningError
-from seewhy.picture_source import load_depict
 from seewhy.planning.domain import FILE, PlanningDomain
 from seewhy.planning.sensing import Sensors, condition_to_sense
 from seewhy.planning.world import World

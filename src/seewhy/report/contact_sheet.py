@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from PIL import Image, ImageDraw, ImageFont
 
-from seewhy.dataset import Dataset
+from seewhy.data.dataset import Dataset
 from seewhy.perception.picture import read_picture
 
 _LINE = 13

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-from seewhy.dataset import Scene
+from seewhy.data.dataset import Scene
 from seewhy.dialogue.question import Asks
 from seewhy.evaluation import Evaluation
 from seewhy.induction.sentence import say_path

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-from seewhy.dataset import TABLE
+from seewhy.data.dataset import TABLE
 from seewhy.domain import Domain, bundled_domains, load_domain
 from seewhy.errors import DatasetError
 

@@ -52,7 +52,7 @@ class Dataset:
     --------
     >>> import seewhy, tempfile
     >>> domain = seewhy.load_domain("structure_stability")
-    >>> from seewhy.pictures import make_dataset
+    >>> from seewhy.data.making import make_dataset
     >>> folder = tempfile.mkdtemp()
     >>> _ = make_dataset(domain, folder, count=6, seed=0)
     >>> len(Dataset.load(folder, domain))

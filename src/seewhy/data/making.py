@@ -12,12 +12,12 @@ from pathlib import Path
 
 from joblib import Parallel, delayed
 
-from seewhy.dataset import TABLE
+from seewhy.data.dataset import TABLE
+from seewhy.data.picture_source import draw_picture, load_source
 from seewhy.domain import Domain
 from seewhy.errors import DatasetError, DomainError
 from seewhy.files import whole_file, write_whole
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.picture_source import draw_picture, load_source
 
 MADE = "made.json"
 

@@ -1,0 +1,1 @@
+"""Tables of annotated pictures, and pictures that a domain's source makes."""
