@@ -396,7 +396,7 @@ def test_evaluating_on_training_pictures_is_remarked(
     rows = (tiles_data / "scenes.csv").read_text().splitlines()
     rows = [rows[0], *(f"{tiles_data}/{row}".replace(",train", ",") for row in rows[1:3])]
     (folder / "scenes.csv").write_text("\n".join(rows))
-    result = run("evaluate", model_folder, "--data", folder, "--json")
+    result = run("evaluate", model_folder, "--data", folder, "--outside", "--json")
     assert result.code == 0
     assert json.loads(result.out)["seen_in_training"] == 2
     assert result.err == ("2 of 2 pictures were trained on; results on them prove nothing\n")

@@ -148,6 +148,7 @@ class Agent:
         self.extractor: FeatureExtractor | None = None
         self.answerer: RecurrentAnswerer | None = None
         self.trained_on: frozenset[str] = frozenset()
+        self.without_class: frozenset[str] = frozenset()
         self.without: tuple[str, ...] = ()
         self.familiarity: Familiarity | None = None
         self.validation_scores: dict[ReadingRule, list[float]] = {}
@@ -208,6 +209,8 @@ class Agent:
     ) -> Agent:
         """Train on the scenes of a dataset (those with split "train", where there are splits).
 
+        Pictures without a class teach what the networks of features see, and nothing else.
+
         Parameters
         ----------
         dataset : Dataset
@@ -237,8 +240,9 @@ class Agent:
         Raises
         ------
         DatasetError
-            If the dataset is of another domain or of one class only, if a class to leave out is
-            none of the domain's, or if there are both networks to start from and pictures to draw.
+            If the dataset is of another domain or of one class only, if no picture has a value of
+            some feature, if a class to leave out is none of the domain's, or if there are both
+            networks to start from and pictures to draw.
         """
         from seewhy.perception.domain_options import (
             seen_labels,
@@ -254,6 +258,10 @@ class Agent:
         self._require_own(dataset)
         scenes = dataset.of_split("train").without_classes(without)
         scenes.require_two_classes()
+        scenes.require_feature_labels()
+        scenes = scenes.annotated()
+        classed = scenes.with_class()
+        with_label = [n for n, label in enumerate(scenes.labels) if label is not None]
         pixels = scenes.pictures(self.domain.pictures.size)
         with_class = self.reading == "with_class"
         validation = None
@@ -302,12 +310,13 @@ class Agent:
             on_progress=on_progress,
         )
         self.trained_on = frozenset(scenes.picture_digests())
+        self.without_class = self.trained_on - frozenset(classed.picture_digests())
         self.without = tuple(dict.fromkeys(without))
         # Drawings show all classes alike; a few photographs leave most of them out.
         self.fit_induction(
-            [*scenes.vectors, *(first.vectors if first else ())],
-            [*scenes.labels, *(first.labels if first else ())],
-            uncertain=self._uncertain(pixels),
+            [*classed.vectors, *(first.vectors if first else ())],
+            [*classed.classes, *(first.labels if first else ())],
+            uncertain=self._uncertain(pixels[with_label]),
             answers=answers,
             reference=reference,
         )
@@ -413,7 +422,8 @@ class Agent:
         """
         self._require_own(dataset)
         train = dataset.of_split("train")
-        scenes = scenes_of(train, self.experience, self.trained_on)
+        counted = self.trained_on - self.without_class
+        scenes = scenes_of(train, self.experience, counted)
         if len(set(scenes.labels)) < 2:
             train.require_two_classes()
         before = len(self.withdrawn)
@@ -436,7 +446,9 @@ class Agent:
         kept = [own for own in kept if own not in [axiom for axiom, _ in narrow]]
         self.withdrawn = (*self.withdrawn, *(own for _, own in narrow))
         self._know([*kept, *chosen])
-        self.trained_on |= frozenset(train.picture_digests())
+        learned_from = frozenset(train.with_class().picture_digests())
+        self.trained_on |= learned_from
+        self.without_class -= learned_from
         self.fit_induction(scenes.vectors, scenes.labels, answers=answers)
         return Learning(
             found,
@@ -766,6 +778,7 @@ class Agent:
             answerer=self.answerer,
             experience=self.experience,
             trained_on=self.trained_on,
+            without_class=self.without_class,
             minimality=self.minimality,
             seed=self.seed,
             reading=self.reading,
@@ -821,6 +834,7 @@ class Agent:
             )
         agent.extractor, agent.tree, agent.answerer = model.extractor, model.tree, model.answerer
         agent.experience, agent.trained_on = model.experience, model.trained_on
+        agent.without_class = model.without_class
         agent.familiarity = model.familiarity
         agent.validation_scores = dict(model.validation_scores)
         agent.without = model.without

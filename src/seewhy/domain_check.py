@@ -6,7 +6,6 @@ from collections import Counter
 from dataclasses import asdict, dataclass
 from itertools import product
 from math import prod
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from seewhy.data.picture_source import load_source
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.question import Questions
 from seewhy.domain import Domain
-from seewhy.errors import KnowledgeError
+from seewhy.errors import DatasetError, KnowledgeError
 from seewhy.evaluation import AxiomRecord, axiom_records
 from seewhy.knowledge.consistency import never_applies
 from seewhy.knowledge.reasoner import Reasoner, Verdict
@@ -51,7 +50,7 @@ class DomainReport:
         }
 
 
-def check_domain(domain: Domain, data: Path | None = None) -> DomainReport:
+def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
     """Check what :func:`~seewhy.domain.load_domain` does not need to: questions and coverage.
 
     Raises
@@ -91,17 +90,22 @@ def check_domain(domain: Domain, data: Path | None = None) -> DomainReport:
     )
     if data is None:
         return report
-    scenes = Dataset.load(data, domain)
+    scenes = data.with_class()
+    if not len(scenes):
+        raise DatasetError(
+            f"{data.table.name}: no row has a class, by which axioms are judged; fill the column "
+            "'class'"
+        )
     decisions = reasoner.decide_all(scenes.vectors)
     decided = [
         decision.label == label
-        for decision, label in zip(decisions, scenes.labels, strict=True)
+        for decision, label in zip(decisions, scenes.classes, strict=True)
         if decision.label is not None
     ]
     return DomainReport(
         **{
             **report.__dict__,
-            "axioms": axiom_records(reasoner, scenes.vectors, scenes.labels),
+            "axioms": axiom_records(reasoner, scenes.vectors, scenes.classes),
             "decided": len(decided) / len(scenes),
             "decided_rightly": float(np.mean(decided)) if decided else 0.0,
         }

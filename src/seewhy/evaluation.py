@@ -50,6 +50,9 @@ class Evaluation:
     Attributes
     ----------
     scenes : int
+        Those whose class is annotated.
+    without_class : int
+        Other pictures, of which only the features are judged.
     seen_in_training : int
         Scenes whose picture the model was trained on; their results prove nothing.
     classification_accuracy : float
@@ -68,7 +71,8 @@ class Evaluation:
         The same over the questions that ask why, why not, what would have to change, and how a
         scene differs from a class.
     feature_accuracy : dict
-        Feature → share of the scenes in which it was recognised.
+        Feature → share of the pictures in which it was recognised, of those in which somebody
+        said what it is; a feature of which nobody did is left out.
     decided_by_knowledge : float
         Share of scenes that the knowledge decided.
     accuracy_by_method : dict
@@ -79,6 +83,7 @@ class Evaluation:
     """
 
     scenes: int
+    without_class: int
     seen_in_training: int
     classification_accuracy: float
     class_accuracy: dict[str, float]
@@ -115,6 +120,7 @@ def evaluate(
 
     For every scene, ``questions_per_scene`` of the domain's questions are drawn at random, whatever
     its class is; so what they presume is nobody's word, and the agent does not suppose it.
+    Pictures without a class count for the features that are annotated, for nothing else.
     Correct answers are those of :mod:`seewhy.dialogue.reference`: of what the agent itself knows,
     or of ``reference``, where somebody knows more.
 
@@ -122,30 +128,41 @@ def evaluate(
     --------
     >>> # evaluate(agent, Dataset.load("pictures", domain)).classification_accuracy
     """
-    scenes = dataset.of_split("test")
+    everything = dataset.of_split("test")
     if dataset.domain.name != agent.domain.name:
         raise DatasetError(
             f"{dataset.folder}: the dataset is of the domain '{dataset.domain.name}', the model "
             f"of '{agent.domain.name}'"
         )
-    pictures = scenes.pictures(agent.domain.pictures.size, on_progress=on_progress)
-    classified = [replace(own, otherwise=()) for own in agent.classify_all(pictures)]
-    right = [own.label == true for own, true in zip(classified, scenes.labels, strict=True)]
-    methods = [own.method for own in classified]
+    scenes = everything.with_class()
+    if not len(scenes):
+        raise DatasetError(
+            f"{everything.table.name}: no picture to evaluate on has a class; fill the column "
+            "'class'"
+        )
+    pictures = everything.pictures(agent.domain.pictures.size, on_progress=on_progress)
+    seen = [replace(own, otherwise=()) for own in agent.classify_all(pictures)]
     features = {}
     for position, key in enumerate(agent.domain.features):
         pairs = [
             (own.vector[position], true[position])
-            for own, true in zip(classified, scenes.vectors, strict=True)
+            for own, true in zip(seen, everything.vectors, strict=True)
             if true[position] is not None
         ]
-        features[key] = _share([seen == true for seen, true in pairs])
+        if pairs:
+            features[key] = _share([value == true for value, true in pairs])
+    classified = [
+        own for own, label in zip(seen, everything.labels, strict=True) if label is not None
+    ]
+    classes = scenes.classes
+    right = [own.label == true for own, true in zip(classified, classes, strict=True)]
+    methods = [own.method for own in classified]
     reference = reference or agent.reference
     generator = np.random.default_rng(seed)
     possible = [q for q in agent.questions.one_of_each() if q.asks is not Asks.EXPLAIN]
     scored: list[tuple[bool, bool, bool]] = []
     known: dict[tuple[object, ...], AnswerType] = {}
-    for scene, own in zip(scenes.scenes, classified, strict=True):
+    for scene, true_class, own in zip(scenes.scenes, classes, classified, strict=True):
         number = min(questions_per_scene, len(possible))
         for chosen in generator.choice(len(possible), size=number, replace=False):
             question = possible[int(chosen)]
@@ -153,25 +170,24 @@ def evaluate(
             if asked not in known:
                 known[asked] = agent.answer(own, question).kind
             kind = known[asked]
-            gold = reference.answer(question, scene.vector, scene.label)
+            gold = reference.answer(question, scene.vector, true_class)
             enough, exact = score_answer(
                 kind,
                 gold,
                 seen=dict(zip(agent.domain.features, own.vector, strict=True)),
                 true=dict(zip(agent.domain.features, scene.vector, strict=True)),
-                right_class=own.label == scene.label,
+                right_class=own.label == true_class,
             )
             scored.append((enough, exact, question.asks in EXPLANATORY))
     return Evaluation(
         scenes=len(scenes),
+        without_class=len(everything) - len(scenes),
         seen_in_training=sum(digest in agent.trained_on for digest in scenes.picture_digests()),
         classification_accuracy=_share(right),
         class_accuracy={
-            label: _share(
-                [r for r, true in zip(right, scenes.labels, strict=True) if true == label]
-            )
+            label: _share([r for r, true in zip(right, classes, strict=True) if true == label])
             for label in agent.domain.classes
-            if label in scenes.labels
+            if label in classes
         },
         without=agent.without,
         unknown=_share([own.verdict == UNKNOWN for own in classified]),
@@ -185,8 +201,8 @@ def evaluate(
             method: _share([r for r, m in zip(right, methods, strict=True) if m == method])
             for method in sorted(set(methods))
         },
-        determined=determined_share(scenes.vectors, scenes.labels),
-        axioms=axiom_records(agent.reasoner, scenes.vectors, scenes.labels),
+        determined=determined_share(scenes.vectors, classes),
+        axioms=axiom_records(agent.reasoner, scenes.vectors, classes),
     )
 
 

@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from seewhy.data.dataset import Dataset, Scene
+from seewhy.data.dataset import Dataset
 from seewhy.dialogue.reference import Experience
 from seewhy.domain import Domain
 from seewhy.induction.axiom_text import axiom_statement, conjunctions
@@ -102,16 +102,19 @@ class Learning:
 def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) -> AnnotatedScenes:
     """Return the scenes of a dataset and those that were counted before, none of them twice.
 
-    ``known`` are the digests of the pictures that ``experience`` counts.
+    A picture without a class teaches nothing here. ``known`` are the digests of the pictures that
+    ``experience`` counts.
     """
     names: dict[tuple[FeatureVector, str], list[str]] = {}
     said: dict[tuple[FeatureVector, str], list[Reasons | None]] = {}
     counts: Counter[tuple[FeatureVector, str]] = Counter(
         {(v, label): n for v, own in experience.items() for label, n in own.items()}
     )
-    for scene, digest in zip(dataset.scenes, dataset.picture_digests(), strict=True):
-        key = scene.vector, scene.label
-        names.setdefault(key, []).append(_name(dataset, scene))
+    classed = dataset.with_class()
+    rows_read = zip(classed.scenes, classed.classes, classed.picture_digests(), strict=True)
+    for scene, label, digest in rows_read:
+        key = scene.vector, label
+        names.setdefault(key, []).append(classed.name_of(scene))
         counts[key] += digest not in known
         said.setdefault(key, []).append(frozenset(scene.reasons) or None)
     rows = [
@@ -128,12 +131,6 @@ def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) 
         tuple(name for _, _, own, _ in rows for name in own),
         tuple(reasons for _, _, _, own in rows for reasons in own),
     )
-
-
-def _name(dataset: Dataset, scene: Scene) -> str:
-    folder = dataset.folder
-    inside = scene.picture.is_relative_to(folder)
-    return (scene.picture.relative_to(folder) if inside else scene.picture).as_posix()
 
 
 def learn_for_domain(

@@ -44,7 +44,8 @@ class Model:
     training scenes rightly; ``trained_on`` holds digests of the pictures, ``without`` the classes
     of which there were none on purpose, ``validation_scores`` how like those of training the
     pictures kept for validation are, under each way of reading; it and ``familiarity`` are empty
-    where no picture is to be refused.
+    where no picture is to be refused. ``without_class`` are those of ``trained_on`` that had no
+    class, so that ``experience`` does not count them.
     """
 
     domain: Domain
@@ -55,6 +56,7 @@ class Model:
     answerer: RecurrentAnswerer | None
     experience: Experience
     trained_on: frozenset[str]
+    without_class: frozenset[str]
     minimality: Minimality
     seed: int
     reading: ReadingRule
@@ -170,6 +172,7 @@ def read_model(folder: Path) -> Model:
         answerer=answerer,
         experience={tuple(row["features"]): row["classes"] for row in experience},
         trained_on=frozenset(manifest["trained_on"]),
+        without_class=frozenset(manifest.get("without_class", ())),
         minimality=manifest["minimality"],
         seed=manifest["seed"],
         reading=manifest["reading"],
@@ -205,6 +208,7 @@ def _manifest(model: Model, folder: Path) -> dict[str, Any]:
         "without": list(model.without),
         "answers": model.answerer is not None,
         "trained_on": sorted(model.trained_on),
+        "without_class": sorted(model.without_class),
         "files": {
             path.relative_to(folder).as_posix(): _digest(path)
             for path in sorted(folder.rglob("*"))

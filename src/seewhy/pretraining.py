@@ -114,4 +114,4 @@ def pretrained(
             on_progress=on_progress,
         )
         drawn = Rehearsal(pixels, labels)
-        return Pretrained(extractor, drawn, tuple(scenes.vectors), tuple(scenes.labels))
+        return Pretrained(extractor, drawn, tuple(scenes.vectors), tuple(scenes.classes))

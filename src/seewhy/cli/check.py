@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from seewhy.cli.options import DomainName, Json
+from seewhy.cli.options import DomainName, Json, Outside
 from seewhy.cli.screen import add_row, output, percent, print_json, say, table
 
 
@@ -17,9 +17,11 @@ def check(
         Path | None,
         typer.Option("--data", help="Also say how often each axiom is right on this dataset."),
     ] = None,
+    outside: Outside = False,
     json: Json = False,
 ) -> None:
     """Check a domain folder: its files, words, axioms and questions."""
+    from seewhy.cli.read_data import read_data
     from seewhy.domain import load_domain
     from seewhy.domain_check import check_domain
     from seewhy.planning.domain import plans, plans_only
@@ -33,7 +35,8 @@ def check(
         say("nothing is wrong")
         return
     own = load_domain(domain)
-    report = check_domain(own, data)
+    dataset = None if data is None else read_data(data, own, outside=outside)
+    report = check_domain(own, dataset)
     if json:
         print_json({**report.to_dict(), **({"planning": planning} if planning else {})})
         return

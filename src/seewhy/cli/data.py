@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from seewhy.cli import data_import
-from seewhy.cli.options import DomainName, Json, Seed
+from seewhy.cli.options import DomainName, Json, Outside, Seed
 from seewhy.cli.screen import percent, print_json, progress, remark, say
 
 if TYPE_CHECKING:
@@ -99,6 +100,7 @@ def show(
     ] = None,
     rows: Annotated[int, typer.Option("--rows", min=1, max=50)] = 5,
     columns: Annotated[int, typer.Option("--columns", min=1, max=20)] = 8,
+    outside: Outside = False,
     json: Json = False,
 ) -> None:
     """Write a contact sheet: pictures with their labels."""
@@ -110,27 +112,38 @@ def show(
     from seewhy.report.contact_sheet import draw_contact_sheet
 
     own = load_domain(domain) if domain else domain_of(folder)
-    dataset = Dataset.load(folder, own)
+    dataset = Dataset.load(folder, own, outside=outside)
     sheet = draw_contact_sheet(dataset, rows=rows, columns=columns)
     target = out or folder / "contact_sheet.png"
     with whole_file(target) as temporary:
         sheet.save(temporary, format="PNG")
-    shares = {name: dataset.labels.count(name) / len(dataset) for name in own.classes}
-    determined = determined_share(dataset.vectors, dataset.labels)
+    classed = dataset.with_class()
+    classes = Counter(classed.classes)
+    shares = {name: classes[name] / max(1, len(classed)) for name in own.classes}
+    determined = determined_share(classed.vectors, classed.classes) if len(classed) else None
     if json:
         print_json(
             {
                 "contact_sheet": str(target),
                 "domain": own.name,
                 "scenes": len(dataset),
+                "without_class": len(dataset) - len(classed),
                 "classes": shares,
                 "determined": determined,
             }
         )
         return
     remark(f"domain: {own.name}")
-    said = ", ".join(say_shares(own, shares, between=" "))
-    say(f"{len(dataset)} pictures ({said}); {percent(determined)} determined by their features")
+    if determined is None:
+        say(f"{len(dataset)} pictures, none of them with a class")
+    else:
+        said = ", ".join(say_shares(own, shares, between=" "))
+        without = len(dataset) - len(classed)
+        more = f", and {without} without a class" if without else ""
+        say(
+            f"{len(classed)} pictures ({said}); {percent(determined)} determined by their "
+            f"features{more}"
+        )
     say(f"contact sheet: {target}")
 
 

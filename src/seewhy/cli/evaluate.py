@@ -6,7 +6,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from seewhy.cli.options import DataFolder, Gate, Json, KnownShare, ModelFolder, Reading, Seed
+from seewhy.cli.options import (
+    DataFolder,
+    Gate,
+    Json,
+    KnownShare,
+    ModelFolder,
+    Outside,
+    Reading,
+    Seed,
+)
 from seewhy.cli.screen import add_row, output, percent, print_json, progress, remark, table
 
 if TYPE_CHECKING:
@@ -23,15 +32,16 @@ def evaluate(
     reading: Reading = None,
     gate: Gate = None,
     known_share: KnownShare = None,
+    outside: Outside = False,
     json: Json = False,
 ) -> None:
     """Evaluate a model on a dataset (on the rows with split = test, where there are splits)."""
     from seewhy.agent import Agent
-    from seewhy.data.dataset import Dataset
+    from seewhy.cli.read_data import read_data
     from seewhy.evaluation import evaluate as evaluate_agent
 
     agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
-    dataset = Dataset.load(data, agent.domain)
+    dataset = read_data(data, agent.domain, outside=outside, evaluated=True)
     with progress() as bars:
         task = bars.add_task("looking at pictures", total=len(dataset.of_split("test")))
         result = evaluate_agent(
@@ -40,6 +50,11 @@ def evaluate(
             questions_per_scene=questions,
             seed=seed,
             on_progress=lambda done: bars.update(task, completed=done),
+        )
+    if result.without_class:
+        remark(
+            f"{result.without_class} more pictures have no class: they count for the features "
+            "that they are annotated with, for nothing else"
         )
     if result.seen_in_training:
         remark(

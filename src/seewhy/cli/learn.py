@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from seewhy.cli.axiom_lines import axiom_dict, rests, withdrawn_dict, withdrawn_line
-from seewhy.cli.options import Json, Seed
+from seewhy.cli.options import Json, Outside, Seed
 from seewhy.cli.robot import Without, with_knowledge_of_robot
-from seewhy.cli.screen import percent, print_json, say
-from seewhy.errors import SeeWhyError
+from seewhy.cli.screen import percent, print_json, remark, say
+from seewhy.errors import DatasetError, SeeWhyError
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
@@ -78,6 +78,7 @@ def learn(
             help="Draw the tree, with the paths that became axioms marked (SVG).",
         ),
     ] = None,
+    outside: Outside = False,
     seed: Seed = 0,
     json: Json = False,
 ) -> None:
@@ -104,11 +105,11 @@ def learn(
         given = "--out" if out is not None else "--without"
         raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the model")
     from seewhy.agent import Agent
-    from seewhy.data.dataset import Dataset
+    from seewhy.cli.read_data import read_data
     from seewhy.induction.learning import DEFAULTS, LearningOptions
 
     agent = Agent.load(model)
-    dataset = Dataset.load(data, agent.given)
+    dataset = _with_class(read_data(data, agent.given, outside=outside, evaluated=True))
     before = _accuracy(agent, dataset)
     learning = agent.learn(
         dataset,
@@ -207,15 +208,32 @@ def _none(_: Sequence[object]) -> list[Any]:
     return []
 
 
+def _with_class(dataset: Dataset) -> Dataset:
+    found = dataset.with_class()
+    if not len(found):
+        raise DatasetError(
+            f"{dataset.table.name}: no row has a class, of which axioms are learned; fill the "
+            "column 'class'"
+        )
+    if len(found) < len(dataset):
+        remark(
+            f"{len(dataset) - len(found):,} of {len(dataset):,} pictures have no class: nothing is "
+            "learned from them"
+        )
+    return found
+
+
 def _accuracy(agent: Agent, dataset: Dataset) -> dict[str, float]:
     """How much of the annotated features is classified, and how much of the pictures to test on."""
     scenes = dataset.of_split("test")
     decisions = agent.reasoner.decide_all(scenes.vectors)
     labels = [agent.decide(agent.domain.named(vector)) for vector in scenes.vectors]
-    by_knowledge = [own.label == label for own, label in zip(decisions, scenes.labels, strict=True)]
+    by_knowledge = [
+        own.label == label for own, label in zip(decisions, scenes.classes, strict=True)
+    ]
     found = agent.classify_all(scenes.pictures(agent.domain.pictures.size))
-    pairs = zip(found, scenes.labels, strict=True)
-    right = [own == label for own, label in zip(labels, scenes.labels, strict=True)]
+    pairs = zip(found, scenes.classes, strict=True)
+    right = [own == label for own, label in zip(labels, scenes.classes, strict=True)]
     count = max(1, len(scenes))
     return {
         "annotated features that the knowledge decides rightly": sum(by_knowledge) / count,

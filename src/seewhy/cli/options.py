@@ -17,6 +17,10 @@ ImageFile = Annotated[Path, typer.Argument(metavar="IMAGE", help="A picture file
 DataFolder = Annotated[
     Path, typer.Option("--data", help="A dataset folder: pictures and scenes.csv.")
 ]
+Outside = Annotated[
+    bool,
+    typer.Option("--outside", help="Also read pictures that lie outside of the dataset's folder."),
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Seed = Annotated[int, typer.Option("--seed", min=0, help="Settles every random choice.")]
 

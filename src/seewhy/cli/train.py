@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from seewhy.cli.options import DataFolder, DomainName, Gate, Json, KnownShare, Reading, Seed
+from seewhy.cli.options import (
+    DataFolder,
+    DomainName,
+    Gate,
+    Json,
+    KnownShare,
+    Outside,
+    Reading,
+    Seed,
+)
 from seewhy.cli.screen import add_row, output, percent, print_json, table
 from seewhy.cli.training import train_model
 
@@ -44,6 +53,7 @@ def train(
     reading: Reading = None,
     gate: Gate = None,
     known_share: KnownShare = None,
+    outside: Outside = False,
     seed: Seed = 0,
     json: Json = False,
 ) -> None:
@@ -61,6 +71,7 @@ def train(
         without=without or (),
         start_from=start_from,
         drawn=drawn,
+        outside=outside,
         seed=seed,
         reading=reading,
         gate=gate,

@@ -33,7 +33,9 @@ def trained_already(folder: Path, dataset: Dataset, *, seed: int) -> Agent | Non
         (agent.domain.folder / name).read_bytes() == (dataset.domain.folder / name).read_bytes()
         for name in FILES
     )
-    same_pictures = agent.trained_on == frozenset(dataset.of_split("train").picture_digests())
+    same_pictures = agent.trained_on == frozenset(
+        dataset.of_split("train").annotated().picture_digests()
+    )
     plain = Agent(dataset.domain, seed=seed)
     same_options = all(
         getattr(agent, name) == getattr(plain, name)
@@ -50,6 +52,7 @@ def train_model(
     without: Sequence[str] = (),
     start_from: Path | None = None,
     drawn: int | None = None,
+    outside: bool = False,
     seed: int = 0,
     reading: str | None = None,
     gate: float | None = None,
@@ -61,15 +64,21 @@ def train_model(
     beside ``out`` until the model is written.
     """
     from seewhy.agent import Agent
-    from seewhy.data.dataset import Dataset
+    from seewhy.cli.read_data import read_data
+    from seewhy.data.coverage import coverage_notices
     from seewhy.domain_tables import CLASS, TOGETHER
     from seewhy.model import check_target
 
     check_target(out)
-    dataset = Dataset.load(data, domain)
     earlier = Agent.load(start_from) if start_from else None
     checkpoints = out.with_name(f"{out.name}.training")
     agent = Agent(domain, seed=seed, reading=reading, gate=gate, known_share=known_share)
+    dataset = read_data(data, domain, outside=outside)
+    train = dataset.of_split("train").without_classes(without)
+    train.require_two_classes()
+    train.require_feature_labels()
+    for notice in coverage_notices(train, without=without):
+        remark(notice)
     with progress() as bars:
         drawing = bars.add_task("drawing pictures", total=None, visible=False)
         at_first = {TOGETHER} if domain.networks.together else set(domain.features)

@@ -2,51 +2,50 @@
 
 from __future__ import annotations
 
-import csv
-import hashlib
+import os
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seewhy.data.contradiction import require_agreement
+from seewhy.data.digest import digest_of
+from seewhy.data.scene import Scene, TablePlace
+from seewhy.data.scene_rows import OPTIONAL, columns_of, scenes_of_rows
+from seewhy.data.table import read_table
 from seewhy.domain import Domain
-from seewhy.domain_tables import RESERVED
+from seewhy.domain_tables import CLASS
 from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.nearest import did_you_mean
 
+if TYPE_CHECKING:
+    import pandas as pd
+
+__all__ = ["TABLE", "Dataset", "Scene"]
+
 TABLE = "scenes.csv"
-SPLITS = ("train", "test")
 
-
-@dataclass(frozen=True)
-class Scene:
-    """One annotated picture.
-
-    ``split`` is "train", "test" or empty; pictures of one ``group`` show one physical thing and
-    are never split apart for validation. ``reasons`` are the features that somebody named as why
-    it is of its class.
-    """
-
-    picture: Path
-    vector: FeatureVector
-    label: str
-    split: str = ""
-    group: str = ""
-    reasons: tuple[str, ...] = ()
+BATCH = 64
+"""Pictures that are in the memory at a time where they need not all be."""
 
 
 @dataclass(frozen=True)
 class Dataset:
-    """Annotated pictures of one domain.
+    """Pictures of one domain with what is annotated of them.
 
-    On disk a dataset is plain: pictures, and a table ``scenes.csv`` with the columns ``image``
-    (a path from the folder), ``class``, one column per feature of the domain, and optionally
+    On disk a dataset is plain: pictures, and a table ``scenes.csv`` with a column ``image`` (a
+    path from the folder) and optionally ``class``, one column per feature of the domain,
     ``split`` ("train" or "test"), ``group`` and ``reasons`` (the features that are why the picture
-    is of its class, with blanks between). An empty cell is a value that nobody knows.
+    is of its class, with blanks between). An empty cell, or a column that is left out, is what
+    nobody knows: a table that only names pictures is one of pictures to classify. docs/data.md
+    says what such a table may look like.
 
     Examples
     --------
@@ -62,10 +61,20 @@ class Dataset:
     scenes: tuple[Scene, ...]
     domain: Domain
     folder: Path
+    origin: TablePlace | None = None
+
+    # Reading and writing ----------------------------------------------------------------------
 
     @staticmethod
-    def load(folder: Path | str, domain: Domain) -> Dataset:
+    def load(folder: Path | str, domain: Domain, *, outside: bool = False) -> Dataset:
         """Read a dataset and check every row against the domain.
+
+        Parameters
+        ----------
+        folder : Path or str
+        domain : Domain
+        outside : bool, default False
+            Whether the table may name pictures that lie outside of the folder.
 
         Raises
         ------
@@ -73,27 +82,111 @@ class Dataset:
             If the folder, its table or a row is wrong; the text names the file and the line.
         """
         folder = Path(folder)
-        table = folder / TABLE
+        file = folder / TABLE
         if not folder.is_dir():
             raise DatasetError(f"{folder}: there is no such folder; give one with a {TABLE}")
-        if not table.is_file():
+        if not file.is_file():
             raise DatasetError(
                 f"{folder}: the folder has no {TABLE}; it lists the pictures with the columns "
                 f"image, class, {', '.join(domain.features)}"
             )
-        try:
-            with table.open(newline="", encoding="utf-8-sig") as stream:
-                scenes = tuple(_read_rows(stream, domain, table))
-        except UnicodeDecodeError:
-            raise DatasetError(f"{table}: is not UTF-8 text; save it as CSV in UTF-8") from None
-        except csv.Error as problem:
-            raise DatasetError(f"{table}: is no table ({problem}); save it as CSV") from None
-        if not scenes:
-            raise DatasetError(f"{table}: the table has no rows; add one per picture")
-        return Dataset(scenes=scenes, domain=domain, folder=folder)
+        table = read_table(file, known=columns_of(domain), optional=OPTIONAL)
+        dataset = Dataset(
+            scenes=tuple(
+                scenes_of_rows(
+                    table.columns,
+                    ((row.line, row.cells) for row in table.rows),
+                    domain,
+                    folder=folder,
+                    place=TablePlace(str(file)),
+                    header=table.line,
+                    outside=outside,
+                )
+            ),
+            domain=domain,
+            folder=folder,
+        )
+        return dataset._checked()
+
+    @staticmethod
+    def from_frame(
+        frame: pd.DataFrame, domain: Domain, *, folder: Path | str = ".", outside: bool = False
+    ) -> Dataset:
+        """Make a dataset of a pandas data frame with the columns of ``scenes.csv``.
+
+        Parameters
+        ----------
+        frame : pandas.DataFrame
+            A row a picture. What is missing (None, NaN, NA) is what nobody knows; whole numbers
+            are read as such, True and False as "yes" and "no".
+        domain : Domain
+        folder : Path or str, default "."
+            Where paths in the column ``image`` begin.
+        outside : bool, default False
+            Whether pictures may lie outside of ``folder``.
+
+        Raises
+        ------
+        DatasetError
+            If a column, a value or a picture is none; rows are counted from 0.
+        """
+        from seewhy.data.frame import cells_of_frame
+
+        folder = Path(folder)
+        place = TablePlace("the frame", row="row")
+        columns, rows = cells_of_frame(frame)
+        scenes = scenes_of_rows(
+            columns, enumerate(rows), domain, folder=folder, place=place, outside=outside
+        )
+        return Dataset(tuple(scenes), domain, folder, place)._checked()
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the table as a pandas data frame, with the columns of ``scenes.csv``.
+
+        What nobody knows is None. :meth:`from_frame` makes the same dataset of it.
+
+        Raises
+        ------
+        SeeWhyError
+            If pandas is not installed.
+        """
+        from seewhy.data.frame import frame_of_cells
+
+        columns: dict[str, list[str | None]] = {
+            "image": [self.name_of(scene) for scene in self.scenes],
+            CLASS: list(self.labels),
+        }
+        for position, key in enumerate(self.domain.features):
+            columns[key] = [scene.vector[position] for scene in self.scenes]
+        columns["split"] = [scene.split or None for scene in self.scenes]
+        columns["group"] = [scene.group or None for scene in self.scenes]
+        columns["reasons"] = [" ".join(scene.reasons) or None for scene in self.scenes]
+        return frame_of_cells(columns)
+
+    def _checked(self) -> Dataset:
+        """This dataset, if it has rows that do not contradict each other."""
+        if not self.scenes:
+            raise DatasetError(f"{self.table.name}: the table has no rows; add one per picture")
+        rows: dict[Path, list[int]] = {}
+        for position, scene in enumerate(self.scenes):
+            rows.setdefault(scene.picture, []).append(position)
+        require_agreement(self, [same for same in rows.values() if len(same) > 1])
+        return self
+
+    # What it holds ----------------------------------------------------------------------------
 
     def __len__(self) -> int:
         return len(self.scenes)
+
+    @property
+    def table(self) -> TablePlace:
+        """How errors name the table and its rows."""
+        return TablePlace(str(self.folder / TABLE)) if self.origin is None else self.origin
+
+    def name_of(self, scene: Scene) -> str:
+        """The path of a scene's picture from the folder; as it is where it lies elsewhere."""
+        inside = scene.picture.is_relative_to(self.folder)
+        return (scene.picture.relative_to(self.folder) if inside else scene.picture).as_posix()
 
     @property
     def vectors(self) -> list[FeatureVector]:
@@ -101,14 +194,36 @@ class Dataset:
         return [scene.vector for scene in self.scenes]
 
     @property
-    def labels(self) -> list[str]:
-        """The annotated classes, one per scene."""
+    def labels(self) -> list[str | None]:
+        """The annotated classes, one per scene; None where nobody said it."""
         return [scene.label for scene in self.scenes]
 
     @property
+    def classes(self) -> list[str]:
+        """The annotated classes, one per scene, where all have one; see :meth:`with_class`.
+
+        Raises
+        ------
+        DatasetError
+            If a scene has none.
+        """
+        found = []
+        for scene in self.scenes:
+            if scene.label is None:
+                raise DatasetError(
+                    f"{self.table.at(scene.line)}: the picture '{self.name_of(scene)}' has no "
+                    "class; fill the cell 'class'"
+                )
+            found.append(scene.label)
+        return found
+
+    @property
     def groups(self) -> list[str]:
-        """The group of every scene; a scene without one is a group of its own."""
-        return [scene.group or str(number) for number, scene in enumerate(self.scenes)]
+        """The group of every scene; without one, a picture is a group of its own."""
+        # No cell begins with a blank, so that no name of a group is that of a picture.
+        return [scene.group or f" {scene.picture}" for scene in self.scenes]
+
+    # Parts of it ------------------------------------------------------------------------------
 
     def of_split(self, split: str) -> Dataset:
         """Return the scenes of a split; all scenes where the table names no splits."""
@@ -117,26 +232,28 @@ class Dataset:
         chosen = tuple(scene for scene in self.scenes if scene.split == split)
         if not chosen:
             raise DatasetError(
-                f"{self.folder / TABLE}: no row has split = {split}; add some, or leave the "
-                "column out"
+                f"{self.table.name}: no row has split = {split}; add some, or leave the column out"
             )
-        return replace(self, scenes=chosen)
+        return self.of_scenes(chosen)
 
-    def take(self, positions: Sequence[int]) -> Dataset:
-        """Return the scenes at some positions; pictures that were read are not read again."""
-        taken = replace(self, scenes=tuple(self.scenes[p] for p in positions))
-        for size, pixels in self._pixels.items():
-            taken._pixels[size] = pixels[list(positions)]
-        return taken
+    def with_class(self) -> Dataset:
+        """Return the scenes whose class somebody said; the same dataset where all are such."""
+        chosen = tuple(scene for scene in self.scenes if scene.label is not None)
+        return self if len(chosen) == len(self) else self.of_scenes(chosen)
 
-    def with_pictures(self, pixels: NDArray[np.uint8]) -> Dataset:
-        """Return the same scenes with their pictures as an earlier :meth:`pictures` gave them."""
-        same = replace(self)
-        same._pixels[pixels.shape[1]] = pixels
-        return same
+    def annotated(self) -> Dataset:
+        """Return the scenes of which a class or some feature is known."""
+        chosen = tuple(
+            scene
+            for scene in self.scenes
+            if scene.label is not None or any(value is not None for value in scene.vector)
+        )
+        return self if len(chosen) == len(self) else self.of_scenes(chosen)
 
     def without_classes(self, classes: Sequence[str]) -> Dataset:
         """Return the scenes of all other classes.
+
+        A picture of which nobody said the class may show one of those, and is left out, too.
 
         Raises
         ------
@@ -149,31 +266,96 @@ class Dataset:
                     f"'{name}' is no class of the domain '{self.domain.name}'; "
                     f"{did_you_mean(name, self.domain.classes)}"
                 )
-        chosen = tuple(scene for scene in self.scenes if scene.label not in classes)
+        if not classes:
+            return self
+        chosen = tuple(
+            scene for scene in self.scenes if scene.label is not None and scene.label not in classes
+        )
         if not chosen:
             raise DatasetError(
-                f"{self.folder / TABLE}: without the class{'es' * (len(set(classes)) > 1)} "
+                f"{self.table.name}: without the class{'es' * (len(set(classes)) > 1)} "
                 f"{', '.join(dict.fromkeys(classes))} nothing is left; leave out fewer"
             )
-        return replace(self, scenes=chosen) if classes else self
+        return self.of_scenes(chosen)
+
+    def take(self, positions: Sequence[int]) -> Dataset:
+        """Return the scenes at some positions; pictures that were read are not read again."""
+        taken = self.of_scenes(tuple(self.scenes[position] for position in positions))
+        for size, pixels in self._pixels.items():
+            taken._pixels[size] = pixels[list(positions)]
+        return taken
+
+    def of_scenes(self, scenes: tuple[Scene, ...]) -> Dataset:
+        """Return a dataset of other scenes; files that were read are not read again."""
+        same = replace(self, scenes=scenes)
+        same.__dict__["_digests"] = self._digests
+        return same
+
+    # What training needs ----------------------------------------------------------------------
 
     def require_two_classes(self) -> None:
-        """Raise a DatasetError if all scenes are of one class."""
-        if len(set(self.labels)) < 2:
+        """Raise a DatasetError if the scenes do not show what tells classes apart.
+
+        There must be two classes, and one of them must have two pictures of different groups, or
+        there would be nothing to validate with.
+        """
+        counts = Counter(label for label in self.labels if label is not None)
+        rows = f"all {len(self)} rows"
+        if not counts:
             raise DatasetError(
-                f"{self.folder / TABLE}: all {len(self)} rows are of class '{self.labels[0]}'; "
-                "training needs scenes of at least two classes"
+                f"{self.table.name}: no row has a class; fill the column 'class' of pictures of "
+                "at least two classes, a few dozen of each if you can"
             )
+        if counts.total() < len(self):
+            rows = f"all {counts.total()} rows that have a class"
+        if len(counts) < 2:
+            raise DatasetError(
+                f"{self.table.name}: {rows} are of class '{next(iter(counts))}'; training needs "
+                "scenes of at least two classes"
+            )
+        groups: dict[str | None, set[str]] = {}
+        for scene, group in zip(self.scenes, self.groups, strict=True):
+            groups.setdefault(scene.label, set()).add(group)
+        groups.pop(None, None)
+        if all(len(those) < 2 for those in groups.values()):
+            only = "one picture" if max(counts.values()) < 2 else "pictures of one group"
+            raise DatasetError(
+                f"{self.table.name}: every class has {only} only; training needs several of each "
+                "that show different things, a few dozen if you can"
+            )
+
+    def require_feature_labels(self) -> None:
+        """Raise a DatasetError if there is a feature of which no scene has a value."""
+        for position, key in enumerate(self.domain.features):
+            if all(scene.vector[position] is None for scene in self.scenes):
+                raise DatasetError(
+                    f"{self.table.name}: no row has a value of '{key}', which training needs; "
+                    f"fill the column '{key}', or remove the feature from the domain"
+                )
+
+    # Pictures ---------------------------------------------------------------------------------
 
     def picture_digests(self) -> list[str]:
         """Return a short digest of every picture file, to tell later what was trained on."""
-        return [
-            hashlib.sha256(scene.picture.read_bytes()).hexdigest()[:16] for scene in self.scenes
-        ]
+        known = self._digests
+        for scene in self.scenes:
+            if scene.picture not in known:
+                known[scene.picture] = digest_of(scene.picture)
+        return [known[scene.picture] for scene in self.scenes]
+
+    @cached_property
+    def _digests(self) -> dict[Path, str]:
+        return {}
 
     @cached_property
     def _pixels(self) -> dict[int, NDArray[np.uint8]]:
         return {}
+
+    def with_pictures(self, pixels: NDArray[np.uint8]) -> Dataset:
+        """Return the same scenes with their pictures as an earlier :meth:`pictures` gave them."""
+        same = self.of_scenes(self.scenes)
+        same._pixels[pixels.shape[1]] = pixels
+        return same
 
     def pictures(
         self, size: int, *, on_progress: Callable[[int], None] | None = None
@@ -185,108 +367,63 @@ class Dataset:
         PictureError
             If a file is not a picture.
         """
-        from seewhy.perception.picture import read_picture
-
         if size not in self._pixels:
             pixels = np.empty((len(self), size, size, 3), dtype=np.uint8)
-            for number, scene in enumerate(self.scenes):
-                pixels[number] = read_picture(
-                    scene.picture, size=size, fit=self.domain.pictures.fit
-                )
-                if on_progress is not None:
-                    on_progress(number + 1)
+            done = 0
+            for some in self.iter_pictures(size, on_progress=on_progress):
+                pixels[done : done + len(some)] = some
+                done += len(some)
             self._pixels[size] = pixels
         return self._pixels[size]
 
+    def iter_pictures(
+        self, size: int, *, batch: int = BATCH, on_progress: Callable[[int], None] | None = None
+    ) -> Iterator[NDArray[np.uint8]]:
+        """Yield the pictures in the order of the scenes, some at a time.
 
-def _read_rows(stream: Iterator[str], domain: Domain, table: Path) -> Iterator[Scene]:
-    reader = csv.DictReader(stream)
-    columns = [name.strip() for name in reader.fieldnames or ()]
-    reader.fieldnames = columns
-    _check_columns(columns, domain, table)
-    for row in reader:
-        here = f"{table}:{reader.line_num}"
-        if None in row:
-            raise DatasetError(
-                f"{here}: the row has more cells than there are columns; remove some"
-            )
-        cells = {name: (cell or "").strip() for name, cell in row.items()}
-        if not any(cells.values()):
-            continue
-        yield _read_row(cells, domain, table.parent, here)
+        Not more than two batches are in the memory, one of which is read while the other is used.
+        What :meth:`pictures` has read already is not read again.
 
+        Parameters
+        ----------
+        size : int
+            Side in pixels.
+        batch : int, default 64
+            How many at a time; the last may be fewer.
+        on_progress : callable, optional
+            Called with the number of pictures yielded so far.
 
-def _check_columns(columns: Sequence[str], domain: Domain, table: Path) -> None:
-    if not columns:
-        raise DatasetError(
-            f"{table}:1: the table is empty; its first line names the columns image, class, "
-            f"{', '.join(domain.features)}"
-        )
-    known = [*RESERVED, *domain.features]
-    if "" in columns:
-        raise DatasetError(
-            f"{table}:1: column {columns.index('') + 1} has no name; name it or remove it"
-        )
-    for column in columns:
-        if columns.count(column) > 1:
-            raise DatasetError(f"{table}:1: the column '{column}' stands twice; remove one")
-        if column not in known:
-            raise DatasetError(
-                f"{table}:1: '{column}' is no feature of the domain '{domain.name}'; "
-                f"{did_you_mean(column, known)}"
-            )
-    for needed in ("image", "class", *domain.features):
-        if needed not in columns:
-            raise DatasetError(
-                f"{table}:1: the column '{needed}' is missing; the domain '{domain.name}' needs "
-                f"image, class, {', '.join(domain.features)}"
-            )
+        Yields
+        ------
+        ndarray of uint8, shape (batch, size, size, 3)
 
+        Raises
+        ------
+        PictureError
+            If a file is not a picture.
+        """
+        from seewhy.perception.picture import read_picture
 
-def _read_row(cells: dict[str, str], domain: Domain, folder: Path, here: str) -> Scene:
-    if not cells["image"]:
-        raise DatasetError(f"{here}: the cell 'image' is empty; name the picture's file")
-    picture = folder / cells["image"]
-    if not picture.is_file():
-        raise DatasetError(
-            f"{here}: there is no picture '{cells['image']}' in {folder}; correct the path or "
-            "remove the row"
-        )
-    if cells["class"] not in domain.classes:
-        raise DatasetError(
-            f"{here}: '{cells['class']}' is no class of the domain '{domain.name}'; "
-            f"{did_you_mean(cells['class'], domain.classes)}"
-        )
-    for key, feature in domain.features.items():
-        if cells[key] and cells[key] not in feature.values:
-            raise DatasetError(
-                f"{here}: '{cells[key]}' is no value of '{key}'; "
-                f"{did_you_mean(cells[key], feature.values)}"
-            )
-    split = cells.get("split", "")
-    if split and split not in SPLITS:
-        raise DatasetError(f"{here}: split must be 'train', 'test' or empty, got '{split}'")
-    return Scene(
-        picture=picture,
-        vector=domain.vector({key: cells[key] or None for key in domain.features}),
-        label=cells["class"],
-        split=split,
-        group=cells.get("group", ""),
-        reasons=_read_reasons(cells, domain, here),
-    )
+        starts = range(0, len(self), batch)
+        read = partial(read_picture, size=size, fit=self.domain.pictures.fit)
 
+        def told(start: int, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+            if on_progress is not None:
+                for number in range(len(pixels)):
+                    on_progress(start + number + 1)
+            return pixels
 
-def _read_reasons(cells: dict[str, str], domain: Domain, here: str) -> tuple[str, ...]:
-    reasons = tuple(dict.fromkeys(cells.get("reasons", "").split()))
-    for name in reasons:
-        if name not in domain.features:
-            raise DatasetError(
-                f"{here}: the reason '{name}' is no feature of the domain '{domain.name}'; "
-                f"{did_you_mean(name, domain.features)}"
-            )
-        if not cells[name]:
-            raise DatasetError(
-                f"{here}: '{name}' is a reason, but its cell is empty; fill it in, or take the "
-                "reason away"
-            )
-    return reasons
+        if size in self._pixels:
+            for start in starts:
+                yield self._pixels[size][start : start + batch]
+            return
+        pool = ThreadPoolExecutor(os.cpu_count() or 1)
+        coming: list[Future[Any]] = []
+        try:
+            for start in starts:
+                here = coming or [pool.submit(read, s.picture) for s in self.scenes[:batch]]
+                after = self.scenes[start + batch : start + 2 * batch]
+                coming = [pool.submit(read, scene.picture) for scene in after]
+                yield told(start, np.stack([one.result() for one in here]))
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)

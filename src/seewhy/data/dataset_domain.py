@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 
 from seewhy.data.dataset import TABLE
+from seewhy.data.scene_rows import OPTIONAL, columns_of
+from seewhy.data.table import read_table
 from seewhy.domain import Domain, bundled_domains, load_domain
 from seewhy.errors import DatasetError
 
@@ -18,16 +19,16 @@ def domain_of(folder: Path) -> Domain:
     DatasetError
         If there is no table, or no bundled domain fits.
     """
-    table = folder / TABLE
-    if not table.is_file():
+    file = folder / TABLE
+    if not file.is_file():
         raise DatasetError(f"{folder}: there is no dataset here, a folder with a {TABLE}")
-    with table.open(newline="", encoding="utf-8-sig", errors="replace") as stream:
-        columns = {name.strip() for name in next(csv.reader(stream), [])}
-    for name in bundled_domains():
-        domain = load_domain(name)
+    domains = [load_domain(name) for name in bundled_domains()]
+    known = dict.fromkeys(column for domain in domains for column in columns_of(domain))
+    columns = set(read_table(file, known=known, optional=OPTIONAL).columns)
+    for domain in domains:
         if set(domain.features) <= columns:
             return domain
     raise DatasetError(
-        f"{table}: the columns fit none of the bundled domains ({', '.join(bundled_domains())}); "
+        f"{file}: the columns fit none of the bundled domains ({', '.join(bundled_domains())}); "
         "name the domain or its folder with --domain"
     )

@@ -113,7 +113,7 @@ def run_trial(setting: Setting, trial: Trial) -> list[Row]:
     order = rng.permutation(len(train))
     chosen = order if trial.size == ALL else order[: trial.size]
     vectors = [train.vectors[n] for n in chosen]
-    labels = [train.labels[n] for n in chosen]
+    labels = [train.classes[n] for n in chosen]
     scenes = AnnotatedScenes(tuple(vectors), tuple(labels), ("",) * len(vectors))
     reference = annotator(setting.scenes)
     whole = Agent(given)
@@ -136,7 +136,7 @@ def run_trial(setting: Setting, trial: Trial) -> list[Row]:
             setting, seen, seed=trial.seed, domain=domain, learned=more, withdrawn=gone
         )
         agent.fit_induction(vectors, labels, reference=reference)
-        asked = draw_questions(agent.questions, test.labels, seed=trial.seed)
+        asked = draw_questions(agent.questions, test.classes, seed=trial.seed)
         row: dict[str, Any] = {
             **common_columns(trial, seen),
             "trained": len(vectors),

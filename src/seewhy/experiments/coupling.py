@@ -55,7 +55,7 @@ def _scored(
 ) -> Row:
     """The row of an agent that was trained in so many seconds."""
     test = seen.test.scenes
-    asked = draw_questions(agent.questions, test.labels, seed=trial.seed)
+    asked = draw_questions(agent.questions, test.classes, seed=trial.seed)
     return {
         **common_columns(trial, seen),
         "system": system,

@@ -92,7 +92,8 @@ def load_pictures(domain: str, folder: Path, out: Path) -> Dataset:
     The pixels are kept in ``out``, where the next process finds them in an instant.
     """
     own = load_domain(domain)
-    scenes = Dataset.load(folder, own)
+    scenes = Dataset.load(folder, own).with_class()
+    scenes.require_two_classes()
     scenes = replace(scenes, scenes=tuple(replace(scene, split="") for scene in scenes.scenes))
     size = own.pictures.size
     digest = hashlib.sha256((folder / TABLE).read_bytes()).hexdigest()[:16]
@@ -161,8 +162,8 @@ def _tested(setting: Setting, seed: int) -> npt.NDArray[np.int64]:
 def in_fold(scenes: Dataset, fold: int, *, seed: int = 0) -> npt.NDArray[np.bool_]:
     """Which scenes are in one of five folds: every class gives its share of groups."""
     groups: dict[str, dict[str, None]] = {}
-    for scene, group in zip(scenes.scenes, scenes.groups, strict=True):
-        groups.setdefault(scene.label, {}).setdefault(group, None)
+    for label, group in zip(scenes.classes, scenes.groups, strict=True):
+        groups.setdefault(label, {}).setdefault(group, None)
     rng = np.random.default_rng(seed)
     tested: set[tuple[str, str]] = set()
     for label in sorted(groups):
@@ -171,8 +172,8 @@ def in_fold(scenes: Dataset, fold: int, *, seed: int = 0) -> npt.NDArray[np.bool
         tested |= {(label, group) for n, group in enumerate(own) if (n + first) % FOLDS == fold}
     return np.array(
         [
-            (scene.label, group) in tested
-            for scene, group in zip(scenes.scenes, scenes.groups, strict=True)
+            (label, group) in tested
+            for label, group in zip(scenes.classes, scenes.groups, strict=True)
         ],
         dtype=bool,
     )

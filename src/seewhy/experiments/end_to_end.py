@@ -95,7 +95,7 @@ def fit_answers(
     learns from every picture where that one learns from those left open, and from such questions
     as it is asked afterwards (:func:`questions_to_learn`).
     """
-    vectors, labels = scenes.vectors, scenes.labels
+    vectors, labels = scenes.vectors, scenes.classes
     asked = questions_to_learn(questions, labels, seed=seed)
     numbers = [own.picture for own in asked]
     answers = [
@@ -185,7 +185,7 @@ class EndToEnd:
 
     def accuracy(self, test: Shown) -> float:
         """The share of pictures whose class is the annotated one."""
-        pairs = zip(self.classify(test), test.scenes.labels, strict=True)
+        pairs = zip(self.classify(test), test.scenes.classes, strict=True)
         return float(np.mean([own == true for own, true in pairs]))
 
     def vectors(self, shown: Shown) -> list[FeatureVector]:

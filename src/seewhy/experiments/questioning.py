@@ -124,19 +124,20 @@ def answer_scores(
     """
     features = list(scenes.domain.features)
     true = [_named(features, own) for own in scenes.vectors]
+    classes = scenes.classes
     sufficiency = sufficiency_of(reference)
     scored: list[tuple[bool, bool]] = []
     explaining: list[tuple[bool, bool, bool]] = []
     for own, kind, vector, label in zip(asked, kinds, vectors, labels, strict=True):
-        scene = scenes.scenes[own.picture]
+        scene, true_class = scenes.scenes[own.picture], classes[own.picture]
         seen = _named(features, vector)
-        gold = reference.answer(own.question, scene.vector, scene.label)
+        gold = reference.answer(own.question, scene.vector, true_class)
         enough, exact = score_answer(
             kind,
             gold,
             seen=seen,
             true=true[own.picture],
-            right_class=label == scene.label,
+            right_class=label == true_class,
         )
         scored.append((enough, exact))
         if own.question.asks in EXPLANATORY:
@@ -145,7 +146,7 @@ def answer_scores(
                 gold,
                 own.question,
                 scene.vector,
-                scene.label,
+                true_class,
                 seen=seen,
                 strict=exact,
                 sufficiency=sufficiency,

@@ -135,7 +135,7 @@ def see(setting: Setting, trial: Trial) -> Seen:
 def _classes_shown(setting: Setting, train: Dataset) -> frozenset[str]:
     """The classes of the pictures that the network of the class was trained on."""
     drawn = pretrain(setting)[1].labels if setting.drawn else ()
-    return frozenset((*train.labels, *drawn))
+    return frozenset((*train.classes, *drawn))
 
 
 def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: Path) -> None:
@@ -148,7 +148,7 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
     began = time.process_time()
     features = fit_extractor(
         pixels["train"],
-        seen_labels(domain, train.vectors, train.labels),
+        seen_labels(domain, train.vectors, train.classes),
         values=seen_values(domain),
         options=training_options(domain, seed=trial.seed),
         groups=train.groups,
@@ -194,7 +194,7 @@ def class_network(
     """Train one network from the picture to the class, like the network of a feature."""
     return fit_extractor(
         scenes.pictures(scenes.domain.pictures.size),
-        {CLASS: scenes.labels},
+        {CLASS: scenes.classes},
         values={CLASS: tuple(scenes.domain.classes)},
         options=options,
         groups=scenes.groups,
@@ -222,16 +222,16 @@ def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
     pixels = scenes.pictures(domain.pictures.size)
     columns = {
         key: [str(value) for value in column]
-        for key, column in seen_labels(domain, scenes.vectors, scenes.labels).items()
+        for key, column in seen_labels(domain, scenes.vectors, scenes.classes).items()
     }
-    vectors, labels = tuple(scenes.vectors), tuple(scenes.labels)
+    vectors, labels = tuple(scenes.vectors), tuple(scenes.classes)
     return (
         Pretrained(
             FeatureExtractor.load(folder / _FEATURES), Rehearsal(pixels, columns), vectors, labels
         ),
         Pretrained(
             FeatureExtractor.load(folder / CLASS),
-            Rehearsal(pixels, {CLASS: scenes.labels}),
+            Rehearsal(pixels, {CLASS: scenes.classes}),
             vectors,
             labels,
         ),

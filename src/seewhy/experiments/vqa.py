@@ -46,7 +46,7 @@ def annotator(scenes: Dataset) -> ReferenceAnswers:
     The same answers train all systems and judge them.
     """
     agent = Agent(scenes.domain)
-    experience = experience_of(scenes.vectors, scenes.labels)
+    experience = experience_of(scenes.vectors, scenes.classes)
     return ReferenceAnswers(scenes.domain, agent.reasoned, experience)
 
 
@@ -69,7 +69,7 @@ def score_agent(
     labels = [own.label for own in found]
     vectors = [own.vector for own in found]
     return {
-        "accuracy": _agreement(labels, test.labels),
+        "accuracy": _agreement(labels, test.classes),
         **answer_scores(
             asked,
             [reply.kind for reply in replies],
@@ -123,7 +123,7 @@ def scenes_to_learn(setting: Setting, train: Dataset) -> tuple[list[Any], list[s
 
     Those of the training pictures, and of the drawings that networks saw before.
     """
-    vectors, labels = list(train.vectors), list(train.labels)
+    vectors, labels = list(train.vectors), list(train.classes)
     if setting.drawn:
         first, _ = pretrain(setting)
         vectors, labels = [*vectors, *first.vectors], [*labels, *first.labels]
@@ -138,7 +138,7 @@ def common_columns(trial: Trial, seen: Seen) -> Row:
         "size": trial.size,
         "trained": len(train),
         "tested": len(test),
-        "determined": determined_share(test.vectors, test.labels),
+        "determined": determined_share(test.vectors, test.classes),
     }
 
 
@@ -150,7 +150,7 @@ def run_trial(setting: Setting, trial: Trial) -> list[Row]:
     train, test = seen.train.scenes, seen.test.scenes
     reference = annotator(setting.scenes)
     agent = agent_of(setting, seen, seed=trial.seed)
-    asked = draw_questions(agent.questions, test.labels, seed=trial.seed)
+    asked = draw_questions(agent.questions, test.classes, seed=trial.seed)
     common = common_columns(trial, seen)
     with_class = agent.reading == "with_class"
 

@@ -29,7 +29,7 @@ def seen_values(domain: Domain, *, with_class: bool = False) -> dict[str, tuple[
 def seen_labels(
     domain: Domain,
     vectors: Sequence[FeatureVector],
-    labels: Sequence[str],
+    labels: Sequence[str | None],
     *,
     with_class: bool = False,
 ) -> dict[str, Sequence[str | None]]:

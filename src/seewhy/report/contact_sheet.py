@@ -39,7 +39,7 @@ def draw_contact_sheet(
             f"{key.replace('_', ' ')}: {value or '?'}"
             for key, value in zip(features, scene.vector, strict=True)
         ]
-        lines = [scene.label, *values]
+        lines = [scene.label or "no class", *values]
         for number_of_line, line in enumerate(lines):
             fill = "#111111" if number_of_line == 0 else "#555555"
             text = _fitted(line, lambda own: draw.textlength(own, font=font) <= size)

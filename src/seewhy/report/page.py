@@ -58,7 +58,7 @@ def report_page(
             {
                 "name": domain.features[key].name,
                 "layers": summary[key]["layers"],
-                "accuracy": evaluation.feature_accuracy[key],
+                "accuracy": evaluation.feature_accuracy.get(key),
             }
             for key in domain.features
         ],
@@ -85,8 +85,8 @@ def _scene(agent: Agent, scene: Scene, replies: Sequence[Reply]) -> dict[str, An
     return {
         "picture": embedded(scene.picture, size=240),
         "said": domain.classes[own.label].say if own.label else "undecided",
-        "truth": domain.classes[scene.label].say,
-        "right": own.label == scene.label,
+        "truth": domain.classes[scene.label].say if scene.label else "not annotated",
+        "right": scene.label in (own.label, None),
         "method": own.method,
         "class_seen": own.class_seen,
         "features": [

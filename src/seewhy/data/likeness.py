@@ -1,0 +1,234 @@
+"""Which pictures are nearly the same: copies that were compressed again or scaled.
+
+Every picture is described twice. Coarsely by its brightness in 16 × 16 and its colours in 4 × 4
+cells, without their mean: two pictures are candidates where that differs by at most 10 % of what
+it varies itself, and the means by at most 6 of 256 levels. What is plain (varies by less than one
+level) is never a candidate. Then finely: the brightness in 64 × 64 cells may nowhere differ by
+more than 8 levels (averaged over 3 × 3 cells), so that the same part in the same place with and
+without a scratch are two pictures.
+
+Thresholds were chosen on four sets (pairs called alike, of all pairs)::
+
+    set                               pictures   alike       of these with different labels
+    hands showing digits                 1,562   0           0
+    cards of SET, 81 classes             1,944   13          0
+    traffic signs of BelgiumTS           4,575   3           0
+    simulated structures                   300   0           0
+
+The three pairs of signs have the same pixels under two names each. The thirteen of cards are
+photographs of one card on one table, taken by a fixed camera a few seconds apart; other pairs
+like them differ by more. Of copies compressed again (JPEG, quality 75 and above) or scaled to
+half or one and a half of their size, at least 96 % are found in each of the sets; of quality 50,
+75 to 100 %.
+
+Hashes of 64 bits (difference hash, and the hash of cosines of the library ImageHash) were tried
+on the same sets: with a threshold of 4 bits, which such copies need, they call 11,396 and 939
+pairs of cards alike, of different colours among them, and 403 and 15 pairs of hands that show
+different digits.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+__all__ = ["Likeness", "alike_pairs", "described", "same_pixels"]
+
+SIDE = 64
+BRIGHTNESS = 16
+COLOUR = 4
+
+MOST_COARSE = 0.10
+"""Of what a picture varies by; the largest coarse difference of two that are alike."""
+
+MOST_MEAN = 6.0
+MOST_FINE = 8.0
+PLAIN = 1.0
+"""Levels of 256."""
+
+NEIGHBOURS = 8
+"""A picture is compared with so many others at most, those that are coarsely most like it."""
+
+DIRECTIONS = 12
+"""Of the coarse description, what is searched by; the search misses nothing, it only narrows."""
+
+REMEMBERED = 4096
+"""Fine descriptions that are kept: 16 KiB each."""
+
+Array = npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """What is kept of every picture, in their order.
+
+    Attributes
+    ----------
+    shape : ndarray of float16, shape (pictures, 288)
+        Brightness and colours without their means, scaled so that the square of the length is
+        the variance of both.
+    means : ndarray of float32, shape (pictures, 3)
+    """
+
+    shape: npt.NDArray[np.float16]
+    means: Array
+
+
+def described(
+    pictures: Sequence[Path], *, on_progress: Callable[[int], None] | None = None
+) -> Likeness:
+    """Read pictures, each once, and return what tells them apart.
+
+    Parameters
+    ----------
+    pictures : sequence of Path
+    on_progress : callable, optional
+        Called with the number of pictures read so far.
+
+    Raises
+    ------
+    PictureError
+        If a file is not a picture.
+    """
+    shape = np.zeros((len(pictures), BRIGHTNESS**2 + 2 * COLOUR**2), dtype=np.float16)
+    means = np.zeros((len(pictures), 3), dtype=np.float32)
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        for number, (own, mean) in enumerate(pool.map(_coarse, pictures)):
+            shape[number], means[number] = own, mean
+            if on_progress is not None:
+                on_progress(number + 1)
+    return Likeness(shape, means)
+
+
+def _coarse(picture: Path) -> tuple[Array, Array]:
+    from PIL import Image
+
+    parts, means = [], []
+    sides = (BRIGHTNESS, COLOUR, COLOUR)
+    for channel, side in zip(_channels(picture), sides, strict=True):
+        cells = channel.convert("F").resize((side, side), Image.Resampling.BICUBIC)
+        values = np.asarray(cells, dtype=np.float32)
+        means.append(values.mean())
+        parts.append((values - values.mean()).ravel() / side)
+    return np.concatenate(parts), np.array(means, dtype=np.float32)
+
+
+def _channels(picture: Path) -> tuple[Image.Image, ...]:
+    """Brightness and the two colours, 64 × 64."""
+    from PIL import Image
+
+    from seewhy.perception.picture import read_picture
+
+    pixels = read_picture(picture, size=SIDE, fit="stretch")
+    return tuple(Image.fromarray(pixels).convert("YCbCr").split())
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _fine(picture: Path) -> tuple[Image.Image, int]:
+    """The brightness of a picture, and its shorter side as it is in the file."""
+    from PIL import Image
+
+    brightness = _channels(picture)[0].convert("F")
+    with Image.open(picture) as image:  # whose header was read and found good
+        return brightness, min(image.size)
+
+
+def alike_pairs(pictures: Sequence[Path], likeness: Likeness) -> list[tuple[int, int]]:
+    """Return the pairs of positions of pictures that are nearly the same, the smaller first.
+
+    Parameters
+    ----------
+    pictures : sequence of Path
+        Those that ``likeness`` describes.
+    likeness : Likeness
+    """
+    try:
+        return sorted(
+            pair
+            for pair in _candidates(likeness)
+            if _largest_difference(*(pictures[position] for position in pair)) <= MOST_FINE
+        )
+    finally:
+        _fine.cache_clear()
+
+
+def _candidates(likeness: Likeness) -> list[tuple[int, int]]:
+    """Pairs that are coarsely alike."""
+    from scipy.spatial import cKDTree
+
+    shape = likeness.shape.astype(np.float32)
+    variation = np.linalg.norm(shape, axis=1)
+    varied = np.flatnonzero(variation >= PLAIN)
+    if len(varied) < 2:
+        return []
+    # Two vectors are at least as far from each other, by the shorter, as their directions are.
+    directions = shape[varied] / variation[varied, None]
+    some = directions[:: max(1, len(varied) // 5000)]
+    axes = np.linalg.eigh(some.T @ some)[1][:, -DIRECTIONS:]
+    tree = cKDTree(directions @ axes)
+    many = min(NEIGHBOURS + 1, len(varied))
+    near = np.asarray(tree.query(directions @ axes, k=many, distance_upper_bound=MOST_COARSE)[1])
+    rows, columns = np.nonzero(near < len(varied))
+    first, second = varied[rows], varied[near[rows, columns]]
+    apart = np.linalg.norm(shape[first] - shape[second], axis=1)
+    close = (
+        (first != second)
+        & (apart <= MOST_COARSE * np.minimum(variation[first], variation[second]))
+        & (np.abs(likeness.means[first] - likeness.means[second]).max(axis=1) <= MOST_MEAN)
+    )
+    pairs = zip(first[close].tolist(), second[close].tolist(), strict=True)
+    return sorted({(min(pair), max(pair)) for pair in pairs})
+
+
+def _largest_difference(first: Path, second: Path) -> float:
+    """The largest difference in brightness, averaged over 3 × 3 cells.
+
+    The smaller of the two settles how many cells there are: it holds no more than it has pixels.
+    """
+    from PIL import Image
+    from scipy.ndimage import uniform_filter
+
+    (one, one_side), (other, other_side) = _fine(first), _fine(second)
+    side = min(SIDE, one_side, other_side)
+    ours, theirs = (
+        np.asarray(own.resize((side, side), Image.Resampling.BICUBIC)) for own in (one, other)
+    )
+    apart = (ours - ours.mean()) - (theirs - theirs.mean())
+    return float(np.abs(uniform_filter(apart, size=3, mode="nearest")).max())
+
+
+def same_pixels(first: Path, second: Path) -> bool:
+    """Whether two files that are pictures show the same in every pixel.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from PIL import Image
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> Image.new("RGB", (9, 9), "red").save(folder / "a.png")
+    >>> Image.new("RGB", (9, 9), "red").save(folder / "a.bmp")
+    >>> same_pixels(folder / "a.png", folder / "a.bmp")
+    True
+    """
+    from PIL import Image, ImageOps
+
+    with Image.open(first) as one, Image.open(second) as other:
+        if {one.width, one.height} != {other.width, other.height}:
+            return False
+        ours, theirs = (np.asarray(ImageOps.exif_transpose(own)) for own in (one, other))
+        if ours.dtype != theirs.dtype or one.mode != other.mode:
+            ours, theirs = (
+                np.asarray(ImageOps.exif_transpose(own).convert("RGB")) for own in (one, other)
+            )
+        return ours.shape == theirs.shape and bool((ours == theirs).all())

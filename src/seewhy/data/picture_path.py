@@ -1,0 +1,118 @@
+"""Where the picture of a row lies: in the folder of its table, unless more is allowed."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Callable
+from errno import EACCES, ELOOP, ENAMETOOLONG
+from pathlib import Path
+
+from seewhy.errors import DatasetError
+
+__all__ = ["picture_finder"]
+
+_SHOWN = 60
+"""Of longer paths, the beginning is shown."""
+
+
+def picture_finder(folder: Path, *, outside: bool = False) -> Callable[[str, str], Path]:
+    """Return a function that finds a row's picture: of its cell and where that stands.
+
+    A table may come from a stranger. What is named by an absolute path, by ``..`` or through a
+    link must lie in ``folder`` all the same, unless ``outside`` allows more: nothing out there is
+    looked at, not even whether it exists.
+
+    Parameters
+    ----------
+    folder : Path
+    outside : bool, default False
+
+    Returns
+    -------
+    callable
+        Of the cell and its place for errors; raises a DatasetError where there is no such file.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> (folder / "a.png").touch()
+    >>> find = picture_finder(folder)
+    >>> find("a.png", "scenes.csv:2").name
+    'a.png'
+    >>> find("../b.png", "scenes.csv:3").name  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ...
+    seewhy.errors.DatasetError: scenes.csv:3: the picture '../b.png' lies outside of ...
+    """
+    root = os.path.realpath(folder)
+    below = root.rstrip(os.sep) + os.sep
+    real: dict[str, str] = {}
+
+    def lies_inside(path: str) -> bool:
+        directory, name = os.path.split(path)
+        if directory not in real:
+            real[directory] = os.path.realpath(directory)
+        found = os.path.join(real[directory], name)  # noqa: PTH118  (a Path a row costs a second)
+        if name in ("", ".", "..") or os.path.islink(found):  # noqa: PTH114
+            found = os.path.realpath(found)
+        return found == root or found.startswith(below)
+
+    def existing(cell: str, here: str) -> str | None:
+        path = os.path.join(folder, cell)  # noqa: PTH118
+        if not outside and not lies_inside(path):
+            raise DatasetError(
+                f"{here}: the picture '{_shown(cell)}' lies outside of {folder}; copy it into the "
+                "folder, or allow it with --outside (in Python: outside=True)"
+            )
+        try:
+            mode = os.stat(path).st_mode  # noqa: PTH116
+        except (FileNotFoundError, NotADirectoryError):
+            return None
+        if stat.S_ISDIR(mode):
+            raise DatasetError(
+                f"{here}: '{_shown(cell)}' is a folder, not a picture; name a picture in it"
+            )
+        if not stat.S_ISREG(mode):
+            raise DatasetError(f"{here}: '{_shown(cell)}' is no file; name a picture's file")
+        return path
+
+    def find(cell: str, here: str) -> Path:
+        try:
+            found = existing(cell, here)
+            if found is None and "\\" in cell:
+                found = existing(cell.replace("\\", "/"), here)
+        except DatasetError:
+            raise
+        except (OSError, ValueError) as problem:
+            raise DatasetError(f"{here}: {_unreadable(cell, problem)}") from None
+        if found is None:
+            remedy = "use / in paths, and correct it" if "\\" in cell else "correct the path"
+            raise DatasetError(
+                f"{here}: there is no picture '{_shown(cell)}' in {folder}; {remedy} or remove "
+                "the row"
+            )
+        return Path(found)
+
+    return find
+
+
+def _unreadable(cell: str, problem: OSError | ValueError) -> str:
+    shown = _shown(cell)
+    code = problem.errno if isinstance(problem, OSError) else None
+    if code == ENAMETOOLONG:
+        return (
+            f"the picture's path '{shown}' has {len(cell)} characters, more than a file can have; "
+            "shorten the name"
+        )
+    if code == ELOOP:
+        return f"the picture '{shown}' is a link to itself; replace it by the picture"
+    if code == EACCES:
+        return f"the picture '{shown}' may not be read; check the rights of its folder"
+    return f"the picture's path '{shown}' cannot be used ({problem}); correct it"
+
+
+def _shown(cell: str) -> str:
+    printable = "".join(one if one.isprintable() else "�" for one in cell)
+    return printable if len(printable) <= _SHOWN else f"{printable[:_SHOWN]}…"

@@ -1,0 +1,147 @@
+"""The rows of a table of pictures, checked against the domain that they are of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from seewhy.data.picture_path import picture_finder
+from seewhy.data.scene import Scene, TablePlace
+from seewhy.domain import Domain
+from seewhy.domain_tables import CLASS, RESERVED
+from seewhy.errors import DatasetError
+from seewhy.nearest import did_you_mean
+
+__all__ = ["IMAGE", "OPTIONAL", "SPLITS", "columns_of", "scenes_of_rows"]
+
+IMAGE = "image"
+OPTIONAL = ("split", "group", "reasons")
+"""Columns that a row may lack at its end."""
+
+SPLITS = ("train", "test")
+
+
+def columns_of(domain: Domain) -> tuple[str, ...]:
+    """Return the columns that a table of a domain's pictures may have.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> columns_of(load_domain("structure_stability"))[:4]
+    ('image', 'class', 'num_blocks', 'base')
+    """
+    others = (name for name in RESERVED if name not in (IMAGE, CLASS))
+    return (IMAGE, CLASS, *domain.features, *others)
+
+
+def scenes_of_rows(
+    columns: Sequence[str],
+    rows: Iterable[tuple[int, Sequence[str]]],
+    domain: Domain,
+    *,
+    folder: Path,
+    place: TablePlace,
+    header: int = 1,
+    outside: bool = False,
+) -> Iterator[Scene]:
+    """Yield the scenes of rows: their number and their cells, in the order of the columns.
+
+    Raises
+    ------
+    DatasetError
+        If a column, a value or a picture is none; the text names the row and the remedy.
+    """
+    _check_columns(columns, domain, place.at(header))
+    position = {name: number for number, name in enumerate(columns)}
+    features = [(key, position.get(key), domain.features[key].values) for key in domain.features]
+    find = picture_finder(folder, outside=outside)
+    vectors: dict[tuple[str | None, ...], tuple[str | None, ...]] = {}
+
+    def cell(cells: Sequence[str], name: str) -> str:
+        number = position.get(name)
+        return "" if number is None or number >= len(cells) else cells[number]
+
+    for number, cells in rows:
+        here = place.at(number)
+        image = cell(cells, IMAGE)
+        if not image:
+            raise DatasetError(f"{here}: the cell 'image' is empty; name the picture's file")
+        label = cell(cells, CLASS)
+        if label and label not in domain.classes:
+            raise DatasetError(
+                f"{here}: '{label}' is no class of the domain '{domain.name}'; "
+                f"{did_you_mean(label, domain.classes)}"
+            )
+        vector = tuple(
+            (cells[column] or None) if column is not None and column < len(cells) else None
+            for _, column, _ in features
+        )
+        if vector not in vectors:
+            for value, (key, _, values) in zip(vector, features, strict=True):
+                if value is not None and value not in values:
+                    raise DatasetError(
+                        f"{here}: '{value}' is no value of '{key}'; {did_you_mean(value, values)}"
+                    )
+        split = cell(cells, "split")
+        if split and split not in SPLITS:
+            raise DatasetError(f"{here}: split must be 'train', 'test' or empty, got '{split}'")
+        yield Scene(
+            picture=find(image, here),
+            vector=vectors.setdefault(vector, vector),
+            label=label or None,
+            split=split,
+            group=cell(cells, "group"),
+            reasons=_reasons(cell(cells, "reasons"), vector, label, domain, here),
+            line=number,
+        )
+
+
+def _check_columns(columns: Sequence[str], domain: Domain, here: str) -> None:
+    known = columns_of(domain)
+    if not any(column in known for column in columns):
+        raise DatasetError(
+            f"{here}: names no column of the domain '{domain.name}', as the first line of a table "
+            f"does; put a line above the rows: {', '.join(known[: -len(OPTIONAL)])}"
+        )
+    if "" in columns:
+        raise DatasetError(
+            f"{here}: column {list(columns).index('') + 1} has no name; name it or remove it"
+        )
+    for column in columns:
+        if list(columns).count(column) > 1:
+            raise DatasetError(f"{here}: the column '{column}' stands twice; remove one")
+        if column not in known:
+            raise DatasetError(
+                f"{here}: '{column}' is no feature of the domain '{domain.name}'; "
+                f"{did_you_mean(column, known)}"
+            )
+    if IMAGE not in columns:
+        raise DatasetError(
+            f"{here}: the column 'image' is missing; it names the picture of every row"
+        )
+
+
+def _reasons(
+    cell: str, vector: Sequence[str | None], label: str, domain: Domain, here: str
+) -> tuple[str, ...]:
+    if not cell:
+        return ()
+    reasons = tuple(dict.fromkeys(cell.split()))
+    if not label:
+        raise DatasetError(
+            f"{here}: there are reasons, but the cell 'class' is empty; say of which class they "
+            "are the reasons, or take them away"
+        )
+    values = dict(zip(domain.features, vector, strict=True))
+    for name in reasons:
+        if name not in domain.features:
+            raise DatasetError(
+                f"{here}: the reason '{name}' is no feature of the domain '{domain.name}'; "
+                f"{did_you_mean(name, domain.features)}"
+            )
+        if not values[name]:
+            raise DatasetError(
+                f"{here}: '{name}' is a reason, but its cell is empty; fill it in, or take the "
+                "reason away"
+            )
+    return reasons
