@@ -23,7 +23,6 @@ FILES = [
     "domain/questions.toml",
     "experience.json",
     "induction/tree.json",
-    "induction/tree.skops",
     "perception/perception.json",
     "perception/perception.safetensors",
 ]

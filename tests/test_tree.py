@@ -190,44 +190,60 @@ def test_an_unfitted_tree(tmp_path: Path) -> None:
     assert not DecisionTree.load(tmp_path).fitted
 
 
-@pytest.mark.parametrize("name", ["tree.json", "tree.skops"])
-def test_a_missing_file_is_named(tmp_path: Path, name: str) -> None:
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
     small_tree().save(tmp_path)
-    (tmp_path / name).unlink()
+    (tmp_path / "tree.json").unlink()
     with pytest.raises(ModelError) as problem:
         DecisionTree.load(tmp_path)
     assert str(problem.value) == (
-        f"{tmp_path}: the model is incomplete, {name} is missing; train it again"
+        f"{tmp_path}: the model is incomplete, tree.json is missing; train it again"
     )
 
 
 @pytest.mark.parametrize(
-    ("name", "content"),
-    [
-        ("tree.json", b""),
-        ("tree.json", b"[]"),
-        ("tree.json", b'{"features": 3, "fitted": true}'),
-        ("tree.json", b'{"features": {"count": ["1"]}, "fitted": true}'),
-        ("tree.json", b"\xff\xfe"),
-        ("tree.skops", b""),
-        ("tree.skops", b"no archive"),
-    ],
+    "content",
+    [b"", b"[]", b'{"features": 3, "nodes": null}', b'{"features": {"count": ["1"]}}', b"\xff\xfe"],
 )
-def test_a_damaged_file_is_no_tree(tmp_path: Path, name: str, content: bytes) -> None:
-    small_tree().save(tmp_path)
-    (tmp_path / name).write_bytes(content)
+def test_a_damaged_file_is_no_tree(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / "tree.json").write_bytes(content)
     with pytest.raises(ModelError, match=r"the decision tree cannot be read .*; train it again"):
         DecisionTree.load(tmp_path)
 
 
-def test_another_object_is_no_tree(tmp_path: Path) -> None:
-    import skops.io
-    from sklearn.tree import DecisionTreeRegressor
-
+@pytest.mark.parametrize(
+    ("table", "row", "wrong"),
+    [
+        ("left", 0, 0),  # a circle
+        ("left", 0, 10_000),
+        ("right", 0, -1),
+        ("column", 0, 99),
+        ("column", 0, -1),
+        ("threshold", 0, "NaN"),
+        ("support", 0, -3),
+        ("shares", 0, [0.5]),
+        ("shares", 0, ["Infinity", 0.0]),
+        ("classes", 0, None),
+    ],
+)
+def test_nodes_that_form_no_tree_are_refused(
+    tmp_path: Path, table: str, row: int, wrong: object
+) -> None:
     small_tree().save(tmp_path)
-    skops.io.dump(DecisionTreeRegressor().fit([[0], [1]], [0, 1]), tmp_path / "tree.skops")
-    with pytest.raises(ModelError, match="it holds no decision tree"):
+    described = json.loads((tmp_path / "tree.json").read_text())
+    if wrong is None:
+        described["nodes"][table] = []
+    else:
+        described["nodes"][table][row] = wrong
+    (tmp_path / "tree.json").write_text(json.dumps(described))
+    with pytest.raises(ModelError, match="its nodes do not form a tree"):
         DecisionTree.load(tmp_path)
+
+
+def test_the_same_scenes_and_seed_give_the_same_file(tmp_path: Path) -> None:
+    for name in ("first", "second"):
+        small_tree().save(tmp_path / name)
+    files = [(tmp_path / name / "tree.json").read_bytes() for name in ("first", "second")]
+    assert files[0] == files[1]
 
 
 def test_a_tree_of_other_features_is_refused(tmp_path: Path) -> None:

@@ -8,16 +8,22 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median_low
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.model_selection import GridSearchCV, StratifiedKFold
-from sklearn.tree import DecisionTreeClassifier
 
 from seewhy.errors import ModelError
-from seewhy.files import whole_file, write_whole
+from seewhy.files import write_whole
+from seewhy.induction.tree_nodes import TreeNodes
 from seewhy.knowledge.scene import FeatureVector
+
+if TYPE_CHECKING:
+    from sklearn.model_selection import GridSearchCV
+    from sklearn.tree import DecisionTreeClassifier
+
+
+TREE = "tree.json"
 
 
 @dataclass(frozen=True)
@@ -93,17 +99,17 @@ class DecisionTree:
     def __init__(self, features: Mapping[str, Sequence[str]]) -> None:
         self.features = {name: tuple(values) for name, values in features.items()}
         self.columns = tuple(_columns(self.features))
-        self._tree: DecisionTreeClassifier | None = None
+        self._nodes: TreeNodes | None = None
 
     @property
     def fitted(self) -> bool:
         """False where there were no scenes to learn from."""
-        return self._tree is not None
+        return self._nodes is not None
 
     @property
     def classes(self) -> tuple[str, ...]:
         """The classes that the tree knows."""
-        return () if self._tree is None else tuple(map(str, self._tree.classes_))
+        return () if self._nodes is None else self._nodes.classes
 
     def fit(
         self,
@@ -119,8 +125,10 @@ class DecisionTree:
         cannot be divided into leaves of so many scenes.
         """
         if not vectors:
-            self._tree = None
+            self._nodes = None
             return self
+        from sklearn.tree import DecisionTreeClassifier  # slow to import; asking needs none of it
+
         table = self._encode(vectors)
         classes = np.asarray(labels)
         # The features are few and discrete: leaves need support, or they are noise.
@@ -135,7 +143,7 @@ class DecisionTree:
             if pruned:
                 tree = _pruned(tree, table, classes, seed=seed)
             tree.fit(table, classes)
-        self._tree = tree
+        self._nodes = TreeNodes.of(tree)
         return self
 
     def classify(self, vector: FeatureVector) -> str:
@@ -150,83 +158,79 @@ class DecisionTree:
 
     def classify_all(self, vectors: Sequence[FeatureVector]) -> list[str]:
         """Return the class of every scene."""
-        return [str(own) for own in self._fitted().predict(self._encode(vectors))]
+        nodes = self._fitted()
+        best = np.argmax(nodes.shares, axis=1)
+        return [nodes.classes[best[leaf]] for leaf in nodes.leaves_of(self._encode(vectors))]
 
     def probability(self, vector: FeatureVector) -> dict[str, float]:
         """Return the share of each class among the training scenes in the scene's leaf."""
-        shares = self._fitted().predict_proba(self._encode([vector]))[0]
-        return {name: float(share) for name, share in zip(self.classes, shares, strict=True)}
+        nodes = self._fitted()
+        leaf = int(nodes.leaves_of(self._encode([vector]))[0])
+        return dict(zip(nodes.classes, nodes.shares[leaf], strict=True))
 
     def path(self, vector: FeatureVector) -> TreePath:
         """Return the path that a scene takes."""
-        tree = self._fitted().tree_
-        row = self._encode([vector])[0]
-        node = 0
-        steps: list[tuple[int, bool]] = []
-        while tree.children_left[node] != -1:
-            left = bool(row[tree.feature[node]] <= tree.threshold[node])
-            steps.append((node, left))
-            node = tree.children_left[node] if left else tree.children_right[node]
-        return self._path(steps, node)
+        nodes = self._fitted()
+        table = self._encode([vector])
+        return self._path([*nodes.steps_to(table[0])], int(nodes.leaves_of(table)[0]))
 
     def paths(self) -> tuple[TreePath, ...]:
         """Return all paths, from the leftmost leaf to the rightmost."""
-        if self._tree is None:
+        if self._nodes is None:
             return ()
-        tree = self._tree.tree_
+        nodes = self._nodes
         found: list[TreePath] = []
 
         def descend(node: int, steps: list[tuple[int, bool]]) -> None:
-            if tree.children_left[node] == -1:
+            if nodes.is_leaf(node):
                 found.append(self._path(steps, node))
                 return
-            descend(tree.children_left[node], [*steps, (node, True)])
-            descend(tree.children_right[node], [*steps, (node, False)])
+            descend(nodes.left[node], [*steps, (node, True)])
+            descend(nodes.right[node], [*steps, (node, False)])
 
         descend(0, [])
         return tuple(found)
 
     def root(self) -> TreeNode | None:
         """Return the tree as nested nodes, or None where it is unfitted."""
-        if self._tree is None:
+        if self._nodes is None:
             return None
-        tree = self._tree.tree_
+        nodes = self._nodes
 
         def node_at(node: int, steps: list[tuple[int, bool]]) -> TreeNode:
             path = self._path(steps, node)
             branches: tuple[TreeNode, ...] = ()
             feature = None
-            if tree.children_left[node] != -1:
-                feature = self.columns[tree.feature[node]][0]
+            if not nodes.is_leaf(node):
+                feature = self.columns[nodes.column[node]][0]
                 branches = (
-                    node_at(tree.children_left[node], [*steps, (node, True)]),
-                    node_at(tree.children_right[node], [*steps, (node, False)]),
+                    node_at(nodes.left[node], [*steps, (node, True)]),
+                    node_at(nodes.right[node], [*steps, (node, False)]),
                 )
-            asked = self.columns[tree.feature[steps[-1][0]]][0] if steps else None
+            asked = self.columns[nodes.column[steps[-1][0]]][0] if steps else None
             allowed = next((c.values for c in path.conditions if c.feature == asked), ())
             return TreeNode(feature, allowed, path.label, path.support, path.precision, branches)
 
         return node_at(0, [])
 
     def _path(self, steps: Sequence[tuple[int, bool]], leaf: int) -> TreePath:
-        fitted = self._fitted()
-        tree = fitted.tree_
+        nodes = self._fitted()
         allowed: dict[str, tuple[str, ...]] = {}
         for node, left in steps:
-            feature, value = self.columns[tree.feature[node]]
+            feature, value = self.columns[nodes.column[node]]
             values = allowed.get(feature, self.features[feature])
             if value is None:
-                limit = tree.threshold[node]
+                limit = nodes.threshold[node]
                 kept = tuple(v for v in values if (int(v) <= limit) == left)
             else:
                 kept = tuple(v for v in values if (v != value) == left)
             allowed[feature] = kept
-        shares = tree.value[leaf][0]
+        shares = nodes.shares[leaf]
         return TreePath(
             conditions=tuple(PathCondition(f, values) for f, values in allowed.items()),
-            label=str(fitted.classes_[int(np.argmax(shares))]),
-            support=int(tree.n_node_samples[leaf]),
-            precision=float(shares.max() / shares.sum()),
+            label=nodes.classes[int(np.argmax(shares))],
+            support=nodes.support[leaf],
+            precision=max(shares) / sum(shares),
         )
 
     def _encode(self, vectors: Sequence[FeatureVector]) -> NDArray[np.float64]:
@@ -244,22 +248,18 @@ class DecisionTree:
                 table[:, column] = [v[position] == value for v in vectors]
         return table
 
-    def _fitted(self) -> DecisionTreeClassifier:
-        if self._tree is None:
+    def _fitted(self) -> TreeNodes:
+        if self._nodes is None:
             raise ValueError("the tree is not fitted; call fit with at least one scene")
-        return self._tree
+        return self._nodes
 
     def save(self, folder: Path) -> None:
-        """Write the tree to ``folder`` without pickle (tree.skops and tree.json)."""
-        import skops.io
-
-        write_whole(
-            folder / "tree.json",
-            json.dumps({"features": self.features, "fitted": self.fitted}, indent=1),
-        )
-        if self._tree is not None:
-            with whole_file(folder / "tree.skops") as temporary:
-                skops.io.dump(self._tree, temporary)
+        """Write the tree to ``folder`` as tree.json."""
+        described = {
+            "features": self.features,
+            "nodes": None if self._nodes is None else self._nodes.to_dict(),
+        }
+        write_whole(folder / TREE, json.dumps(described, indent=1))
 
     @staticmethod
     def load(folder: Path) -> DecisionTree:
@@ -268,48 +268,22 @@ class DecisionTree:
         Raises
         ------
         ModelError
-            If a file is missing or is no tree.
+            If the file is missing or is no tree.
         """
-        import skops.io
-
         try:
-            described: dict[str, Any] = json.loads(
-                (folder / "tree.json").read_text(encoding="utf-8")
-            )
+            described: dict[str, Any] = json.loads((folder / TREE).read_text(encoding="utf-8"))
             tree = DecisionTree(described["features"])
-            if described["fitted"]:
-                loaded = skops.io.load(folder / "tree.skops", trusted=["sklearn.tree._tree.Tree"])
-                _check_nodes(loaded, len(tree.columns))
-                tree._tree = loaded
-        except FileNotFoundError as problem:
+            if described["nodes"] is not None:
+                tree._nodes = TreeNodes.read(described["nodes"], columns=len(tree.columns))
+        except FileNotFoundError:
             raise ModelError(
-                f"{folder}: the model is incomplete, {Path(str(problem.filename)).name} is "
-                "missing; train it again"
+                f"{folder}: the model is incomplete, {TREE} is missing; train it again"
             ) from None
-        except Exception as problem:
+        except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as problem:
             raise ModelError(
                 f"{folder}: the decision tree cannot be read ({problem}); train it again"
             ) from None
         return tree
-
-
-def _check_nodes(loaded: object, columns: int) -> None:
-    """Refuse node tables that point outside themselves; scikit-learn follows them unchecked."""
-    if not isinstance(loaded, DecisionTreeClassifier):
-        raise TypeError("it holds no decision tree")
-    nodes = loaded.tree_
-    count = nodes.node_count
-    inner = nodes.children_left != -1
-    children = np.concatenate([nodes.children_left[inner], nodes.children_right[inner]])
-    parents = np.concatenate([np.flatnonzero(inner)] * 2)
-    if (
-        (inner != (nodes.children_right != -1)).any()
-        or (children <= parents).any()
-        or (children >= count).any()
-        or (nodes.feature[inner] < 0).any()
-        or (nodes.feature[inner] >= columns).any()
-    ):
-        raise ValueError("its nodes do not form a tree")
 
 
 def _columns(features: Mapping[str, Sequence[str]]) -> list[tuple[str, str | None]]:
@@ -336,6 +310,8 @@ def _pruned(
     tree: DecisionTreeClassifier, table: NDArray[np.float64], classes: NDArray[Any], *, seed: int
 ) -> DecisionTreeClassifier:
     """The tree, not yet grown, with the pruning that does best in cross-validation."""
+    from sklearn.model_selection import GridSearchCV, StratifiedKFold
+
     counts = np.unique(classes, return_counts=True)[1]
     rarest = int(counts.min())
     if rarest < 2 or len(counts) < 2 or len(classes) < 20:
