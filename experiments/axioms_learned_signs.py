@@ -80,7 +80,7 @@ def trial(
     rng = np.random.default_rng([seed, size])
     chosen = rng.integers(len(train), size=size)
     vectors = [train.vectors[n] for n in chosen]
-    labels = [train.labels[n] for n in chosen]
+    labels = [train.classes[n] for n in chosen]
     scenes = AnnotatedScenes(tuple(vectors), tuple(labels), ("",) * size)
     less = incomplete(given, np.random.default_rng(seed))
     # What a lost fact made wrong is set aside first, as `seewhy learn` does.
@@ -103,7 +103,7 @@ def trial(
         agent.extractor = seen
         agent.fit_induction(vectors, labels, answers=answers, reference=annotator)
         given_classes = agent.classify_all(pictures)
-        pairs = zip(given_classes, test.labels, strict=True)
+        pairs = zip(given_classes, test.classes, strict=True)
         by_knowledge = [own.method == "knowledge" for own in given_classes]
         answered = 0.0
         if answers:

@@ -23,7 +23,7 @@ def main(folder: str) -> None:
     seen = Counter(scenes.vectors)
     stable = Counter(
         vector
-        for vector, label in zip(scenes.vectors, scenes.labels, strict=True)
+        for vector, label in zip(scenes.vectors, scenes.classes, strict=True)
         if label == "stable"
     )
     print(", ".join(domain.features))

@@ -75,10 +75,10 @@ def end_to_end(scenes: Dataset, *, seed: int, first: Pretrained | None = None) -
     """Train one network from the picture to the class."""
     domain = scenes.domain
     options = training_options(domain, seed=seed)["primary_symbol"]
-    _, validation = split(scenes.labels, share=0.15, seed=seed, groups=scenes.groups)
+    _, validation = split(scenes.classes, share=0.15, seed=seed, groups=scenes.groups)
     return fit_extractor(
         scenes.pictures(domain.pictures.size),
-        {"sign": scenes.labels},
+        {"sign": scenes.classes},
         values={"sign": tuple(domain.classes)},
         options=replace(options, **BASELINE),
         groups=scenes.groups,
@@ -104,7 +104,7 @@ def trial(
     baseline = end_to_end(train, seed=seed, first=baseline_first)
     finished = time.perf_counter()
     pixels = test.pictures(domain.pictures.size)
-    labels = np.array(test.labels)
+    labels = np.array(test.classes)
     row: dict[str, Any] = {
         "seed": seed,
         "size": len(train),
@@ -153,13 +153,13 @@ def pretrain(out: Path, *, drawn: int) -> tuple[Pretrained, Pretrained]:
             FeatureExtractor.load(folder / "features"),
             Rehearsal(pixels, columns),
             tuple(scenes.vectors),
-            tuple(scenes.labels),
+            tuple(scenes.classes),
         ),
         Pretrained(
             FeatureExtractor.load(folder / "end_to_end"),
-            Rehearsal(pixels, {"sign": scenes.labels}),
+            Rehearsal(pixels, {"sign": scenes.classes}),
             tuple(scenes.vectors),
-            tuple(scenes.labels),
+            tuple(scenes.classes),
         ),
     )
 

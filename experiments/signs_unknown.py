@@ -57,7 +57,7 @@ def photographs(agent: Agent, scenes: Dataset) -> dict[str, Dataset]:
         chosen = (scene for scene, own in zip(scenes.scenes, wanted, strict=True) if own)
         return replace(scenes, scenes=tuple(chosen))
 
-    labels = scenes.labels
+    labels = scenes.classes
     found = {
         "classes trained on": those(
             [out and own not in withheld for own, out in zip(labels, tested, strict=True)]
@@ -141,7 +141,7 @@ def main() -> None:
         unknown = np.array([own.verdict == UNKNOWN for own in each])
         right = "–"
         if name in groups:
-            labels = groups[name].labels
+            labels = groups[name].classes
             right = f"{np.mean([a.label == b for a, b in zip(each, labels, strict=True)]):.1%}"
         separated = (
             "– | –"
@@ -153,7 +153,7 @@ def main() -> None:
             f"| {name} | {len(each)} | {1 - unknown.mean():.1%} | {right} | {unknown.mean():.1%} "
             f"| {separated} |"
         )
-    print("\n".join(["", *reliability(found[first], groups[first].labels)]))
+    print("\n".join(["", *reliability(found[first], groups[first].classes)]))
 
 
 if __name__ == "__main__":

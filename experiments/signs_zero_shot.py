@@ -33,7 +33,7 @@ COLUMNS = ("SeeWhy", "not known", "SeeWhy, all answered", "end to end")
 def decided_vectors(domain: Domain, scenes: Dataset) -> dict[str, FeatureVector]:
     """The feature vector of every class that the knowledge decides."""
     reasoner = Agent(domain).reasoner
-    own = dict(zip(scenes.labels, scenes.vectors, strict=True))
+    own = dict(zip(scenes.classes, scenes.vectors, strict=True))
     return {label: own[label] for label in domain.classes if reasoner.decide(own[label]).label}
 
 

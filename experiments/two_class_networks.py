@@ -48,7 +48,7 @@ def main() -> None:
             second = class_network(seen.train.scenes, own)
             shown = second.probabilities(test.pictures(setting.domain.pictures.size))["class"]
             first = seen.test.classes
-            true = np.array([names.index(label) for label in test.labels])
+            true = np.array([names.index(label) for label in test.classes])
             found = {
                 str(row["system"]): float(row["accuracy"])
                 for row in read_trial(run.folder, trial) or ()

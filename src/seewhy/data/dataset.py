@@ -5,17 +5,17 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seewhy.data.contradiction import require_agreement
 from seewhy.data.digest import digest_of
+from seewhy.data.reading_ahead import read_ahead
 from seewhy.data.scene import Scene, TablePlace
 from seewhy.data.scene_rows import OPTIONAL, columns_of, scenes_of_rows
 from seewhy.data.table import read_table
@@ -167,9 +167,9 @@ class Dataset:
         """This dataset, if it has rows that do not contradict each other."""
         if not self.scenes:
             raise DatasetError(f"{self.table.name}: the table has no rows; add one per picture")
-        rows: dict[Path, list[int]] = {}
+        rows: dict[str, list[int]] = {}
         for position, scene in enumerate(self.scenes):
-            rows.setdefault(scene.picture, []).append(position)
+            rows.setdefault(os.fspath(scene.picture), []).append(position)
         require_agreement(self, [same for same in rows.values() if len(same) > 1])
         return self
 
@@ -391,7 +391,7 @@ class Dataset:
         batch : int, default 64
             How many at a time; the last may be fewer.
         on_progress : callable, optional
-            Called with the number of pictures yielded so far.
+            Called with the number of pictures read so far.
 
         Yields
         ------
@@ -404,26 +404,17 @@ class Dataset:
         """
         from seewhy.perception.picture import read_picture
 
-        starts = range(0, len(self), batch)
-        read = partial(read_picture, size=size, fit=self.domain.pictures.fit)
-
-        def told(start: int, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-            if on_progress is not None:
-                for number in range(len(pixels)):
-                    on_progress(start + number + 1)
-            return pixels
-
         if size in self._pixels:
-            for start in starts:
+            for start in range(0, len(self), batch):
                 yield self._pixels[size][start : start + batch]
             return
-        pool = ThreadPoolExecutor(os.cpu_count() or 1)
-        coming: list[Future[Any]] = []
-        try:
-            for start in starts:
-                here = coming or [pool.submit(read, s.picture) for s in self.scenes[:batch]]
-                after = self.scenes[start + batch : start + 2 * batch]
-                coming = [pool.submit(read, scene.picture) for scene in after]
-                yield told(start, np.stack([one.result() for one in here]))
-        finally:
-            pool.shutdown(wait=True, cancel_futures=True)
+        read = partial(read_picture, size=size, fit=self.domain.pictures.fit)
+        paths = (scene.picture for scene in self.scenes)
+        some: list[NDArray[np.uint8]] = []
+        for number, picture in enumerate(read_ahead(read, paths, ahead=batch), start=1):
+            some.append(picture)
+            if on_progress is not None:
+                on_progress(number)
+            if len(some) == batch or number == len(self):
+                yield np.stack(some)
+                some = []

@@ -29,9 +29,7 @@ different digits.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -39,6 +37,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+
+from seewhy.data.reading_ahead import read_ahead
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -63,10 +63,18 @@ NEIGHBOURS = 8
 DIRECTIONS = 12
 """Of the coarse description, what is searched by; the search misses nothing, it only narrows."""
 
+SAMPLE = 5000
+"""Pictures that settle the directions."""
+
 REMEMBERED = 4096
 """Fine descriptions that are kept: 16 KiB each."""
 
 Array = npt.NDArray[np.float32]
+
+_OF_RGB = np.array(
+    [[0.299, -0.1687, 0.5], [0.587, -0.3313, -0.4187], [0.114, 0.5, -0.0813]], dtype=np.float32
+)
+"""Red, green and blue to brightness and two colours, as JPEG has it."""
 
 
 @dataclass(frozen=True)
@@ -103,35 +111,29 @@ def described(
     """
     shape = np.zeros((len(pictures), BRIGHTNESS**2 + 2 * COLOUR**2), dtype=np.float16)
     means = np.zeros((len(pictures), 3), dtype=np.float32)
-    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        for number, (own, mean) in enumerate(pool.map(_coarse, pictures)):
-            shape[number], means[number] = own, mean
-            if on_progress is not None:
-                on_progress(number + 1)
+    for number, (cells, mean) in enumerate(read_ahead(_coarse, pictures)):
+        shape[number], means[number] = cells, mean
+        if on_progress is not None:
+            on_progress(number + 1)
     return Likeness(shape, means)
 
 
 def _coarse(picture: Path) -> tuple[Array, Array]:
-    from PIL import Image
-
-    parts, means = [], []
-    sides = (BRIGHTNESS, COLOUR, COLOUR)
-    for channel, side in zip(_channels(picture), sides, strict=True):
-        cells = channel.convert("F").resize((side, side), Image.Resampling.BICUBIC)
-        values = np.asarray(cells, dtype=np.float32)
-        means.append(values.mean())
-        parts.append((values - values.mean()).ravel() / side)
-    return np.concatenate(parts), np.array(means, dtype=np.float32)
+    channels = _channels(picture)
+    means = channels.mean(axis=(0, 1))
+    parts = []
+    for channel, side in enumerate((BRIGHTNESS, COLOUR, COLOUR)):
+        cells = channels[..., channel].reshape(side, SIDE // side, side, SIDE // side)
+        parts.append((cells.mean(axis=(1, 3)) - means[channel]).ravel() / side)
+    return np.concatenate(parts), means
 
 
-def _channels(picture: Path) -> tuple[Image.Image, ...]:
-    """Brightness and the two colours, 64 × 64."""
-    from PIL import Image
-
+def _channels(picture: Path) -> Array:
+    """Brightness and the two colours, shape (64, 64, 3), in levels of 256."""
     from seewhy.perception.picture import read_picture
 
-    pixels = read_picture(picture, size=SIDE, fit="stretch")
-    return tuple(Image.fromarray(pixels).convert("YCbCr").split())
+    pixels = read_picture(picture, size=SIDE, fit="stretch").astype(np.float32)
+    return np.asarray(pixels @ _OF_RGB, dtype=np.float32)
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -139,7 +141,7 @@ def _fine(picture: Path) -> tuple[Image.Image, int]:
     """The brightness of a picture, and its shorter side as it is in the file."""
     from PIL import Image
 
-    brightness = _channels(picture)[0].convert("F")
+    brightness = Image.fromarray(_channels(picture)[..., 0])
     with Image.open(picture) as image:  # whose header was read and found good
         return brightness, min(image.size)
 
@@ -167,21 +169,23 @@ def _candidates(likeness: Likeness) -> list[tuple[int, int]]:
     """Pairs that are coarsely alike."""
     from scipy.spatial import cKDTree
 
-    shape = likeness.shape.astype(np.float32)
-    variation = np.linalg.norm(shape, axis=1)
+    shape = likeness.shape
+    variation = np.concatenate([np.linalg.norm(part, axis=1) for part in _parts(shape)])
     varied = np.flatnonzero(variation >= PLAIN)
     if len(varied) < 2:
         return []
     # Two vectors are at least as far from each other, by the shorter, as their directions are.
-    directions = shape[varied] / variation[varied, None]
-    some = directions[:: max(1, len(varied) // 5000)]
-    axes = np.linalg.eigh(some.T @ some)[1][:, -DIRECTIONS:]
-    tree = cKDTree(directions @ axes)
+    some = varied[:: max(1, len(varied) // SAMPLE)]
+    sample = shape[some].astype(np.float32) / variation[some, None]
+    axes = np.linalg.eigh(sample.T @ sample)[1][:, -DIRECTIONS:]
+    along = np.concatenate([part @ axes for part in _parts(shape)])
+    projected = along[varied] / variation[varied, None]
     many = min(NEIGHBOURS + 1, len(varied))
-    near = np.asarray(tree.query(directions @ axes, k=many, distance_upper_bound=MOST_COARSE)[1])
+    found = cKDTree(projected).query(projected, k=many, distance_upper_bound=MOST_COARSE)
+    near = np.asarray(found[1])
     rows, columns = np.nonzero(near < len(varied))
     first, second = varied[rows], varied[near[rows, columns]]
-    apart = np.linalg.norm(shape[first] - shape[second], axis=1)
+    apart = np.linalg.norm(shape[first].astype(np.float32) - shape[second], axis=1)
     close = (
         (first != second)
         & (apart <= MOST_COARSE * np.minimum(variation[first], variation[second]))
@@ -189,6 +193,12 @@ def _candidates(likeness: Likeness) -> list[tuple[int, int]]:
     )
     pairs = zip(first[close].tolist(), second[close].tolist(), strict=True)
     return sorted({(min(pair), max(pair)) for pair in pairs})
+
+
+def _parts(shape: npt.NDArray[np.float16]) -> Iterator[Array]:
+    """Some thousand rows at a time: all of them in single precision would fill the memory."""
+    for start in range(0, len(shape), SAMPLE):
+        yield shape[start : start + SAMPLE].astype(np.float32)
 
 
 def _largest_difference(first: Path, second: Path) -> float:
