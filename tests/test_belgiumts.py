@@ -574,11 +574,11 @@ def test_the_command_complains(run: Run, tmp_path: Path) -> None:
     )
     result = run("data", "import", "germants", "--from", tmp_path, *out)
     assert result.code == 2
-    assert "'germants': there are no such photographs; it must be one of: belgiumts" in result.err
+    assert "'germants' is no format that is imported; it must be one of: folder, " in result.err
     result = run("data", "import", "belgiumts", *out)
     assert result.code == 2
-    assert "missing option '--from'" in result.err
-    for name, says in (("import", "that are on this computer"), ("fetch", "from their authors'")):
+    assert "there is no SOURCE; name a folder, a zip archive or an exported file" in result.err
+    for name, says in (("import", "that are labelled already"), ("fetch", "from their authors'")):
         assert says in run("data", name, "--help").out
 
 

@@ -1,4 +1,4 @@
-"""`seewhy data import` and `seewhy data fetch`: photographs that others took, as a dataset."""
+"""`seewhy data import` and `seewhy data fetch`: what others photographed and labelled."""
 
 from __future__ import annotations
 
@@ -7,47 +7,167 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from seewhy.cli.import_options import (
+    ClassColumn,
+    ClassOfBoxes,
+    ClassParts,
+    Copy,
+    Features,
+    Group,
+    ImageColumn,
+    Inside,
+    Pictures,
+    TestShare,
+    request_of,
+)
 from seewhy.cli.options import Json
-from seewhy.cli.screen import add_row, output, print_json, progress, remark, say, table
+from seewhy.cli.screen import add_row, output, percent, print_json, progress, remark, say, table
 
 if TYPE_CHECKING:
-    from seewhy.belgiumts.conversion import ImportedDataset, ImportedHalf
+    from collections.abc import Sequence
+
+    from seewhy.belgiumts.conversion import ImportedDataset as ImportedPhotographs
+    from seewhy.belgiumts.conversion import ImportedHalf
+    from seewhy.data.importers import ImportedDataset, ImportRequest, Note
 
 PHOTOGRAPHS = ("belgiumts",)
+_FORMATS = ("folder", "coco", "voc", "yolo", "labelstudio", "cvat", "table")
 _MOST_NAMED = 5
+_MOST_CLASSES = 12
 _SAID = {"train": "training", "test": "testing"}
-
 
 Name = Annotated[
     str, typer.Argument(metavar="NAME", help=f"The photographs: {', '.join(PHOTOGRAPHS)}.")
 ]
 Out = Annotated[Path, typer.Option("--out", metavar="DIR", help="The folder to write.")]
 SignDomain = Annotated[
-    str, typer.Option("--domain", help="The domain whose classes.csv says what each class shows.")
+    str,
+    typer.Option(
+        "--domain", help="belgiumts: the domain whose classes.csv says what each class shows."
+    ),
 ]
 
 
 def import_(
-    name: Name,
-    sources: Annotated[
-        list[Path],
-        typer.Option(
-            "--from",
-            metavar="PATH",
-            help="An official archive, a folder extracted from one, or a folder of archives; "
-            "may stand several times.",
-        ),
+    format: Annotated[
+        str,
+        typer.Argument(metavar="FORMAT", help=f"{', '.join(_FORMATS)}, or {PHOTOGRAPHS[0]}."),
     ],
     out: Out,
+    source: Annotated[
+        list[Path] | None,
+        typer.Argument(
+            metavar="SOURCE",
+            help="A folder, a zip archive, or the file that a tool exported.",
+            show_default=False,
+        ),
+    ] = None,
+    more: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--from",
+            metavar="SOURCE",
+            help="The same as SOURCE; belgiumts has several, one for each archive.",
+        ),
+    ] = None,
+    pictures: Pictures = None,
+    features: Features = None,
+    class_parts: ClassParts = None,
+    group: Group = None,
+    class_rule: ClassOfBoxes = "only",
+    image_column: ImageColumn = None,
+    class_column: ClassColumn = None,
+    inside: Inside = None,
+    test_share: TestShare = 0.0,
+    copy: Copy = False,
     domain: SignDomain = "traffic_signs",
     json: Json = False,
 ) -> None:
-    """Make a dataset of photographs that are on this computer.
+    """Make a dataset of pictures that are labelled already: class folders, exports, tables.
 
-    The Training half is marked split = train in scenes.csv, the Testing half split = test.
+    Boxes are kept in things.csv. An interrupted import goes on where it was.
     """
-    _check_name(name)
-    _report(_import(sources, out, domain), json=json)
+    _check_format(format)
+    sources = [*(source or ()), *(more or ())]
+    if format in PHOTOGRAPHS:
+        _check_sources(sources, most=None)
+        _report_photographs(_import_photographs(sources, out, domain), json=json)
+        return
+    _check_sources(sources, most=1)
+    request = request_of(
+        sources[0],
+        format,
+        pictures=pictures,
+        features=features,
+        class_parts=class_parts,
+        group=group,
+        class_rule=class_rule,
+        image_column=image_column,
+        class_column=class_column,
+        inside=inside,
+        test_share=test_share,
+        copy=copy,
+    )
+    dataset = run_import(request, out)
+    say_notes(dataset.notes)
+    if json:
+        print_json(dataset.as_json())
+    else:
+        say_dataset(dataset)
+
+
+def run_import(request: ImportRequest, out: Path) -> ImportedDataset:
+    """Import with a bar that shows how far it is."""
+    from seewhy.data.importers import import_pictures
+
+    with progress() as bars:
+        task = bars.add_task("importing pictures", total=None)
+        return import_pictures(
+            request,
+            out,
+            on_progress=lambda done, total: bars.update(task, completed=done, total=total),
+        )
+
+
+def say_notes(notes: Sequence[Note]) -> None:
+    """Say on standard error what was not as it should be, and what was guessed."""
+    for note in notes:
+        remark(note.say(most=_MOST_NAMED))
+
+
+def say_dataset(dataset: ImportedDataset) -> None:
+    """Say what is in an imported dataset."""
+    how = ", linked with their source" if dataset.linked else ""
+    labelled = {name: count for name, count in dataset.classes.items() if name}
+    say(
+        f"dataset: {dataset.folder} ({dataset.pictures:,} pictures of {len(labelled)} "
+        f"class{'es' * (len(labelled) != 1)}{how})"
+    )
+    say(f"  classes: {_counted(dataset.classes, dataset.pictures)}")
+    for name, counts in dataset.features.items():
+        say(f"  {name}: {_counted(counts, dataset.pictures)}")
+    if dataset.splits:
+        say("  splits: " + ", ".join(f"{key} {n:,}" for key, n in dataset.splits.items()))
+    else:
+        say("  splits: none; --test-share 0.25 would keep a quarter for evaluation")
+    if dataset.groups:
+        say(f"  groups: {dataset.groups:,}")
+    if dataset.things:
+        say(f"  things: {dataset.things:,} boxes ({_counted(dataset.kinds, dataset.things)})")
+
+
+def _counted(counts: dict[str, int], total: int) -> str:
+    """Names with their counts; of many, their number and the range of the counts."""
+    named = {name: count for name, count in counts.items() if name}
+    if len(named) > _MOST_CLASSES:
+        low, high = min(named.values()), max(named.values())
+        each = f"{low:,}" if low == high else f"{low:,} to {high:,}"
+        said = f"{len(named)}, of each {each}"
+    else:
+        said = ", ".join(f"{name} {count:,}" for name, count in named.items())
+    missing = total - sum(named.values())
+    unknown = f"; not known {missing:,} ({percent(missing / total)})" if missing else ""
+    return f"{said or 'none'}{unknown}"
 
 
 def fetch(
@@ -61,7 +181,7 @@ def fetch(
 
     The archives are kept in DIR/archives. An interrupted download goes on where it was.
     """
-    _check_name(name)
+    _check_photographs(name)
     from seewhy.belgiumts.classes import read_classes
     from seewhy.belgiumts.download import ADDRESS, check_counts, fetch_archives
     from seewhy.domain import load_domain
@@ -78,10 +198,34 @@ def fetch(
 
         archives = fetch_archives(out / "archives", address=address or ADDRESS, on_progress=show)
     check_counts(archives, class_ids=set(classes))
-    _report(_import(archives, out, domain), json=json)
+    _report_photographs(_import_photographs(archives, out, domain), json=json)
 
 
-def _check_name(name: str) -> None:
+def _check_format(name: str) -> None:
+    from seewhy.errors import SeeWhyError
+    from seewhy.nearest import did_you_mean
+
+    known = (*_FORMATS, *PHOTOGRAPHS)
+    if name not in known:
+        path = Path(name)
+        if path.exists():
+            raise SeeWhyError(f"'{name}' is a source; say its format before it: {', '.join(known)}")
+        raise SeeWhyError(f"'{name}' is no format that is imported; {did_you_mean(name, known)}")
+
+
+def _check_sources(sources: Sequence[Path], *, most: int | None) -> None:
+    from seewhy.errors import SeeWhyError
+
+    if not sources:
+        raise SeeWhyError("there is no SOURCE; name a folder, a zip archive or an exported file")
+    if most is not None and len(sources) > most:
+        raise SeeWhyError(
+            f"there are {len(sources)} sources ({', '.join(map(str, sources[:5]))}); give one: a "
+            "folder may hold several exports"
+        )
+
+
+def _check_photographs(name: str) -> None:
     from seewhy.errors import SeeWhyError
     from seewhy.nearest import did_you_mean
 
@@ -91,22 +235,22 @@ def _check_name(name: str) -> None:
         )
 
 
-def _import(sources: list[Path], out: Path, domain: str) -> ImportedDataset:
+def _import_photographs(sources: list[Path], out: Path, domain: str) -> ImportedPhotographs:
     from seewhy.belgiumts.conversion import import_photographs
     from seewhy.domain import load_domain
 
-    own = load_domain(domain)
+    signs = load_domain(domain)
     with progress() as bars:
         task = bars.add_task("importing photographs", total=None)
         return import_photographs(
             sources,
             out,
-            domain=own,
+            domain=signs,
             on_progress=lambda done, total: bars.update(task, completed=done, total=total),
         )
 
 
-def _report(dataset: ImportedDataset, *, json: bool) -> None:
+def _report_photographs(dataset: ImportedPhotographs, *, json: bool) -> None:
     for half in dataset.halves.values():
         _warn(half)
     if json:
@@ -141,7 +285,7 @@ def _report(dataset: ImportedDataset, *, json: bool) -> None:
 
 def _warn(half: ImportedHalf) -> None:
     """Say on standard error what was not as it should be."""
-    left_out = [f"{own.file} {own.reason}" for own in half.left_out]
+    left_out = [f"{picture.file} {picture.reason}" for picture in half.left_out]
     for found, text in (
         (left_out, "left out"),
         (half.rows_without_file, "rows without a picture"),

@@ -1,0 +1,169 @@
+"""Features that follow from the class: from a table, or from the parts of the classes' names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from seewhy.data.importers.column_words import class_column
+from seewhy.data.importers.names import same_words, valid_name
+from seewhy.data.importers.source_files import FolderFiles
+from seewhy.data.importers.tables import open_table
+from seewhy.errors import DatasetError
+from seewhy.nearest import did_you_mean
+
+
+@dataclass(frozen=True)
+class ClassFeatures:
+    """Class → feature → value, in the words of whoever wrote them.
+
+    Attributes
+    ----------
+    features : tuple of str
+        In the order of the table.
+    values : mapping
+        Class → feature → value; a value that nobody said is left out.
+    said : str
+        Where it stands, for a sentence to the user.
+    """
+
+    features: tuple[str, ...]
+    values: Mapping[str, Mapping[str, str]]
+    said: str
+
+    def of(self, class_name: str) -> Mapping[str, str] | None:
+        """Return the features of a class, however it is spelt; None where no row is of it."""
+        if class_name in self.values:
+            return self.values[class_name]
+        for like in (same_words, valid_name, _as_number):
+            wanted = like(class_name)
+            for name, values in self.values.items():
+                if wanted and like(name) == wanted:
+                    return values
+        return None
+
+    def for_classes(self, classes: Iterable[str]) -> ClassFeatures:
+        """Return the same for just these classes, spelt so.
+
+        Raises
+        ------
+        DatasetError
+            If no row is of one of them; the text gives the nearest class of the table.
+        """
+        found: dict[str, Mapping[str, str]] = {}
+        lacking: list[str] = []
+        for name in classes:
+            values = self.of(name)
+            if values is None:
+                lacking.append(name)
+            else:
+                found[name] = values
+        if lacking:
+            others = f" (nor those of {len(lacking) - 1} others)" if len(lacking) > 1 else ""
+            raise DatasetError(
+                f"{self.said}: no row says the features of the class '{lacking[0]}'{others}; "
+                f"{did_you_mean(lacking[0], self.values)}"
+            )
+        return replace(self, values=found)
+
+
+def read_class_features(path: Path | str) -> ClassFeatures:
+    """Read a table with a row a class: a column that names it, and a column a feature.
+
+    The class is in the column called class (label, category, …), or in the first one.
+
+    Raises
+    ------
+    DatasetError
+        If it is no such table, or has two rows for one class.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> path = Path(tempfile.mkdtemp()) / "fingers.csv"
+    >>> _ = path.write_text("class,thumb,index\\n0,no,no\\n1,no,yes\\n")
+    >>> read_class_features(path).of("1")
+    {'thumb': 'no', 'index': 'yes'}
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise DatasetError(f"{path}: there is no such file; it says the features of every class")
+    values: dict[str, dict[str, str]] = {}
+    with open_table(FolderFiles(path.parent), path.name) as table:
+        label = class_column(table.columns) or table.columns[0]
+        features = tuple(column for column in table.columns if column != label)
+        if not features:
+            raise DatasetError(
+                f"{path}: has the column '{label}' alone; add a column for every feature"
+            )
+        for row in table.rows:
+            name = row.cells[label]
+            if not name:
+                raise DatasetError(f"{row.place}: the cell '{label}' is empty; name the class")
+            if name in values:
+                raise DatasetError(
+                    f"{row.place}: the class '{name}' stands a second time; remove one of the rows"
+                )
+            values[name] = {key: row.cells[key] for key in features if row.cells[key]}
+    if not values:
+        raise DatasetError(f"{path}: the table has no rows; add one per class")
+    return ClassFeatures(features, values, str(path))
+
+
+def features_of_parts(pattern: str, classes: Sequence[str]) -> ClassFeatures:
+    """Return features that the classes' names are made of, as a pattern divides them.
+
+    Of a part that occurs in the singular and in the plural, both are the same value.
+
+    Raises
+    ------
+    DatasetError
+        If the pattern names no parts, or a class does not fit it.
+
+    Examples
+    --------
+    >>> features_of_parts("number-shape", ["1-oval", "2-ovals"]).values
+    {'1-oval': {'number': '1', 'shape': 'oval'}, '2-ovals': {'number': '2', 'shape': 'oval'}}
+    """
+    parts = re.findall(r"[A-Za-z]+", pattern)
+    between = re.split(r"[A-Za-z]+", pattern)
+    if len(parts) < 2 or len(set(parts)) < len(parts) or not all(between[1:-1]):
+        raise DatasetError(
+            f"'{pattern}' does not divide the names of classes; write what their parts are, with "
+            "what stands between them, such as number-colour-shape"
+        )
+    expression = re.escape(between[0]) + "".join(
+        f"(.+?){re.escape(after)}" for after in between[1:]
+    )
+    values: dict[str, dict[str, str]] = {}
+    for name in classes:
+        found = re.fullmatch(expression, name)
+        if found is None:
+            raise DatasetError(
+                f"the class '{name}' is not made as '{pattern}' says; correct the pattern, or give "
+                "a table of the classes' features with --features"
+            )
+        values[name] = dict(zip(parts, (part.strip() for part in found.groups()), strict=True))
+    for part in parts:
+        singular = _singulars({one[part] for one in values.values()})
+        for one in values.values():
+            one[part] = singular.get(one[part], one[part])
+    return ClassFeatures(tuple(parts), values, f"the pattern {pattern}")
+
+
+def _singulars(words: set[str]) -> dict[str, str]:
+    """Plural → singular, for the words that occur in both."""
+    found: dict[str, str] = {}
+    for word in words:
+        for singular in (word.removesuffix("s"), word.removesuffix("es")):
+            if singular != word and singular in words:
+                found[word] = singular
+        if word.endswith("ies") and f"{word[:-3]}y" in words:
+            found[word] = f"{word[:-3]}y"
+    return found
+
+
+def _as_number(text: str) -> str:
+    return str(int(text)) if text.strip().isascii() and text.strip().isdigit() else ""

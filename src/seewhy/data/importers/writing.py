@@ -1,0 +1,496 @@
+"""Write what a source says as a dataset folder: pictures, scenes.csv, things.csv."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import shutil
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+from posixpath import splitext
+from typing import Any, TextIO
+
+from seewhy.data.dataset import TABLE
+from seewhy.data.importers.annotation import AnnotatedPicture, Box, Note
+from seewhy.data.importers.boxes import boxes_in_pixels
+from seewhy.data.importers.class_features import ClassFeatures
+from seewhy.data.importers.importing import ImportRequest, ReadSource, read_source
+from seewhy.data.importers.picture_files import PictureHeader, read_header
+from seewhy.data.importers.picture_table import THINGS
+from seewhy.data.importers.record import RECORD, Record, read_record, words_of_vocabulary
+from seewhy.data.importers.source_files import DamagedFileError, SourceFiles, read_bytes
+from seewhy.data.importers.vocabulary import (
+    THING_COLUMNS,
+    Vocabulary,
+    named_box,
+    named_features,
+)
+from seewhy.errors import DatasetError, PictureError
+from seewhy.files import whole_file, write_whole
+
+CLASSES = "classes.csv"
+UNUSABLE = "pictures that cannot be used, left out"
+_LONGEST_PART = 180
+_SPARE_BYTES = 64 * 2**20
+
+Progress = Callable[[int, int], None]
+"""Called with the pictures done and the pictures in all."""
+
+
+@dataclass(frozen=True)
+class ImportedDataset:
+    """The dataset written, and what was found on the way.
+
+    Attributes
+    ----------
+    folder : Path
+    format : str
+    pictures : int
+    linked : bool
+        Whether the pictures are the source's own files (hard links), not copies.
+    classes : dict of str to int
+        Class → how many pictures are of it; "" for those without one.
+    features : dict of str to dict of str to int
+        Feature → value → how many pictures have it.
+    splits : dict of str to int
+    groups : int
+        0 where the source says none.
+    kinds : dict of str to int
+        Kind of thing → how many boxes are of it.
+    notes : tuple of Note
+        What was not as it should be, and where.
+    """
+
+    folder: Path
+    format: str
+    pictures: int
+    linked: bool
+    classes: dict[str, int]
+    features: dict[str, dict[str, int]]
+    splits: dict[str, int]
+    groups: int
+    kinds: dict[str, int]
+    notes: tuple[Note, ...]
+
+    @property
+    def things(self) -> int:
+        """How many boxes there are."""
+        return sum(self.kinds.values())
+
+    def as_json(self) -> dict[str, Any]:
+        """Everything, for a program."""
+        return {
+            "folder": str(self.folder),
+            "format": self.format,
+            "pictures": self.pictures,
+            "linked": self.linked,
+            "classes": self.classes,
+            "features": self.features,
+            "splits": self.splits,
+            "groups": self.groups,
+            "things": self.things,
+            "kinds": self.kinds,
+            "notes": [{"text": note.text, "places": list(note.places)} for note in self.notes],
+        }
+
+
+def import_pictures(
+    request: ImportRequest,
+    folder: Path | str,
+    *,
+    class_features: ClassFeatures | None = None,
+    on_progress: Progress | None = None,
+) -> ImportedDataset:
+    """Import a source into a new dataset folder.
+
+    Pictures come under ``images/`` as they are, linked where the file system can, copied where
+    it cannot. The tables are written last; an interrupted call with the same request goes on
+    where it was.
+
+    Parameters
+    ----------
+    request : ImportRequest
+    folder : Path
+    class_features : ClassFeatures, optional
+        Instead of those that the request names.
+    on_progress : callable, optional
+        Called with the pictures done and the pictures in all.
+
+    Raises
+    ------
+    DatasetError
+        If the source or the request is wrong, most pictures cannot be used, or the folder holds
+        something else.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from PIL import Image
+    >>> home = Path(tempfile.mkdtemp())
+    >>> for name in ("red", "blue"):
+    ...     (home / "pictures" / name).mkdir(parents=True)
+    ...     Image.new("RGB", (20, 20), name).save(home / "pictures" / name / "1.png")
+    >>> imported = import_pictures(ImportRequest(home / "pictures", "folder"), home / "data")
+    >>> print((home / "data" / "scenes.csv").read_text())
+    image,class
+    images/blue/1.png,blue
+    images/red/1.png,red
+    <BLANKLINE>
+    """
+    folder = Path(folder)
+    check_out_folder(folder, request)
+    with read_source(request, class_features=class_features) as read:
+        return write_dataset(read, folder, on_progress=on_progress)
+
+
+def write_dataset(
+    read: ReadSource, folder: Path, *, on_progress: Progress | None = None
+) -> ImportedDataset:
+    """Write a source that was read; see :func:`import_pictures`."""
+    check_out_folder(folder, read.request)
+    if not read.pictures:
+        raise DatasetError(f"{read.request.source}: holds no picture; nothing is imported")
+    _check_space(read, folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    record = Record(settings=read.request.settings())
+    write_whole(folder / RECORD, record.model_dump_json(indent=2) + "\n")
+    for litter in (*folder.glob(".scenes-*.csv"), *folder.glob(".things-*.csv")):
+        litter.unlink(missing_ok=True)  # of a call that was killed
+    writer = _Writer(read, folder)
+    with ExitStack() as stack:
+        # What is opened last takes its place first: the table of scenes comes to stand last.
+        scenes = stack.enter_context(whole_file(folder / TABLE))
+        things = stack.enter_context(whole_file(folder / THINGS)) if writer.has_boxes else None
+        writer.write(scenes, things, on_progress)
+        dataset = writer.account()
+        finished = Record(
+            settings=record.settings,
+            finished=True,
+            words=words_of_vocabulary(read.vocabulary),
+            report=dataset.as_json(),
+        )
+        if read.class_features is not None:
+            write_whole(folder / CLASSES, class_table(read.class_features, read.vocabulary))
+        write_whole(folder / RECORD, finished.model_dump_json(indent=2) + "\n")
+    return dataset
+
+
+def class_table(class_features: ClassFeatures, vocabulary: Vocabulary) -> str:
+    """Return a table class → features, in the names of a domain.
+
+    Examples
+    --------
+    >>> from seewhy.data.importers.vocabulary import FeatureWords
+    >>> said = ClassFeatures(("Fur",), {"Big Cat": {"Fur": "True"}}, "a.csv")
+    >>> fur = FeatureWords("fur", "Fur", {"True": "yes"}, is_boolean=True)
+    >>> print(class_table(said, Vocabulary({"Big Cat": "big_cat"}, {"Fur": fur}, {}, {})))
+    class,fur
+    big_cat,yes
+    <BLANKLINE>
+    """
+    columns = _feature_names(vocabulary, class_features.features)
+    rows = []
+    for words, name in vocabulary.classes.items():
+        if words in class_features.values:
+            values = named_features(class_features.values[words], vocabulary.features)
+            rows.append([name, *(values.get(column, "") for column in columns)])
+    return _csv(["class", *columns], rows)
+
+
+class _Writer:
+    """Writes pictures and rows, and counts what it writes."""
+
+    def __init__(self, read: ReadSource, folder: Path) -> None:
+        self._read = read
+        self._folder = folder
+        self._columns = _feature_names(read.vocabulary, read.vocabulary.features)
+        self._attributes = _feature_names(read.vocabulary, read.vocabulary.attributes, things=True)
+        self._optional = [
+            column
+            for column, has_it in (
+                ("split", any(picture.split for picture in read.pictures)),
+                ("group", any(picture.group for picture in read.pictures)),
+                ("reasons", any(picture.reasons for picture in read.pictures)),
+            )
+            if has_it
+        ]
+        self.has_boxes = any(picture.boxes for picture in read.pictures)
+        self._placing = _Placing(read.files, folder, link=not read.request.copy)
+        self._classes: Counter[str] = Counter()
+        self._features: dict[str, Counter[str]] = {name: Counter() for name in self._columns}
+        self._splits: Counter[str] = Counter()
+        self._groups: set[str] = set()
+        self._kinds: Counter[str] = Counter()
+        self._written = 0
+
+    def write(self, scenes: Path, things: Path | None, on_progress: Progress | None) -> None:
+        """Write every picture with its rows to two tables."""
+        pictures = self._read.pictures
+        images = image_names([picture.file for picture in pictures])
+        with ExitStack() as stack:
+            rows = _opened(stack, scenes, ["image", "class", *self._columns, *self._optional])
+            boxes = (
+                None
+                if things is None
+                else _opened(stack, things, [*THING_COLUMNS, *self._attributes])
+            )
+            for number, (picture, image) in enumerate(zip(pictures, images, strict=True), start=1):
+                header = self._place(picture, image)
+                if header is not None:
+                    rows.writerow(self._scene(picture, image))
+                    self._written += 1
+                    if boxes is not None:
+                        boxes.writerows(self._things(picture, image, header))
+                if on_progress is not None:
+                    on_progress(number, len(pictures))
+        left_out = self._read.notes.count(UNUSABLE)
+        if left_out > len(pictures) / 2:
+            first = next(n for n in self._read.notes.all() if n.text == UNUSABLE).places[0]
+            raise DatasetError(
+                f"{self._read.request.source}: {left_out:,} of {len(pictures):,} pictures cannot "
+                f"be used, the first of them {first}; copy them again from where they come from"
+            )
+
+    def _place(self, picture: AnnotatedPicture, image: str) -> PictureHeader | None:
+        try:
+            return self._placing.place(picture.file, image)
+        except PictureError as problem:
+            self._read.notes.add(UNUSABLE, f"{picture.file} {problem}")
+        except DamagedFileError as problem:
+            self._read.notes.add(UNUSABLE, str(problem))
+        return None
+
+    def _scene(self, picture: AnnotatedPicture, image: str) -> list[str]:
+        vocabulary = self._read.vocabulary
+        label = vocabulary.classes[picture.class_name] if picture.class_name else ""
+        values = named_features(picture.features, vocabulary.features)
+        self._classes[label] += 1
+        for name, value in values.items():
+            self._features[name][value] += 1
+        self._splits[picture.split] += 1
+        self._groups.add(picture.group)
+        optional = {
+            "split": picture.split,
+            "group": picture.group,
+            "reasons": " ".join(
+                vocabulary.features[name].name
+                for name in picture.reasons
+                if name in vocabulary.features
+            ),
+        }
+        return [
+            image,
+            label,
+            *(values.get(name, "") for name in self._columns),
+            *(optional[column] for column in self._optional),
+        ]
+
+    def _things(
+        self, picture: AnnotatedPicture, image: str, header: PictureHeader
+    ) -> Iterable[list[str]]:
+        boxes = boxes_in_pixels(picture, header, self._read.notes)
+        for number, box in enumerate(boxes, start=1):
+            kind, attributes = named_box(box, self._read.vocabulary)
+            self._kinds[kind] += 1
+            yield [
+                image,
+                str(number),
+                *map(_pixels, _corners(box)),
+                kind,
+                *(attributes.get(name, "") for name in self._attributes),
+            ]
+
+    def account(self) -> ImportedDataset:
+        """What was written."""
+        names = self._read.vocabulary.class_words
+        return ImportedDataset(
+            folder=self._folder,
+            format=self._read.format,
+            pictures=self._written,
+            linked=self._placing.links,
+            classes={name: self._classes[name] for name in (*names, "") if self._classes[name]},
+            features={
+                name: _in_order(self._read, name, own) for name, own in self._features.items()
+            },
+            splits={key: self._splits[key] for key in ("train", "test") if self._splits[key]},
+            groups=len(self._groups - {""}),
+            kinds=dict(self._kinds.most_common()),
+            notes=self._read.notes.all(),
+        )
+
+
+def _in_order(read: ReadSource, feature: str, counts: Mapping[str, int]) -> dict[str, int]:
+    words = next(w for w in read.vocabulary.features.values() if w.name == feature)
+    return {value: counts[value] for value in words.value_words if counts[value]}
+
+
+class _Placing:
+    """Puts pictures into a folder: as links while that works, as copies else."""
+
+    def __init__(self, files: SourceFiles, folder: Path, *, link: bool) -> None:
+        self._files = files
+        self._folder = folder
+        self.links = link
+
+    def place(self, name: str, image: str) -> PictureHeader:
+        """Put a picture where it belongs unless it is there; return how large it is."""
+        target = self._folder / image
+        path = self._files.on_disk(name)
+        if path is not None:
+            with self._files.open(name) as stream:
+                header = read_header(stream)
+            self._from_disk(path, target, name)
+            return header
+        self.links = False
+        if self._is_there(target, name):
+            with target.open("rb") as stream:
+                return read_header(stream)
+        content = read_bytes(self._files, name)
+        header = read_header(io.BytesIO(content))
+        with whole_file(target) as temporary:
+            temporary.write_bytes(content)
+            self._stamp(temporary, name)
+        return header
+
+    def _from_disk(self, path: Path, target: Path, name: str) -> None:
+        if target.exists() and (target.samefile(path) or self._is_there(target, name)):
+            return
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if self.links:
+            target.unlink(missing_ok=True)
+            try:
+                target.hardlink_to(path.resolve())
+                return
+            except OSError:
+                self.links = False  # another file system, or none that can
+        with whole_file(target) as temporary:
+            shutil.copyfile(path, temporary)
+            self._stamp(temporary, name)
+
+    def _is_there(self, target: Path, name: str) -> bool:
+        """Whether a copy of just this file is there: its size and time are those of the source."""
+        if not target.is_file():
+            return False
+        found = target.stat()
+        same_size = found.st_size == self._files.bytes_of(name)
+        return same_size and int(found.st_mtime) == int(self._files.changed(name))
+
+    def _stamp(self, copy: Path, name: str) -> None:
+        changed = self._files.changed(name)
+        os.utime(copy, (changed, changed))
+
+
+def image_names(files: Sequence[str]) -> list[str]:
+    """Return where the pictures of a source go in a dataset: every file a place of its own.
+
+    Folders that all share are left out, and so are characters that file systems refuse.
+
+    Examples
+    --------
+    >>> image_names(["hands/0/a.jpg", "hands/0/A.JPG", "hands/1/what?.jpg"])
+    ['images/0/a.jpg', 'images/0/A-2.JPG', 'images/1/what_.jpg']
+    """
+    folders = [file.split("/")[:-1] for file in files]
+    shared = folders[0] if folders else []
+    for folder in folders:
+        count = next(
+            (n for n, (one, other) in enumerate(zip(shared, folder, strict=False)) if one != other),
+            min(len(shared), len(folder)),
+        )
+        shared = shared[:count]
+    used: set[str] = set()
+    names = []
+    for file in files:
+        parts = [_safe_part(part) for part in file.split("/")[len(shared) :]]
+        name = "/".join(["images", *parts])
+        stem, ending = splitext(name)
+        number = 2
+        while name.casefold() in used:
+            name = f"{stem}-{number}{ending}"
+            number += 1
+        used.add(name.casefold())
+        names.append(name)
+    return names
+
+
+def _safe_part(part: str) -> str:
+    safe = "".join("_" if c in '<>:"|?*\\' or not c.isprintable() else c for c in part).strip()
+    if len(safe.encode()) > _LONGEST_PART:
+        stem, dot, ending = safe.rpartition(".")
+        digest = sha256(part.encode(errors="surrogateescape")).hexdigest()[:12]
+        short = (stem or safe).encode()[: _LONGEST_PART - 40].decode(errors="ignore")
+        safe = f"{short}-{digest}{dot}{ending[:20]}"
+    return safe.lstrip(".") or "_"
+
+
+def check_out_folder(folder: Path, request: ImportRequest) -> None:
+    """Refuse to write over anything but an unfinished import of the same."""
+    if not folder.exists():
+        return
+    if not folder.is_dir():
+        raise DatasetError(f"{folder}: is a file; name a new folder with --out")
+    if (folder / TABLE).exists():
+        raise DatasetError(
+            f"{folder}: holds a dataset already; name a new folder with --out, or delete this one"
+        )
+    record = read_record(folder)
+    if record is not None:
+        if record.settings != request.settings():
+            raise DatasetError(
+                f"{folder}: holds an unfinished import of another source or with other options "
+                f"({record.settings.get('source', '?')}); name a new folder, or delete this one"
+            )
+        return
+    if any(folder.iterdir()):
+        raise DatasetError(f"{folder}: holds other files; name a new folder with --out")
+
+
+def _check_space(read: ReadSource, folder: Path) -> None:
+    """Refuse what does not fit on the disk, before the first picture is written."""
+    if read.files.on_disk(read.pictures[0].file) is not None and not read.request.copy:
+        return  # links take no room; where they cannot be, copying says itself what is wrong
+    needed = sum(read.files.bytes_of(picture.file) for picture in read.pictures)
+    there = folder
+    while not there.exists():
+        there = there.parent
+    free = shutil.disk_usage(there).free
+    if needed + _SPARE_BYTES > free:
+        raise DatasetError(
+            f"{folder}: the pictures need {needed / 2**30:.1f} GiB, the disk has "
+            f"{free / 2**30:.1f} GiB free; make room or choose another disk"
+        )
+
+
+def _feature_names(
+    vocabulary: Vocabulary, features: Iterable[str], *, things: bool = False
+) -> list[str]:
+    words = vocabulary.attributes if things else vocabulary.features
+    return list(dict.fromkeys(words[name].name for name in features if name in words))
+
+
+def _opened(stack: ExitStack, path: Path, columns: Sequence[str]) -> Any:
+    stream: TextIO = stack.enter_context(path.open("w", newline="", encoding="utf-8"))
+    rows = csv.writer(stream, lineterminator="\n")
+    rows.writerow(columns)
+    return rows
+
+
+def _csv(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def _corners(box: Box) -> tuple[float, float, float, float]:
+    return (box.left, box.top, box.right, box.bottom)
+
+
+def _pixels(value: float) -> str:
+    return f"{value:.2f}".rstrip("0").rstrip(".")

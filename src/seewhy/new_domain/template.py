@@ -1,0 +1,63 @@
+"""Write a domain folder from the template that comes with SeeWhy."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from importlib import resources
+from pathlib import Path
+
+from seewhy.errors import DomainError
+
+_PLACEHOLDER = "my_domain"
+
+
+def write_new_domain(folder: Path) -> Path:
+    """Write a working domain to ``folder``, whole or not at all.
+
+    Raises
+    ------
+    DomainError
+        If the folder exists, or its name cannot be a domain's.
+    """
+    check_new_folder(folder)
+    texts = {
+        file.name: file.read_text(encoding="utf-8").replace(_PLACEHOLDER, folder.name)
+        for file in resources.files("seewhy").joinpath("template").iterdir()
+    }
+    with whole_folder(folder) as temporary:
+        write_texts(temporary, texts)
+    return folder
+
+
+def check_new_folder(folder: Path) -> None:
+    """Raise a DomainError if the folder exists, or its name cannot be a domain's."""
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", folder.name):
+        raise DomainError(
+            f"'{folder.name}' cannot name a domain; use small letters, digits and underscores, "
+            "beginning with a letter"
+        )
+    if folder.exists():
+        raise DomainError(f"{folder}: exists already; choose another name")
+
+
+@contextmanager
+def whole_folder(folder: Path) -> Iterator[Path]:
+    """Yield a temporary folder that becomes ``folder`` when the block ends well."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+    try:
+        temporary.chmod(0o755)
+        yield temporary
+        temporary.rename(folder)
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
+def write_texts(folder: Path, texts: Mapping[str, str]) -> None:
+    """Write files of these names and texts."""
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
