@@ -54,7 +54,7 @@ BAD = {
     "scenes.csv",
     "train tiles --data data --out tiles": "tiles: exists and is not a model; choose another "
     "folder for the model",
-    "train tiles --data one_class --out out": "one_class/scenes.csv: all 1 rows are of class "
+    "train tiles --data one_class --out out": "one_class/scenes.csv: the only row is of class "
     "'good'; training needs scenes of at least two classes",
     "train tiles --data data --out out --from nowhere": "nowhere: there is no such model; 'seewhy "
     "train' makes one",

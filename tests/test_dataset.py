@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from conftest import write_tiles
@@ -190,14 +192,164 @@ def test_splits(folder: Path, tiles: Domain) -> None:
     )
 
 
-def test_one_class_is_too_few_for_training(folder: Path, tiles: Domain) -> None:
-    dataset = load(folder, tiles, HEAD + ROW + "images/001.png,good,green,no\n")
+@pytest.mark.parametrize(
+    ("table", "expected"),
+    [
+        (
+            HEAD + ROW + "images/001.png,good,green,no\n",
+            "all 2 rows are of class 'good'; training needs scenes of at least two classes",
+        ),
+        (
+            HEAD + ROW + "images/001.png,,green,no\n",
+            "the only row that has a class is of class 'good'; training needs scenes of at least "
+            "two classes",
+        ),
+        (
+            HEAD + "images/000.png,,red,yes\nimages/001.png,,green,no\n",
+            "no row has a class; fill the column 'class' of pictures of at least two classes, a "
+            "few dozen of each if you can",
+        ),
+        (
+            "image,colour,round\nimages/000.png,red,yes\nimages/001.png,green,no\n",
+            "no row has a class; fill the column 'class' of pictures of at least two classes, a "
+            "few dozen of each if you can",
+        ),
+        (
+            HEAD + ROW + "images/001.png,bad,green,no\n",
+            "every class has one picture only; training needs several of each that show different "
+            "things, a few dozen if you can",
+        ),
+        (
+            "image,class,colour,round,group\nimages/000.png,good,red,yes,one\n"
+            "images/001.png,good,green,no,one\nimages/002.png,bad,green,no,two\n",
+            "every class has pictures of one group only; training needs several of each that show "
+            "different things, a few dozen if you can",
+        ),
+        (
+            "image,class,colour\nimages/000.png,good,red\nimages/001.png,bad,red\n"
+            "images/002.png,bad,red\n",
+            "no row has a value of 'round', which training needs; fill the column 'round', or "
+            "remove the feature from the domain",
+        ),
+    ],
+)
+def test_what_is_too_little_for_training(
+    folder: Path, tiles: Domain, table: str, expected: str
+) -> None:
+    dataset = load(folder, tiles, table)
     with pytest.raises(DatasetError) as problem:
         Agent(tiles).fit(dataset)
+    assert str(problem.value) == f"{folder}/scenes.csv: {expected}"
+
+
+def test_a_picture_needs_no_class_and_no_features(folder: Path, tiles: Domain) -> None:
+    only = load(folder, tiles, "image\nimages/000.png\nimages/001.png\n")
+    assert only.labels == [None, None]
+    assert only.vectors == [(None, None)] * 2
+    assert len(only.with_class()) == len(only.annotated()) == 0
+    assert only.pictures(16).shape == (2, 16, 16, 3)
+    some = load(folder, tiles, HEAD + ROW + "images/001.png,,red,\nimages/002.png,,,\n")
+    assert some.labels == ["good", None, None]
+    assert [scene.line for scene in some.with_class().scenes] == [2]
+    assert [scene.line for scene in some.annotated().scenes] == [2, 3]
+    assert some.with_class().classes == ["good"]
+    with pytest.raises(DatasetError) as problem:
+        some.classes  # noqa: B018
     assert str(problem.value) == (
-        f"{folder}/scenes.csv: all 2 rows are of class 'good'; training needs scenes of at least "
-        "two classes"
+        f"{folder}/scenes.csv:3: the picture 'images/001.png' has no class; fill the cell 'class'"
     )
+
+
+def test_a_picture_without_a_class_may_show_the_class_that_is_left_out(
+    folder: Path, tiles: Domain
+) -> None:
+    dataset = load(folder, tiles, HEAD + ROW + "images/001.png,,red,\nimages/002.png,bad,,\n")
+    assert [scene.line for scene in dataset.without_classes(["bad"]).scenes] == [2]
+    assert dataset.without_classes([]) is dataset
+
+
+def test_reasons_without_a_class(folder: Path, tiles: Domain) -> None:
+    table = "image,class,colour,round,reasons\nimages/000.png,,red,yes,round\n"
+    assert message(folder, tiles, table) == (
+        "DIR/scenes.csv:2: there are reasons, but the cell 'class' is empty; say of which class "
+        "they are the reasons, or take them away"
+    )
+
+
+def test_a_table_without_a_header(folder: Path, tiles: Domain) -> None:
+    assert message(folder, tiles, ROW) == (
+        "DIR/scenes.csv:1: names no column of the domain 'tiles', as the first line of a table "
+        "does; put a line above the rows: image, class, colour, round"
+    )
+
+
+def test_backslashes_in_paths(folder: Path, tiles: Domain) -> None:
+    dataset = load(folder, tiles, HEAD + "images\\000.png,good,red,yes\n")
+    assert dataset.name_of(dataset.scenes[0]) == "images/000.png"
+    (folder / "a\\b.png").write_bytes((folder / "images" / "001.png").read_bytes())
+    as_it_is = load(folder, tiles, HEAD + "a\\b.png,good,red,yes\n")
+    assert as_it_is.scenes[0].picture.name == "a\\b.png"
+    assert message(folder, tiles, HEAD + "images\\no.png,good,red,yes\n") == (
+        "DIR/scenes.csv:2: there is no picture 'images\\no.png' in DIR; use / in paths, and "
+        "correct it or remove the row"
+    )
+
+
+def test_pictures_outside_of_the_folder(folder: Path, tiles: Domain, tmp_path: Path) -> None:
+    secret = tmp_path / "secret.png"
+    secret.write_bytes((folder / "images" / "000.png").read_bytes())
+    (folder / "link.png").symlink_to(secret)
+    (folder / "way").symlink_to(tmp_path)
+    (folder / "inside.png").symlink_to(folder / "images" / "000.png")
+    for name in (
+        "../secret.png", "images/../../secret.png", str(secret), "link.png", "way/secret.png",
+        "..\\secret.png", "../nothing.png", "..", "/",
+    ):  # fmt: skip
+        found = message(folder, tiles, HEAD + f"{name},good,red,yes\n")
+        shown = name.replace("\\", "/") if name.startswith("..\\") else name
+        assert found == (
+            f"DIR/scenes.csv:2: the picture '{shown}' lies outside of DIR; copy it into the "
+            "folder, or allow it with --outside (in Python: outside=True)"
+        ), name
+    rows = HEAD + "".join(
+        f"{name},good,red,yes\n"
+        for name in ("../secret.png", str(secret), "link.png", "way/secret.png")
+    )
+    (folder / "scenes.csv").write_text(rows)
+    allowed = Dataset.load(folder, tiles, outside=True)
+    assert [allowed.name_of(scene) for scene in allowed.scenes] == [
+        "../secret.png", str(secret), "link.png", "way/secret.png"
+    ]  # fmt: skip
+    within = ("inside.png", "images/../images/000.png", f"{folder}/images/000.png")
+    for name in within:
+        assert len(load(folder, tiles, HEAD + f"{name},good,red,yes\n")) == 1, name
+
+
+def test_a_folder_that_is_itself_reached_by_a_link(
+    folder: Path, tiles: Domain, tmp_path: Path
+) -> None:
+    (tmp_path / "alias").symlink_to(folder)
+    assert len(Dataset.load(tmp_path / "alias", tiles)) == 3
+
+
+def test_paths_that_no_file_can_have(folder: Path, tiles: Domain) -> None:
+    (folder / "loop.png").symlink_to("loop.png")
+    os.mkfifo(folder / "pipe.png")
+    long = "x" * 300 + ".png"
+    for name, expected in {
+        long: f"the picture's path '{'x' * 160}…' has 304 characters, more than a file can have; "
+        "shorten the name",
+        "loop.png": "the picture 'loop.png' is a link to itself; replace it by the picture",
+        "pipe.png": "'pipe.png' is no file; name a picture's file",
+        "images/": "'images/' is a folder, not a picture; name a picture in it",
+        ".": "'.' is a folder, not a picture; name a picture in it",
+        "images/000.png/1.png": "there is no picture 'images/000.png/1.png' in DIR; correct the "
+        "path or remove the row",
+        "a\x1b[31m.png": "there is no picture 'a�[31m.png' in DIR; correct the path or remove the "
+        "row",
+    }.items():
+        found = message(folder, tiles, HEAD + f"{name},good,red,yes\n")
+        assert found == f"DIR/scenes.csv:2: {expected}"
 
 
 def test_a_dataset_of_another_domain(dataset: Dataset, structures: Domain) -> None:
@@ -219,6 +371,20 @@ def test_pictures_are_read_once_per_size(folder: Path, tiles: Domain) -> None:
     assert dataset.pictures(20).shape == (3, 20, 20, 3)
     assert dataset.take([2, 0]).pictures(16).tolist() == small[[2, 0]].tolist()
     assert read == [1, 2, 3]
+
+
+def test_pictures_some_at_a_time(folder: Path, tiles: Domain) -> None:
+    dataset = Dataset.load(folder, tiles)
+    told: list[int] = []
+    batches = list(dataset.iter_pictures(16, batch=2, on_progress=told.append))
+    assert [batch.shape for batch in batches] == [(2, 16, 16, 3), (1, 16, 16, 3)]
+    assert told == [1, 2, 3]
+    whole = dataset.pictures(16)
+    assert np.concatenate(batches).tolist() == whole.tolist()
+    again = list(dataset.iter_pictures(16, batch=2, on_progress=told.append))
+    assert np.concatenate(again).tolist() == whole.tolist()
+    assert told == [1, 2, 3]  # they were read already
+    assert next(Dataset.load(folder, tiles).iter_pictures(16, batch=1)).shape == (1, 16, 16, 3)
 
 
 def test_a_file_that_is_no_picture_is_named(folder: Path, tiles: Domain) -> None:

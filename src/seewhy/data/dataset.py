@@ -300,18 +300,20 @@ class Dataset:
         there would be nothing to validate with.
         """
         counts = Counter(label for label in self.labels if label is not None)
-        rows = f"all {len(self)} rows"
         if not counts:
             raise DatasetError(
                 f"{self.table.name}: no row has a class; fill the column 'class' of pictures of "
                 "at least two classes, a few dozen of each if you can"
             )
-        if counts.total() < len(self):
-            rows = f"all {counts.total()} rows that have a class"
         if len(counts) < 2:
+            one, number = counts.total() == 1, f"{counts.total():,}"
+            rows = "the only row" if one else f"all {number} rows"
+            have = (
+                "" if counts.total() == len(self) else f" that {'has' if one else 'have'} a class"
+            )
             raise DatasetError(
-                f"{self.table.name}: {rows} are of class '{next(iter(counts))}'; training needs "
-                "scenes of at least two classes"
+                f"{self.table.name}: {rows}{have} {'is' if one else 'are'} of class "
+                f"'{next(iter(counts))}'; training needs scenes of at least two classes"
             )
         groups: dict[str | None, set[str]] = {}
         for scene, group in zip(self.scenes, self.groups, strict=True):

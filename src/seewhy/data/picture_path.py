@@ -12,7 +12,7 @@ from seewhy.errors import DatasetError
 
 __all__ = ["picture_finder"]
 
-_SHOWN = 60
+_SHOWN = 160
 """Of longer paths, the beginning is shown."""
 
 

@@ -115,8 +115,8 @@ def read_table(
     line, columns_text = header
     separator = _separator_of(columns_text, known, file=file, line=line, named=named)
     start = skipped + _offset_of_line(text[skipped:], line - first)
-    found = _logical_rows(text[start:], separator, file=file, first=line)
-    columns = _without_empty_end(next(found).cells)
+    first_row, *found = _logical_rows(text[start:], separator, file=file, first=line)
+    columns = _without_empty_end(first_row.cells)
     rows = tuple(
         _fitting(row, columns, separator, optional, file=file, header=line) for row in found
     )
@@ -216,10 +216,19 @@ def _split(line: str, separator: str) -> list[str]:
     return [cell.strip().strip('"').strip() for cell in line.split(separator)]
 
 
-def _logical_rows(text: str, separator: str, *, file: Path, first: int) -> Iterator[Row]:
+def _logical_rows(text: str, separator: str, *, file: Path, first: int) -> list[Row]:
     """Rows, each of which may go over several lines where its cells are quoted."""
-    if '" ' in text:
-        text = re.sub(rf'" +(?=[{separator}\r\n]|$)', '"', text)
+    try:
+        return list(_strict_rows(text, separator, file=file, first=first))
+    except DatasetError:
+        # Blanks between a closing quote and the separator are the one slip that is plain.
+        tidy = re.sub(rf'" +(?=[{separator}\r\n]|$)', '"', text)
+        if tidy == text:
+            raise
+        return list(_strict_rows(tidy, separator, file=file, first=first))
+
+
+def _strict_rows(text: str, separator: str, *, file: Path, first: int) -> Iterator[Row]:
     reader = csv.reader(
         io.StringIO(text, newline=""), delimiter=separator, strict=True, skipinitialspace=True
     )
