@@ -28,6 +28,8 @@ SHOWN = 3
 
 Pair = tuple[int, int]
 
+_PAIR, _PAIRS, _SPLIT = "pair of pictures", "pairs of pictures", "one to train and one to test on"
+
 
 @dataclass(frozen=True)
 class Settled:
@@ -167,8 +169,8 @@ def _left_out_notice(dataset: Dataset, left_out: Sequence[Pair]) -> Iterable[str
             for test, train in left_out
         ]
         yield (
-            f"{place.name}: {_count(left_out, 'test row')} of pictures that are trained on, too "
-            f"({_some(said)}), left out of evaluation"
+            f"{place.name}: {_count(left_out, 'test row', 'test rows')} of pictures that are "
+            f"trained on, too ({_some(said)}), left out of evaluation"
         )
 
 
@@ -177,7 +179,7 @@ def _same_notice(dataset: Dataset, identical: Iterable[Sequence[int]]) -> Iterab
     if repeated:
         said = [_rows(dataset, positions) for positions in repeated]
         yield (
-            f"{dataset.table.name}: {_count(repeated, 'picture')} in several rows "
+            f"{dataset.table.name}: {_count(repeated, 'picture', 'pictures')} in several rows "
             f"({_some(said)}); the rows of a picture are one group"
         )
 
@@ -192,14 +194,14 @@ def _near_notices(dataset: Dataset, near: Sequence[Pair]) -> Iterable[str]:
     if across:
         said = [_named(dataset, pair) for pair in across]
         yield (
-            f"{name}: {_count(across, 'pair')} of pictures, one to train and one to test on, "
+            f"{name}: {_count(across, f'{_PAIR}, {_SPLIT},', f'{_PAIRS}, {_SPLIT},')} "
             f"nearly the same ({_some(said)}); results on such pictures flatter, keep them in one "
             "split"
         )
     if within:
         said = [_named(dataset, pair) for pair in within]
         yield (
-            f"{name}: {_count(within, 'pair')} of pictures nearly the same ({_some(said)}); such "
+            f"{name}: {_count(within, _PAIR, _PAIRS)} nearly the same ({_some(said)}); such "
             "pictures are one group"
         )
     differing = list(contradictions(dataset, near))
@@ -210,7 +212,7 @@ def _near_notices(dataset: Dataset, near: Sequence[Pair]) -> Iterable[str]:
             for one in differing
         ]
         yield (
-            f"{name}: {_count(differing, 'pair')} of pictures nearly the same, but annotated "
+            f"{name}: {_count(differing, _PAIR, _PAIRS)} nearly the same, but annotated "
             f"differently ({_some(said)}); look whether that is meant"
         )
 
@@ -224,9 +226,9 @@ def _named(dataset: Dataset, pair: Pair) -> str:
     return f"{_rows(dataset, pair)}: {names}"
 
 
-def _count(found: Sequence[object], what: str) -> str:
+def _count(found: Sequence[object], one: str, several: str) -> str:
     """Say how many there are, with the verb that all notices have."""
-    return f"{len(found)} {what} is" if len(found) == 1 else f"{len(found):,} {what}s are"
+    return f"1 {one} is" if len(found) == 1 else f"{len(found):,} {several} are"
 
 
 def _some(said: Sequence[str]) -> str:

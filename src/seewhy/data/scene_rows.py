@@ -41,7 +41,7 @@ def scenes_of_rows(
     *,
     folder: Path,
     place: TablePlace,
-    header: int = 1,
+    header: int | None = None,
     outside: bool = False,
 ) -> Iterator[Scene]:
     """Yield the scenes of rows: their number and their cells, in the order of the columns.
@@ -51,7 +51,7 @@ def scenes_of_rows(
     DatasetError
         If a column, a value or a picture is none; the text names the row and the remedy.
     """
-    _check_columns(columns, domain, place.at(header))
+    _check_columns(columns, domain, place.name if header is None else place.at(header))
     position = {name: number for number, name in enumerate(columns)}
     features = [(key, position.get(key), domain.features[key].values) for key in domain.features]
     find = picture_finder(folder, outside=outside)
