@@ -26,7 +26,8 @@ from exports_builder import (
     write,
     write_json,
 )
-from seewhy.data.importers import ImportRequest, import_pictures
+from seewhy.cli import data_import
+from seewhy.data.importers import FORMATS, ImportRequest, import_pictures
 from seewhy.errors import DatasetError, SeeWhyError
 
 ONE_IMAGE = [{"id": 1, "file_name": "1.jpg"}]
@@ -757,3 +758,7 @@ def test_the_command_complains(
     result = run("data", "import", *arguments, "--out", "data")
     assert (result.code, result.out, result.err) == (2, "", f"seewhy: {expected}\n")
     assert not (tmp_path / "data").exists()
+
+
+def test_the_command_knows_all_formats() -> None:
+    assert data_import.FORMATS == FORMATS

@@ -98,6 +98,10 @@ def test_coco(animals: Path, tmp_path: Path) -> None:
         "images/val2017/1.jpg,1,5,5,9,15,dog,,,",
     ]
     assert dataset.kinds == {"cat": 3, "dog": 2}
+    assert (
+        "1 pictures have boxes of several kinds and so no class; --class largest gives them that "
+        "of the largest box"
+    ) in notes_of(dataset)
     assert dataset.things == 5
 
 

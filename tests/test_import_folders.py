@@ -15,7 +15,7 @@ from exports_builder import draw, draw_all, imported, notes_of, pack, rows_of, w
 from seewhy.data.dataset import Dataset
 from seewhy.data.importers import ImportRequest, import_pictures
 from seewhy.data.importers.names import distinct_names, predicate_name, valid_name
-from seewhy.data.importers.writing import image_names
+from seewhy.data.importers.placing import image_names
 from seewhy.domain import load_domain
 from seewhy.errors import DatasetError
 from seewhy.knowledge.language import read_knowledge
@@ -305,6 +305,20 @@ def test_the_dataset_is_one_like_any_other(tmp_path: Path, tiles_folder: Path) -
         ("bad", ("blue", "no")),
         ("good", ("red", "yes")),
     ]
+
+
+def test_a_dataset_inside_of_its_source(tmp_path: Path) -> None:
+    """What was written there before is no part of the source, finished or not."""
+    source = draw_all(tmp_path / "s", [f"{kind}/{n}.png" for kind in "ab" for n in range(3)])
+    request = ImportRequest(source, "folder")
+
+    def interrupt(*_: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        import_pictures(request, source / "data", on_progress=interrupt)
+    assert import_pictures(request, source / "data").classes == {"a": 3, "b": 3}
+    assert import_pictures(request, source / "again").classes == {"a": 3, "b": 3}
 
 
 # Archives --------------------------------------------------------------------------------------

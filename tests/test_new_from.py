@@ -252,6 +252,18 @@ def test_from_an_export_the_format_is_found(tmp_path: Path, run: Run) -> None:
     assert list(load_domain(tmp_path / "pets").classes) == ["cat", "dog"]
 
 
+def test_a_table_beside_class_folders_that_lists_no_pictures(tmp_path: Path, run: Run) -> None:
+    source = draw_all(tmp_path / "s", ["cats/1.png", "dogs/1.png"])
+    write(source / "people.csv", "name,age\nAnn,3\n")
+    made = json.loads(run("new", tmp_path / "a", "--from", source, "--json").out)
+    assert made["commands"][1].startswith("seewhy data import folder ")
+    write(source / "labels.csv", "name,kind\n1,cats\n")
+    draw(source / "1.png")
+    asked = run("new", tmp_path / "b", "--from", source, "--json")
+    assert asked.code == 2
+    assert "one class only ('cats')" in asked.err
+
+
 def test_classes_that_the_table_does_not_tell_apart(tmp_path: Path, run: Run) -> None:
     source = draw_all(tmp_path / "s", ["cat/1.png", "lynx/1.png", "dog/1.png"])
     features = write(tmp_path / "t.csv", "class,purrs\ncat,yes\nlynx,yes\ndog,no\n")
@@ -331,7 +343,8 @@ def test_whatever_the_words_the_domain_works(
     """It passes the check, and every question that it has can be answered."""
     from seewhy.data.importers.annotation import AnnotatedPicture, Notes
     from seewhy.data.importers.formats import format_called
-    from seewhy.data.importers.importing import ImportRequest, ReadSource
+    from seewhy.data.importers.reading import ReadSource
+    from seewhy.data.importers.request import ImportRequest
     from seewhy.data.importers.source_files import FolderFiles
     from seewhy.data.importers.vocabulary import vocabulary_of
     from seewhy.new_domain.sketch import sketch_of

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from seewhy.data.importers import ImportedDataset, ImportRequest, Note
 
 PHOTOGRAPHS = ("belgiumts",)
-_FORMATS = ("folder", "coco", "voc", "yolo", "labelstudio", "cvat", "table")
+FORMATS = ("folder", "coco", "voc", "yolo", "labelstudio", "cvat", "table")
 _MOST_NAMED = 5
 _MOST_CLASSES = 12
 _SAID = {"train": "training", "test": "testing"}
@@ -51,7 +51,7 @@ SignDomain = Annotated[
 def import_(
     format: Annotated[
         str,
-        typer.Argument(metavar="FORMAT", help=f"{', '.join(_FORMATS)}, or {PHOTOGRAPHS[0]}."),
+        typer.Argument(metavar="FORMAT", help=f"{', '.join(FORMATS)}, or {PHOTOGRAPHS[0]}."),
     ],
     out: Out,
     source: Annotated[
@@ -205,7 +205,7 @@ def _check_format(name: str) -> None:
     from seewhy.errors import SeeWhyError
     from seewhy.nearest import did_you_mean
 
-    known = (*_FORMATS, *PHOTOGRAPHS)
+    known = (*FORMATS, *PHOTOGRAPHS)
     if name not in known:
         path = Path(name)
         if path.exists():

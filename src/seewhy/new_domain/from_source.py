@@ -11,16 +11,12 @@ from typing import Any
 from seewhy.data.dataset import TABLE
 from seewhy.data.importers.annotation import Note
 from seewhy.data.importers.class_features import ClassFeatures
-from seewhy.data.importers.importing import (
-    ImportRequest,
-    ReadSource,
-    detect_format,
-    read_source,
-)
+from seewhy.data.importers.imported import ImportedDataset
+from seewhy.data.importers.reading import ReadSource, detect_format, read_source
 from seewhy.data.importers.record import read_record
+from seewhy.data.importers.request import ImportRequest
 from seewhy.data.importers.writing import (
     CLASSES,
-    ImportedDataset,
     check_out_folder,
     class_table,
     write_dataset,

@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 from seewhy.data.importers.class_features import ClassFeatures
-from seewhy.data.importers.importing import ReadSource
 from seewhy.data.importers.names import valid_name
+from seewhy.data.importers.reading import ReadSource
 from seewhy.data.importers.record import FeatureRecord, WordsRecord
 from seewhy.data.importers.vocabulary import Vocabulary, named_features
 from seewhy.errors import DomainError

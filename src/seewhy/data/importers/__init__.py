@@ -2,8 +2,10 @@
 
 from seewhy.data.importers.annotation import Note
 from seewhy.data.importers.formats import FORMATS
-from seewhy.data.importers.importing import ImportRequest, read_source
-from seewhy.data.importers.writing import ImportedDataset, import_pictures
+from seewhy.data.importers.imported import ImportedDataset
+from seewhy.data.importers.reading import read_source
+from seewhy.data.importers.request import ImportRequest
+from seewhy.data.importers.writing import import_pictures
 
 __all__ = [
     "FORMATS",

@@ -9,6 +9,7 @@ from collections.abc import Collection, Iterable
 LONGEST_NAME = 80
 
 _NUMBER = re.compile(r"0|-?[1-9][0-9]{0,8}")
+_SIGNS = {"+": " plus ", "&": " and ", "%": " percent ", "<": " below ", ">": " above "}
 _WORDS_OF_THE_LANGUAGE = frozenset({"not", "if", "causes", "default", "impossible"})
 
 
@@ -21,13 +22,17 @@ def valid_name(text: str) -> str:
     --------
     >>> valid_name("2 Green Ovals!")
     'n2_green_ovals'
+    >>> [valid_name(text) for text in ("< 5", "5-10", "> 10", "grade A+", "grade A-")]
+    ['below_5', 'n5_10', 'above_10', 'grade_a_plus', 'grade_a_minus']
     >>> [valid_name(text) for text in ("Pomme d'été", "rolledInScale", "7.0", "007", "not", "猫")]
     ['pomme_d_ete', 'rolled_in_scale', '7', 'n007', 'not_', 'unnamed']
     """
     stripped = _whole(text.strip())
     if _NUMBER.fullmatch(stripped):
         return stripped
-    apart = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", stripped)
+    apart = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", re.sub("-$", " minus", stripped))
+    for sign, word in _SIGNS.items():
+        apart = apart.replace(sign, word)
     plain = unicodedata.normalize("NFKD", apart.casefold())
     name = re.sub(r"[^a-z0-9]+", "_", "".join(c for c in plain if not unicodedata.combining(c)))
     name = name.strip("_")[:LONGEST_NAME].rstrip("_") or "unnamed"
@@ -80,8 +85,8 @@ def distinct_names(
 
     Examples
     --------
-    >>> distinct_names(["Grade A+", "grade A-", "Grade a+", "class"], taken=["class"])
-    {'Grade A+': 'grade_a', 'grade A-': 'grade_a_2', 'Grade a+': 'grade_a', 'class': 'class_2'}
+    >>> distinct_names(["No. 1", "no 1", "n° 1", "class"], taken=["class"])
+    {'No. 1': 'no_1', 'no 1': 'no_1', 'n° 1': 'n_1', 'class': 'class_2'}
     """
     name_of = predicate_name if predicates else valid_name
     names: dict[str, str] = {}

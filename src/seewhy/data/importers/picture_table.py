@@ -53,12 +53,18 @@ def table_files(source: Source) -> list[str]:
 
 
 def has_pictures(source: Source, name: str) -> bool:
-    """Whether a table has a column of pictures."""
+    """Whether a table has a column of pictures: paths that look so, or names of pictures here."""
     try:
         with open_table(source.files, name) as table:
-            return _image_column(table.columns, list(islice(table.rows, 20))) is not None
+            rows = list(islice(table.rows, 20))
+            column = _image_column(table.columns, rows)
     except DatasetError:
         return False
+    if column is None:
+        return False
+    cells = [row.cells[column] for row in rows if row.cells[column]]
+    finder = source.finder(beside=(posixpath.dirname(name),))
+    return any(is_picture_name(cell) or _find(finder, cell, "") for cell in cells)
 
 
 def read_picture_table(source: Source) -> Iterator[AnnotatedPicture]:

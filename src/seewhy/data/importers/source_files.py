@@ -15,6 +15,9 @@ from typing import IO, Protocol
 from seewhy.data.importers.annotation import Notes
 from seewhy.errors import DatasetError
 
+RECORD = "imported.json"
+"""What an import leaves in the dataset folder that it writes."""
+
 LARGEST_PICTURE = 512 * 2**20
 """Bytes of the largest picture file that is read."""
 
@@ -73,6 +76,8 @@ class SourceFiles(Protocol):
 class FolderFiles:
     """The files of a folder; links are followed, circles of them are not.
 
+    Datasets below it that an import has written are left out.
+
     Examples
     --------
     >>> import tempfile
@@ -102,6 +107,8 @@ class FolderFiles:
                 if _is_litter(entry.name):
                     continue
                 if entry.is_dir():
+                    if _is_imported(Path(entry.path)):
+                        continue  # what an import has written is not imported again
                     yield from self._files(
                         Path(entry.path), f"{prefix}{entry.name}/", (*above, identity)
                     )
@@ -358,6 +365,10 @@ def read_bytes(files: SourceFiles, name: str, *, most: int = LARGEST_PICTURE) ->
 
 def _is_litter(name: str) -> bool:
     return name.startswith(".") or name.casefold() in _LITTER
+
+
+def _is_imported(folder: Path) -> bool:
+    return (folder / RECORD).is_file()
 
 
 def _leads_out(name: str) -> bool:

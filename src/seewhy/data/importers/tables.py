@@ -21,7 +21,7 @@ TEXT_TABLES = (".csv", ".tsv", ".tab", ".txt")
 TABLES = (*TEXT_TABLES, ".xlsx", ".xlsm", ".jsonl", ".ndjson", ".json", ".parquet", ".pq")
 """How the names of tables end."""
 
-UNKNOWN = frozenset({"", "nan", "null", "n/a", "na", "?", "-", "nat", "<na>"})
+UNKNOWN = frozenset({"", "nan", "null", "n/a", "na", "?", "nat", "<na>"})
 """Cells, in small letters, that are values which nobody knows."""
 
 _MOST_COLUMNS = 2_000

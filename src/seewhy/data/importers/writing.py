@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 import shutil
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
-from hashlib import sha256
 from pathlib import Path
-from posixpath import splitext
 from typing import Any, TextIO
 
 from seewhy.data.dataset import TABLE
-from seewhy.data.importers.annotation import AnnotatedPicture, Box, Note
+from seewhy.data.importers.annotation import AnnotatedPicture, Box
 from seewhy.data.importers.boxes import boxes_in_pixels
 from seewhy.data.importers.class_features import ClassFeatures
-from seewhy.data.importers.importing import ImportRequest, ReadSource, read_source
-from seewhy.data.importers.picture_files import PictureHeader, read_header
+from seewhy.data.importers.imported import ImportedDataset
+from seewhy.data.importers.picture_files import PictureHeader
 from seewhy.data.importers.picture_table import THINGS
-from seewhy.data.importers.record import RECORD, Record, read_record, words_of_vocabulary
-from seewhy.data.importers.source_files import DamagedFileError, SourceFiles, read_bytes
+from seewhy.data.importers.placing import Placing, image_names
+from seewhy.data.importers.reading import ReadSource, read_source
+from seewhy.data.importers.record import Record, read_record, words_of_vocabulary
+from seewhy.data.importers.request import ImportRequest
+from seewhy.data.importers.source_files import RECORD, DamagedFileError
 from seewhy.data.importers.vocabulary import (
     THING_COLUMNS,
     Vocabulary,
@@ -35,68 +34,10 @@ from seewhy.files import whole_file, write_whole
 
 CLASSES = "classes.csv"
 UNUSABLE = "pictures that cannot be used, left out"
-_LONGEST_PART = 180
 _SPARE_BYTES = 64 * 2**20
 
 Progress = Callable[[int, int], None]
 """Called with the pictures done and the pictures in all."""
-
-
-@dataclass(frozen=True)
-class ImportedDataset:
-    """The dataset written, and what was found on the way.
-
-    Attributes
-    ----------
-    folder : Path
-    format : str
-    pictures : int
-    linked : bool
-        Whether the pictures are the source's own files (hard links), not copies.
-    classes : dict of str to int
-        Class → how many pictures are of it; "" for those without one.
-    features : dict of str to dict of str to int
-        Feature → value → how many pictures have it.
-    splits : dict of str to int
-    groups : int
-        0 where the source says none.
-    kinds : dict of str to int
-        Kind of thing → how many boxes are of it.
-    notes : tuple of Note
-        What was not as it should be, and where.
-    """
-
-    folder: Path
-    format: str
-    pictures: int
-    linked: bool
-    classes: dict[str, int]
-    features: dict[str, dict[str, int]]
-    splits: dict[str, int]
-    groups: int
-    kinds: dict[str, int]
-    notes: tuple[Note, ...]
-
-    @property
-    def things(self) -> int:
-        """How many boxes there are."""
-        return sum(self.kinds.values())
-
-    def as_json(self) -> dict[str, Any]:
-        """Everything, for a program."""
-        return {
-            "folder": str(self.folder),
-            "format": self.format,
-            "pictures": self.pictures,
-            "linked": self.linked,
-            "classes": self.classes,
-            "features": self.features,
-            "splits": self.splits,
-            "groups": self.groups,
-            "things": self.things,
-            "kinds": self.kinds,
-            "notes": [{"text": note.text, "places": list(note.places)} for note in self.notes],
-        }
 
 
 def import_pictures(
@@ -220,7 +161,7 @@ class _Writer:
             if has_it
         ]
         self.has_boxes = any(picture.boxes for picture in read.pictures)
-        self._placing = _Placing(read.files, folder, link=not read.request.copy)
+        self._placing = Placing(read.files, folder, link=not read.request.copy)
         self._classes: Counter[str] = Counter()
         self._features: dict[str, Counter[str]] = {name: Counter() for name in self._columns}
         self._splits: Counter[str] = Counter()
@@ -327,105 +268,6 @@ class _Writer:
 def _in_order(read: ReadSource, feature: str, counts: Mapping[str, int]) -> dict[str, int]:
     words = next(w for w in read.vocabulary.features.values() if w.name == feature)
     return {value: counts[value] for value in words.value_words if counts[value]}
-
-
-class _Placing:
-    """Puts pictures into a folder: as links while that works, as copies else."""
-
-    def __init__(self, files: SourceFiles, folder: Path, *, link: bool) -> None:
-        self._files = files
-        self._folder = folder
-        self.links = link
-
-    def place(self, name: str, image: str) -> PictureHeader:
-        """Put a picture where it belongs unless it is there; return how large it is."""
-        target = self._folder / image
-        path = self._files.on_disk(name)
-        if path is not None:
-            with self._files.open(name) as stream:
-                header = read_header(stream)
-            self._from_disk(path, target, name)
-            return header
-        self.links = False
-        if self._is_there(target, name):
-            with target.open("rb") as stream:
-                return read_header(stream)
-        content = read_bytes(self._files, name)
-        header = read_header(io.BytesIO(content))
-        with whole_file(target) as temporary:
-            temporary.write_bytes(content)
-            self._stamp(temporary, name)
-        return header
-
-    def _from_disk(self, path: Path, target: Path, name: str) -> None:
-        if target.exists() and (target.samefile(path) or self._is_there(target, name)):
-            return
-        target.parent.mkdir(parents=True, exist_ok=True)
-        if self.links:
-            target.unlink(missing_ok=True)
-            try:
-                target.hardlink_to(path.resolve())
-                return
-            except OSError:
-                self.links = False  # another file system, or none that can
-        with whole_file(target) as temporary:
-            shutil.copyfile(path, temporary)
-            self._stamp(temporary, name)
-
-    def _is_there(self, target: Path, name: str) -> bool:
-        """Whether a copy of just this file is there: its size and time are those of the source."""
-        if not target.is_file():
-            return False
-        found = target.stat()
-        same_size = found.st_size == self._files.bytes_of(name)
-        return same_size and int(found.st_mtime) == int(self._files.changed(name))
-
-    def _stamp(self, copy: Path, name: str) -> None:
-        changed = self._files.changed(name)
-        os.utime(copy, (changed, changed))
-
-
-def image_names(files: Sequence[str]) -> list[str]:
-    """Return where the pictures of a source go in a dataset: every file a place of its own.
-
-    Folders that all share are left out, and so are characters that file systems refuse.
-
-    Examples
-    --------
-    >>> image_names(["hands/0/a.jpg", "hands/0/A.JPG", "hands/1/what?.jpg"])
-    ['images/0/a.jpg', 'images/0/A-2.JPG', 'images/1/what_.jpg']
-    """
-    folders = [file.split("/")[:-1] for file in files]
-    shared = folders[0] if folders else []
-    for folder in folders:
-        count = next(
-            (n for n, (one, other) in enumerate(zip(shared, folder, strict=False)) if one != other),
-            min(len(shared), len(folder)),
-        )
-        shared = shared[:count]
-    used: set[str] = set()
-    names = []
-    for file in files:
-        parts = [_safe_part(part) for part in file.split("/")[len(shared) :]]
-        name = "/".join(["images", *parts])
-        stem, ending = splitext(name)
-        number = 2
-        while name.casefold() in used:
-            name = f"{stem}-{number}{ending}"
-            number += 1
-        used.add(name.casefold())
-        names.append(name)
-    return names
-
-
-def _safe_part(part: str) -> str:
-    safe = "".join("_" if c in '<>:"|?*\\' or not c.isprintable() else c for c in part).strip()
-    if len(safe.encode()) > _LONGEST_PART:
-        stem, dot, ending = safe.rpartition(".")
-        digest = sha256(part.encode(errors="surrogateescape")).hexdigest()[:12]
-        short = (stem or safe).encode()[: _LONGEST_PART - 40].decode(errors="ignore")
-        safe = f"{short}-{digest}{dot}{ending[:20]}"
-    return safe.lstrip(".") or "_"
 
 
 def check_out_folder(folder: Path, request: ImportRequest) -> None:

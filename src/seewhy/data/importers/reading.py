@@ -1,4 +1,4 @@
-"""Import a source: read what a tool wrote, agree on names, write a dataset folder."""
+"""Read a source as a whole: what a tool wrote, with classes, features, groups, splits, names."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
-from hashlib import sha256
 from pathlib import Path
-from posixpath import basename
 from typing import get_args
 
 from seewhy.data.importers.annotation import AnnotatedPicture, Notes
@@ -26,8 +24,11 @@ from seewhy.data.importers.formats import (
     format_of,
     reader_of,
 )
+from seewhy.data.importers.groups import grouped, grouping
+from seewhy.data.importers.request import ImportRequest
 from seewhy.data.importers.source import MISSING, ColumnNames, Source
 from seewhy.data.importers.source_files import SourceFiles, is_archive, open_source
+from seewhy.data.importers.splits import with_splits
 from seewhy.data.importers.vocabulary import Vocabulary, vocabulary_of
 from seewhy.errors import DatasetError
 from seewhy.nearest import did_you_mean
@@ -35,74 +36,6 @@ from seewhy.nearest import did_you_mean
 _LONGEST_PATTERN = 200
 _FEWEST_GROUPS = 5
 _NUMBERED = re.compile(r"(.+)[_-]\d+$")
-
-
-@dataclass(frozen=True)
-class ImportRequest:
-    """What is to be imported, and how.
-
-    Attributes
-    ----------
-    source : Path
-        A folder, a zip archive, or the file that a tool exported.
-    format : str
-        One of :data:`~seewhy.data.importers.formats.FORMATS`.
-    pictures : Path or None
-        The folder or archive of the pictures, where they lie elsewhere.
-    features : Path or None
-        A table class → features, which fills what a source does not say itself.
-    class_parts : str or None
-        What the names of classes are made of, such as ``number-colour-shape``.
-    group : str or None
-        A regular expression; what its first group (or all of it) finds in a picture's file name
-        names the group of the picture.
-    class_rule : {"only", "largest", "none"}
-        The class that boxes give their picture, see
-        :func:`~seewhy.data.importers.boxes.class_of_boxes`.
-    image_column, class_column : str or None
-        The columns (or controls) of the picture's path and of its class.
-    inside : str or None
-        The folder of a source whose folders are the classes.
-    test_share : float
-        The share of pictures that is kept for evaluation where the source has no splits.
-    copy : bool
-        Whether pictures are copied even where they could be linked.
-    """
-
-    source: Path
-    format: str
-    pictures: Path | None = None
-    features: Path | None = None
-    class_parts: str | None = None
-    group: str | None = None
-    class_rule: ClassRule = "only"
-    image_column: str | None = None
-    class_column: str | None = None
-    inside: str | None = None
-    test_share: float = 0.0
-    copy: bool = False
-
-    def settings(self) -> dict[str, str]:
-        """What makes two imports the same one, as text."""
-        return {
-            "source": str(self.source.resolve()),
-            "format": self.format,
-            **{
-                key: str(value)
-                for key, value in (
-                    ("pictures", self.pictures and self.pictures.resolve()),
-                    ("features", self.features and self.features.resolve()),
-                    ("class_parts", self.class_parts),
-                    ("group", self.group),
-                    ("class_rule", self.class_rule),
-                    ("image_column", self.image_column),
-                    ("class_column", self.class_column),
-                    ("inside", self.inside),
-                    ("test_share", self.test_share or None),
-                )
-                if value is not None
-            },
-        }
 
 
 @dataclass(frozen=True)
@@ -153,7 +86,7 @@ def read_source(
     """
     kind = format_called(request.format)
     _check_options(request, kind)
-    grouping = _grouping(request.group)
+    pattern = grouping(request.group)
     notes = Notes()
     with ExitStack() as stack:
         files = stack.enter_context(open_source(request.source, notes))
@@ -174,9 +107,9 @@ def read_source(
         found = list(reader_of(kind)(source))
         _check_missing(request, notes, len(found))
         pictures = _once_each(found, notes)
-        pictures = [_with_class_of_boxes(picture, request.class_rule) for picture in pictures]
-        pictures = _grouped(pictures, grouping, request.group, notes)
-        pictures = _with_splits(pictures, request.test_share, notes)
+        pictures = _with_classes_of_boxes(pictures, request.class_rule, notes)
+        pictures = grouped(pictures, pattern, notes)
+        pictures = with_splits(pictures, request.test_share, notes)
         said = class_features or _class_features(request, pictures)
         known = sum(len(picture.features) for picture in pictures)
         if said is not None:
@@ -240,22 +173,6 @@ def _check_options(request: ImportRequest, kind: Format) -> None:
         )
 
 
-def _grouping(pattern: str | None) -> re.Pattern[str] | None:
-    if pattern is None:
-        return None
-    if len(pattern) > _LONGEST_PATTERN:
-        raise DatasetError(
-            f"--group has {len(pattern)} characters, at most {_LONGEST_PATTERN} are read"
-        )
-    try:
-        return re.compile(pattern)
-    except re.error as problem:
-        raise DatasetError(
-            f"--group '{pattern}': is no regular expression ({problem}); '^(.+)_' names what "
-            "stands before the last _"
-        ) from None
-
-
 def _check_missing(request: ImportRequest, notes: Notes, found: int) -> None:
     missing = notes.count(MISSING)
     if missing <= found:
@@ -296,111 +213,21 @@ def _once_each(pictures: Sequence[AnnotatedPicture], notes: Notes) -> list[Annot
     return list(by_file.values())
 
 
-def _with_class_of_boxes(picture: AnnotatedPicture, rule: ClassRule) -> AnnotatedPicture:
-    if picture.class_name or not picture.boxes:
-        return picture
-    return replace(picture, class_name=class_of_boxes(picture.boxes, rule))
-
-
-def _grouped(
-    pictures: Sequence[AnnotatedPicture],
-    grouping: re.Pattern[str] | None,
-    pattern: str | None,
-    notes: Notes,
+def _with_classes_of_boxes(
+    pictures: Sequence[AnnotatedPicture], rule: ClassRule, notes: Notes
 ) -> list[AnnotatedPicture]:
-    if grouping is None:
-        _suggest_groups(pictures, notes)
-        return list(pictures)
-    grouped = []
+    """Pictures whose class is that of their boxes where nobody said another."""
+    found, several = [], 0
     for picture in pictures:
-        found = grouping.search(basename(picture.file))
-        group = "" if found is None else (found.group(1) if found.groups() else found.group()) or ""
-        if not group:
-            notes.add(
-                f"pictures whose name has no '{pattern}', each a group of its own", picture.file
-            )
-        grouped.append(replace(picture, group=group or picture.group))
-    if pictures and not any(picture.group for picture in grouped):
-        raise DatasetError(
-            f"--group '{pattern}': is found in no file name, the first is "
-            f"'{basename(pictures[0].file)}'; correct the expression"
-        )
-    return grouped
-
-
-def _suggest_groups(pictures: Sequence[AnnotatedPicture], notes: Notes) -> None:
-    """Say so where file names look as if they told which pictures belong together."""
-    if any(picture.group for picture in pictures):
-        return
-    found: dict[str, set[str]] = {}
-    count = 0
-    for picture in pictures:
-        stem = basename(picture.file).rpartition(".")[0]
-        match = _NUMBERED.fullmatch(stem)
-        if match is not None:
-            count += 1
-            found.setdefault(match.group(1), set()).add(picture.class_name)
-    over_classes = sum(len(classes) > 1 for classes in found.values())
-    if (
-        count >= 0.8 * len(pictures)
-        and len(found) >= _FEWEST_GROUPS
-        and count >= 2 * len(found)
-        and 2 * over_classes >= len(found)
-    ):
+        label = picture.class_name or class_of_boxes(picture.boxes, rule)
+        several += rule == "only" and bool(picture.boxes) and not label
+        found.append(replace(picture, class_name=label))
+    if several:
         notes.add(
-            f"file names such as {basename(pictures[0].file)} may say which pictures belong "
-            f"together: --group '^(.+)[_-]' would make {len(found):,} groups of them, which are "
-            "kept together when pictures are divided"
+            f"{several:,} pictures have boxes of several kinds and so no class; --class largest "
+            "gives them that of the largest box"
         )
-
-
-def _with_splits(
-    pictures: Sequence[AnnotatedPicture], test_share: float, notes: Notes
-) -> list[AnnotatedPicture]:
-    """Splits as SeeWhy has them: train and test; validation is one of the two."""
-    splits = Counter(picture.split for picture in pictures)
-    if splits.keys() - {""}:
-        if test_share:
-            notes.add("the source has splits, --test-share is not used")
-        if splits["validation"]:
-            into = "train" if splits["test"] else "test"
-            notes.add(
-                f"the {splits['validation']:,} pictures of the validation split are marked {into}"
-            )
-            return [
-                replace(picture, split=into) if picture.split == "validation" else picture
-                for picture in pictures
-            ]
-        return list(pictures)
-    return _divided(pictures, test_share) if test_share else list(pictures)
-
-
-def _divided(pictures: Sequence[AnnotatedPicture], test_share: float) -> list[AnnotatedPicture]:
-    """Pictures of which a share of every class is kept for tests; groups stay together.
-
-    The order is by digests of names, so that it does not depend on what else there is.
-    """
-    members: dict[str, list[int]] = {}
-    for number, picture in enumerate(pictures):
-        members.setdefault(picture.group or f"\0{picture.file}", []).append(number)
-    wanted = {
-        label: test_share * count
-        for label, count in Counter(picture.class_name for picture in pictures).items()
-    }
-    chosen: set[int] = set()
-    for group in sorted(members, key=lambda name: sha256(name.encode()).digest()):
-        labels = Counter(pictures[number].class_name for number in members[group])
-        # Taken where it fills more of what is wanted than it takes beyond that.
-        if sum(min(count, wanted[label]) for label, count in labels.items()) * 2 > sum(
-            labels.values()
-        ):
-            chosen.update(members[group])
-            for label, count in labels.items():
-                wanted[label] = max(0.0, wanted[label] - count)
-    return [
-        replace(picture, split="test" if number in chosen else "train")
-        for number, picture in enumerate(pictures)
-    ]
+    return found
 
 
 def _class_features(
