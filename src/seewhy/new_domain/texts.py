@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping, Sequence
 
-from seewhy.data.importers.names import predicate_name
+from seewhy.data.importers.names import predicate_name, valid_name
 from seewhy.new_domain.proposals import Proposals
 from seewhy.new_domain.sketch import LOOK, Sketch, SketchFeature
 from seewhy.new_domain.words import (
@@ -86,7 +86,8 @@ def domain_text(sketch: Sketch) -> str:
     lines += ["", f'# Answers say "{sketch.subject} is …" of a class.']
     for name, words in sketch.classes.items():
         said = as_predicate(words)
-        others = [] if plain_words(name) in (words, said) else [said, plain_words(name)]
+        # The name is a word for it where the words alone do not lead to it.
+        others = [] if valid_name(words) == name else [said, plain_words(name)]
         lines += [
             "",
             f"[classes.{_key(name)}]",
