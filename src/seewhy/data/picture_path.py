@@ -48,28 +48,35 @@ def picture_finder(folder: Path, *, outside: bool = False) -> Callable[[str, str
     """
     root = os.path.realpath(folder)
     below = root.rstrip(os.sep) + os.sep
-    real: dict[str, str] = {}
+    directories: dict[str, tuple[Path, bool]] = {}
 
-    def lies_inside(path: str) -> bool:
-        directory, name = os.path.split(path)
-        if directory not in real:
-            real[directory] = os.path.realpath(directory)
-        found = os.path.join(real[directory], name)  # noqa: PTH118  (a Path a row costs a second)
-        if name in ("", ".", "..") or os.path.islink(found):  # noqa: PTH114
-            found = os.path.realpath(found)
-        return found == root or found.startswith(below)
+    def directory(cell: str) -> tuple[Path, bool]:
+        """The directory of a cell, and whether it lies in the folder, whatever links say."""
+        if cell not in directories:
+            path = folder / cell
+            real = os.path.realpath(path)
+            directories[cell] = path, real == root or real.startswith(below)
+        return directories[cell]
 
-    def existing(cell: str, here: str) -> str | None:
-        path = os.path.join(folder, cell)  # noqa: PTH118
-        if not outside and not lies_inside(path):
+    def existing(cell: str, here: str) -> Path | None:
+        before, _, name = cell.rpartition("/")
+        parent, inside = directory("/" if cell.startswith("/") and not before else before)
+        path = parent / name
+        if name in ("", ".", ".."):
+            path, inside = directory(cell)
+        if inside or outside:
+            try:
+                mode = os.lstat(path).st_mode
+                if stat.S_ISLNK(mode):
+                    inside = os.path.realpath(path).startswith(below)
+                    mode = os.stat(path).st_mode if inside or outside else mode  # noqa: PTH116
+            except (FileNotFoundError, NotADirectoryError):
+                return None
+        if not inside and not outside:
             raise DatasetError(
                 f"{here}: the picture '{_shown(cell)}' lies outside of {folder}; copy it into the "
                 "folder, or allow it with --outside (in Python: outside=True)"
             )
-        try:
-            mode = os.stat(path).st_mode  # noqa: PTH116
-        except (FileNotFoundError, NotADirectoryError):
-            return None
         if stat.S_ISDIR(mode):
             raise DatasetError(
                 f"{here}: '{_shown(cell)}' is a folder, not a picture; name a picture in it"
@@ -93,7 +100,7 @@ def picture_finder(folder: Path, *, outside: bool = False) -> Callable[[str, str
                 f"{here}: there is no picture '{_shown(cell)}' in {folder}; {remedy} or remove "
                 "the row"
             )
-        return Path(found)
+        return found
 
     return find
 

@@ -10,6 +10,7 @@ from seewhy.data.scene import Scene, TablePlace
 from seewhy.domain import Domain
 from seewhy.domain_tables import CLASS, RESERVED
 from seewhy.errors import DatasetError
+from seewhy.knowledge.scene import FeatureVector
 from seewhy.nearest import did_you_mean
 
 __all__ = ["IMAGE", "OPTIONAL", "SPLITS", "columns_of", "scenes_of_rows"]
@@ -52,37 +53,29 @@ def scenes_of_rows(
         If a column, a value or a picture is none; the text names the row and the remedy.
     """
     _check_columns(columns, domain, place.name if header is None else place.at(header))
-    position = {name: number for number, name in enumerate(columns)}
-    features = [(key, position.get(key), domain.features[key].values) for key in domain.features]
+    # A column that is not there is one behind the last, which is empty in every row.
+    place_of = {name: number for number, name in enumerate(columns)}
+    image_at, class_at, split_at, group_at, reasons_at = (
+        place_of.get(name, -1) for name in (IMAGE, CLASS, *OPTIONAL)
+    )
+    features_at = [place_of.get(key, -1) for key in domain.features]
     find = picture_finder(folder, outside=outside)
-    vectors: dict[tuple[str | None, ...], tuple[str | None, ...]] = {}
+    vectors: dict[FeatureVector, FeatureVector] = {}
 
-    def cell(cells: Sequence[str], name: str) -> str:
-        number = position.get(name)
-        return "" if number is None or number >= len(cells) else cells[number]
-
-    for number, cells in rows:
+    for number, row in rows:
         here = place.at(number)
-        image = cell(cells, IMAGE)
+        cells = (*row, *[""] * (len(columns) + 1 - len(row)))
+        image, label, split = cells[image_at], cells[class_at], cells[split_at]
         if not image:
             raise DatasetError(f"{here}: the cell 'image' is empty; name the picture's file")
-        label = cell(cells, CLASS)
         if label and label not in domain.classes:
             raise DatasetError(
                 f"{here}: '{label}' is no class of the domain '{domain.name}'; "
                 f"{did_you_mean(label, domain.classes)}"
             )
-        vector = tuple(
-            (cells[column] or None) if column is not None and column < len(cells) else None
-            for _, column, _ in features
-        )
+        vector = tuple([cells[column] or None for column in features_at])
         if vector not in vectors:
-            for value, (key, _, values) in zip(vector, features, strict=True):
-                if value is not None and value not in values:
-                    raise DatasetError(
-                        f"{here}: '{value}' is no value of '{key}'; {did_you_mean(value, values)}"
-                    )
-        split = cell(cells, "split")
+            _check_values(vector, domain, here)
         if split and split not in SPLITS:
             raise DatasetError(f"{here}: split must be 'train', 'test' or empty, got '{split}'")
         yield Scene(
@@ -90,8 +83,8 @@ def scenes_of_rows(
             vector=vectors.setdefault(vector, vector),
             label=label or None,
             split=split,
-            group=cell(cells, "group"),
-            reasons=_reasons(cell(cells, "reasons"), vector, label, domain, here),
+            group=cells[group_at],
+            reasons=_reasons(cells[reasons_at], vector, label, domain, here),
             line=number,
         )
 
@@ -119,6 +112,14 @@ def _check_columns(columns: Sequence[str], domain: Domain, here: str) -> None:
         raise DatasetError(
             f"{here}: the column 'image' is missing; it names the picture of every row"
         )
+
+
+def _check_values(vector: FeatureVector, domain: Domain, here: str) -> None:
+    for value, (key, feature) in zip(vector, domain.features.items(), strict=True):
+        if value is not None and value not in feature.values:
+            raise DatasetError(
+                f"{here}: '{value}' is no value of '{key}'; {did_you_mean(value, feature.values)}"
+            )
 
 
 def _reasons(
