@@ -168,6 +168,24 @@ def test_features_follow_from_the_class(tmp_path: Path) -> None:
     assert words["features"]["coat_colour"]["values"] == {"blue": "blue", "dark_red": "Dark Red"}
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "class,tail,wild\ncats,yes,no\nwolves,yes,yes\n",
+        "tail,Class,wild\n1,cats,0\n1,wolves,1\n0,snails,0\n",
+        "animal;tail;wild\ncats;x;\nwolves;x;x\nsnails;;\n",  # crosses; empty is no
+        "type,tail,kind,wild\na,y,cats,n\nb,y,wolves,y\nc,n,snails,n\n",  # classes tell their column
+        "Cats,tail,wild\nCATS,True,False\nwolves,True,True\n",  # the first column
+    ],
+)
+def test_tables_of_features_as_people_write_them(tmp_path: Path, text: str) -> None:
+    source = draw_all(tmp_path / "s", ["cats/1.jpg", "wolves/1.jpg"])
+    _, rows = imported(
+        source, "folder", tmp_path / "data", features=write(tmp_path / "t.csv", text)
+    )
+    assert [(row["tail"], row["wild"]) for row in rows] == [("yes", "no"), ("yes", "yes")]
+
+
 def test_features_of_the_parts_of_names(tmp_path: Path) -> None:
     names = ["1-red-oval/1.jpg", "2-red-ovals/1.jpg", "2-blue-boxes/1.jpg", "1-blue-box/1.jpg"]
     dataset, rows = imported(

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from seewhy.data.importers.column_words import class_column
+from seewhy.data.importers.column_words import CLASS_WORDS, column_like
 from seewhy.data.importers.names import same_words, valid_name
 from seewhy.data.importers.source_files import FolderFiles
-from seewhy.data.importers.tables import open_table
+from seewhy.data.importers.tables import Row, open_table
+from seewhy.data.importers.yes_or_no import yes_or_no
 from seewhy.errors import DatasetError
 from seewhy.nearest import did_you_mean
+
+_SURE_WORDS = 7
+"""So many of the words for a class mean nothing else; later ones may name a feature."""
+
+_CROSSES = frozenset({"x", "yes", "y", "1", "true", "✓", "✔", "*"})
 
 
 @dataclass(frozen=True)
@@ -69,10 +75,12 @@ class ClassFeatures:
         return replace(self, values=found)
 
 
-def read_class_features(path: Path | str) -> ClassFeatures:
+def read_class_features(path: Path | str, classes: Collection[str] = ()) -> ClassFeatures:
     """Read a table with a row a class: a column that names it, and a column a feature.
 
-    The class is in the column called class (label, category, …), or in the first one.
+    The class is in the column in which most of ``classes`` stand; where none does, in the one
+    called class (label, category, …), or in the first. In a column that has nothing but crosses
+    (x, yes, 1) and empty cells, empty means no; in others it means that nobody knows.
 
     Raises
     ------
@@ -83,33 +91,64 @@ def read_class_features(path: Path | str) -> ClassFeatures:
     --------
     >>> import tempfile
     >>> path = Path(tempfile.mkdtemp()) / "fingers.csv"
-    >>> _ = path.write_text("class,thumb,index\\n0,no,no\\n1,no,yes\\n")
+    >>> _ = path.write_text("class,thumb,index\\n0,,no\\n1,x,yes\\n")
     >>> read_class_features(path).of("1")
-    {'thumb': 'no', 'index': 'yes'}
+    {'thumb': 'yes', 'index': 'yes'}
     """
     path = Path(path)
     if not path.is_file():
         raise DatasetError(f"{path}: there is no such file; it says the features of every class")
-    values: dict[str, dict[str, str]] = {}
     with open_table(FolderFiles(path.parent), path.name) as table:
-        label = class_column(table.columns) or table.columns[0]
-        features = tuple(column for column in table.columns if column != label)
-        if not features:
-            raise DatasetError(
-                f"{path}: has the column '{label}' alone; add a column for every feature"
-            )
-        for row in table.rows:
-            name = row.cells[label]
-            if not name:
-                raise DatasetError(f"{row.place}: the cell '{label}' is empty; name the class")
-            if name in values:
-                raise DatasetError(
-                    f"{row.place}: the class '{name}' stands a second time; remove one of the rows"
-                )
-            values[name] = {key: row.cells[key] for key in features if row.cells[key]}
-    if not values:
+        columns, rows = table.columns, list(table.rows)
+    if not rows:
         raise DatasetError(f"{path}: the table has no rows; add one per class")
+    label = _label_column(columns, rows, classes)
+    features = tuple(column for column in columns if column != label)
+    if not features:
+        raise DatasetError(
+            f"{path}: has the column '{label}' alone; add a column for every feature"
+        )
+    crossed = {feature for feature in features if _is_crossed(rows, feature)}
+    # What means yes and no is told by the whole table, whichever classes are shown.
+    means = {feature: yes_or_no(_cells(rows, feature)) or {} for feature in features}
+    values: dict[str, dict[str, str]] = {}
+    for row in rows:
+        name = row.cells[label]
+        if not name:
+            raise DatasetError(f"{row.place}: the cell '{label}' is empty; name the class")
+        if name in values:
+            raise DatasetError(
+                f"{row.place}: the class '{name}' stands a second time; remove one of the rows"
+            )
+        values[name] = {
+            feature: ("yes" if row.cells[feature] else "no")
+            if feature in crossed
+            else means[feature].get(row.cells[feature], row.cells[feature])
+            for feature in features
+            if row.cells[feature] or feature in crossed
+        }
     return ClassFeatures(features, values, str(path))
+
+
+def _label_column(columns: Sequence[str], rows: Sequence[Row], classes: Collection[str]) -> str:
+    wanted = {valid_name(name) for name in classes}
+    named = {
+        column: len(wanted & {valid_name(row.cells[column]) for row in rows}) for column in columns
+    }
+    usual = column_like(columns, CLASS_WORDS[:_SURE_WORDS])
+    most = max(named.values())
+    if most and named.get(usual or "", 0) < most:
+        return next(column for column in columns if named[column] == most)
+    return usual or columns[0]
+
+
+def _cells(rows: Sequence[Row], feature: str) -> set[str]:
+    return {row.cells[feature] for row in rows if row.cells[feature]}
+
+
+def _is_crossed(rows: Sequence[Row], feature: str) -> bool:
+    cells = {row.cells[feature].casefold() for row in rows}
+    return "" in cells and len(cells) == 2 and cells - {""} <= _CROSSES
 
 
 def features_of_parts(pattern: str, classes: Sequence[str]) -> ClassFeatures:

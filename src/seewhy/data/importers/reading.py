@@ -233,10 +233,10 @@ def _with_classes_of_boxes(
 def _class_features(
     request: ImportRequest, pictures: Sequence[AnnotatedPicture]
 ) -> ClassFeatures | None:
+    classes = sorted({picture.class_name for picture in pictures} - {""})
     if request.features is not None:
-        return read_class_features(request.features)
+        return read_class_features(request.features, classes)
     if request.class_parts is not None:
-        classes = sorted({picture.class_name for picture in pictures} - {""})
         return features_of_parts(request.class_parts, classes)
     return None
 

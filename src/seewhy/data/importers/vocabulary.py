@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from seewhy.data.importers.annotation import AnnotatedPicture, Box, Notes
 from seewhy.data.importers.class_features import ClassFeatures
 from seewhy.data.importers.names import distinct_names
+from seewhy.data.importers.yes_or_no import yes_or_no
 from seewhy.domain_tables import RESERVED, TOGETHER
 
 THING_COLUMNS = ("image", "thing", "left", "top", "right", "bottom", "kind")
@@ -16,8 +17,6 @@ MOST_VALUES = 100
 """What has more different values is no feature."""
 
 TOO_MANY_VALUES = f"columns with more than {MOST_VALUES} different values, left out"
-_YES = frozenset({"yes", "true", "y", "t"})
-_NO = frozenset({"no", "false", "n", "f"})
 
 
 @dataclass(frozen=True)
@@ -181,7 +180,7 @@ def _features(
     found: dict[str, FeatureWords] = {}
     for name, spellings in merged.items():
         values = naturally({value for feature in spellings for value in kept[feature]})
-        booleans = _booleans(values)
+        booleans = yes_or_no(values)
         words = FeatureWords(
             name=name,
             words=spellings[0],
@@ -191,20 +190,6 @@ def _features(
         for feature in spellings:
             found[feature] = words
     return {feature: found[feature] for feature in kept}
-
-
-def _booleans(values: Sequence[str]) -> dict[str, str] | None:
-    """Value → yes or no where these are what all values mean."""
-    plain = {value.casefold() for value in values}
-    if plain == {"0", "1"}:
-        return {value: "yes" if value == "1" else "no" for value in values}
-    if plain and plain <= _YES | _NO and any(len(value) > 1 for value in plain):
-        return {value: "yes" if value.casefold() in _YES else "no" for value in values}
-    return (
-        {value: "yes" if value.casefold() in _YES else "no" for value in values}
-        if (plain in ({"y", "n"}, {"t", "f"}))
-        else None
-    )
 
 
 def _note_merged(names: Mapping[str, str], what: str, notes: Notes) -> None:
