@@ -117,7 +117,8 @@ def test_the_accuracy_of_every_class(
     folder.mkdir()
     (folder / "images").symlink_to(data / "images")
     table.rename(folder / "scenes.csv")
-    result = evaluate(agent_without_coins, Dataset.load(folder, kinds), questions_per_scene=1)
+    mixed = Dataset.load(folder, kinds, outside=True)
+    result = evaluate(agent_without_coins, mixed, questions_per_scene=1)
     assert result.class_accuracy == {"brick": 1.0, "leaf": 0.75}
     print_classes(result, most=1)
     assert [line.split() for line in capsys.readouterr().out.splitlines()] == [

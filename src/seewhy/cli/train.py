@@ -86,6 +86,7 @@ def train(
                 "networks": summary,
                 "tree_scenes": tree_scenes(agent),
                 "without": list(agent.without),
+                "without_class": len(agent.without_class),
                 "unknown_below": agent.unknown_below,
             }
         )
