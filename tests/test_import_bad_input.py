@@ -532,6 +532,14 @@ def test_damaged_cvat(tmp_path: Path, images: str, expected: str) -> None:
     assert complaint(tmp_path / "s", "cvat") == expected
 
 
+def test_xml_in_an_encoding_that_does_not_exist(tmp_path: Path) -> None:
+    draw(tmp_path / "s/1.jpg")
+    write(tmp_path / "s/annotations.xml", cvat("").replace("utf-8", "ut-8"))
+    assert complaint(tmp_path / "s", "cvat") == (
+        "s/annotations.xml: is no valid XML (unknown encoding: ut-8); export it again"
+    )
+
+
 # Tables ----------------------------------------------------------------------------------------
 
 
@@ -746,6 +754,8 @@ def test_the_command(tmp_path: Path, run: Run) -> None:
         (["s"], "'s' is a source; say its format before it: folder, coco, voc, yolo, labelstudio, "
          "cvat, table, belgiumts"),
         (["folder"], "there is no SOURCE; name a folder, a zip archive or an exported file"),
+        (["belgiumts", "s", "--group", "x"], "--group x: does not go with belgiumts; leave it out"),
+        (["folder", "s", "--domain", "x"], "--domain x: does not go with folder; leave it out"),
         (["folder", "s", "t"], "there are 2 sources (s, t); give one: a folder may hold several "
          "exports"),
     ],

@@ -364,6 +364,39 @@ def test_label_studio_the_newest_annotation_counts(tmp_path: Path, uploads: Path
         assert [row["class"] for row in rows] == [label]
 
 
+def test_label_studio_other_shapes(tmp_path: Path, uploads: Path) -> None:
+    """Polygons and ellipses become the box around them; labels may be a result of their own."""
+    region = {"original_width": 40, "original_height": 20, "image_rotation": 0, "to_name": "image"}
+    polygon = {"points": [[10, 10], [50, 20], [30, 90]], "polygonlabels": ["A"], "closed": True}
+    ellipse = {
+        "x": 50,
+        "y": 50,
+        "radiusX": 25,
+        "radiusY": 10,
+        "rotation": 0,
+        "ellipselabels": ["B"],
+    }
+    plain = {"x": 0, "y": 0, "width": 25, "height": 50, "rotation": 0}
+    results = [
+        {**region, "id": "p", "from_name": "poly", "type": "polygonlabels", "value": polygon},
+        {**region, "id": "e", "from_name": "oval", "type": "ellipselabels", "value": ellipse},
+        {**region, "id": "r", "from_name": "rect", "type": "rectangle", "value": plain},
+        {**region, "id": "r", "from_name": "what", "type": "labels",
+         "value": {**plain, "labels": ["C"]}},
+        {**region, "id": "r", "from_name": "stars", "type": "rating",
+         "value": {**plain, "rating": 4}},
+        {"from_id": "p", "to_id": "e", "type": "relation", "direction": "right"},
+    ]  # fmt: skip
+    file = write_json(tmp_path / "e.json", [task(1, "d.jpg", results)])
+    imported(file, "labelstudio", tmp_path / "data", pictures=uploads)
+    assert things(tmp_path / "data") == [
+        "image,thing,left,top,right,bottom,kind,stars",
+        "images/d.jpg,1,4,2,20,18,a,",
+        "images/d.jpg,2,10,8,30,12,b,",
+        "images/d.jpg,3,0,0,10,10,c,4",
+    ]
+
+
 def test_label_studio_which_control_is_the_class(tmp_path: Path, uploads: Path) -> None:
     file = write_json(
         tmp_path / "e.json", [task(1, "d.jpg", [choice("hue", "red"), choice("form", "round")])]
@@ -413,6 +446,30 @@ def test_cvat(tmp_path: Path) -> None:
     ]
     assert notes_of(dataset)["shapes without a box that can be read (skeleton), left out"] == (
         "1 in images/Train/2.jpg",
+    )
+
+
+def test_cvat_other_shapes(tmp_path: Path) -> None:
+    draw(tmp_path / "s/1.jpg")
+    write(
+        tmp_path / "s/annotations.xml",
+        cvat(
+            '<image id="0" name="1.jpg" width="40" height="20">'
+            '<ellipse label="a" cx="10" cy="10" rx="4" ry="2"/>'
+            '<mask label="b" rle="0, 6" left="3" top="4" width="5" height="6"/>'
+            '<box label="c" xtl="10" ytl="8" xbr="14" ybr="10" rotation="90"/>'
+            '<polyline label="d" points="1,2;3,4"/><points label="e" points="5,5"/></image>'
+        ),
+    )
+    dataset, _ = imported(tmp_path / "s", "cvat", tmp_path / "data")
+    assert things(tmp_path / "data")[1:] == [
+        "images/1.jpg,1,6,8,14,12,a",
+        "images/1.jpg,2,3,4,8,10,b",
+        "images/1.jpg,3,11,7,13,11,c",
+        "images/1.jpg,4,1,2,3,4,d",
+    ]
+    assert notes_of(dataset)["boxes that are turned, kept as the upright box around them"] == (
+        "1.jpg",
     )
 
 

@@ -174,7 +174,8 @@ def test_features_follow_from_the_class(tmp_path: Path) -> None:
         "class,tail,wild\ncats,yes,no\nwolves,yes,yes\n",
         "tail,Class,wild\n1,cats,0\n1,wolves,1\n0,snails,0\n",
         "animal;tail;wild\ncats;x;\nwolves;x;x\nsnails;;\n",  # crosses; empty is no
-        "type,tail,kind,wild\na,y,cats,n\nb,y,wolves,y\nc,n,snails,n\n",  # classes tell their column
+        # the classes tell their column
+        "type,tail,kind,wild\na,y,cats,n\nb,y,wolves,y\nc,n,snails,n\n",
         "Cats,tail,wild\nCATS,True,False\nwolves,True,True\n",  # the first column
     ],
 )
@@ -337,6 +338,27 @@ def test_a_dataset_inside_of_its_source(tmp_path: Path) -> None:
         import_pictures(request, source / "data", on_progress=interrupt)
     assert import_pictures(request, source / "data").classes == {"a": 3, "b": 3}
     assert import_pictures(request, source / "again").classes == {"a": 3, "b": 3}
+
+
+def test_file_names_that_are_no_text(tmp_path: Path) -> None:
+    """Names in another encoding than the system's."""
+    source = draw_all(tmp_path / "s", ["cats/1_1.png"])
+    folder = os.fsdecode(os.fsencode(source) + b"/caf\xe9")
+    Path(folder).mkdir()
+    for name in (b"\xff_1.png", b"\xfe_2.png", b"note\xe9.txt"):
+        draw(tmp_path / "one.png").rename(Path(folder) / os.fsdecode(name))
+    imported(source, "folder", tmp_path / "ungrouped", test_share=0.5)
+    dataset, rows = imported(source, "folder", tmp_path / "data", group="^(.)_")
+    assert [(row["image"], row["class"], row["group"]) for row in rows] == [
+        ("images/caf_/__2.png", "caf", "?"),
+        ("images/caf_/__1.png", "caf", "?"),
+        ("images/cats/1_1.png", "cats", "1"),
+    ]
+    assert json.loads((tmp_path / "data/imported.json").read_text())["words"]["classes"] == {
+        "caf": "caf?",
+        "cats": "cats",
+    }
+    assert notes_of(dataset)["files that are no pictures, left out"] == ("caf?/note?.txt",)
 
 
 # Archives --------------------------------------------------------------------------------------

@@ -24,7 +24,7 @@ from seewhy.cli.options import Json
 from seewhy.cli.screen import add_row, output, percent, print_json, progress, remark, say, table
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from seewhy.belgiumts.conversion import ImportedDataset as ImportedPhotographs
     from seewhy.belgiumts.conversion import ImportedHalf
@@ -41,11 +41,13 @@ Name = Annotated[
 ]
 Out = Annotated[Path, typer.Option("--out", metavar="DIR", help="The folder to write.")]
 SignDomain = Annotated[
-    str,
+    str | None,
     typer.Option(
-        "--domain", help="belgiumts: the domain whose classes.csv says what each class shows."
+        "--domain",
+        help="belgiumts: the domain whose classes.csv says what each class shows (traffic_signs).",
     ),
 ]
+_SIGNS = "traffic_signs"
 
 
 def import_(
@@ -80,7 +82,7 @@ def import_(
     inside: Inside = None,
     test_share: TestShare = 0.0,
     copy: Copy = False,
-    domain: SignDomain = "traffic_signs",
+    domain: SignDomain = None,
     json: Json = False,
 ) -> None:
     """Make a dataset of pictures that are labelled already: class folders, exports, tables.
@@ -91,8 +93,15 @@ def import_(
     sources = [*(source or ()), *(more or ())]
     if format in PHOTOGRAPHS:
         _check_sources(sources, most=None)
-        _report_photographs(_import_photographs(sources, out, domain), json=json)
+        given = {
+            "--pictures": pictures, "--features": features, "--class-parts": class_parts,
+            "--group": group, "--image-column": image_column, "--class-column": class_column,
+            "--inside": inside, "--test-share": test_share or None, "--copy": copy or None,
+        }  # fmt: skip
+        _refuse({option: value for option, value in given.items() if value is not None}, format)
+        _report_photographs(_import_photographs(sources, out, domain or _SIGNS), json=json)
         return
+    _refuse({"--domain": domain} if domain is not None else {}, format)
     _check_sources(sources, most=1)
     request = request_of(
         sources[0],
@@ -173,7 +182,7 @@ def _counted(counts: dict[str, int], total: int) -> str:
 def fetch(
     name: Name,
     out: Out,
-    domain: SignDomain = "traffic_signs",
+    domain: SignDomain = None,
     address: Annotated[str | None, typer.Option("--address", hidden=True)] = None,
     json: Json = False,
 ) -> None:
@@ -186,7 +195,7 @@ def fetch(
     from seewhy.belgiumts.download import ADDRESS, check_counts, fetch_archives
     from seewhy.domain import load_domain
 
-    classes = read_classes(load_domain(domain))
+    classes = read_classes(load_domain(domain or _SIGNS))
     with progress() as bars:
         tasks = {}
 
@@ -198,7 +207,7 @@ def fetch(
 
         archives = fetch_archives(out / "archives", address=address or ADDRESS, on_progress=show)
     check_counts(archives, class_ids=set(classes))
-    _report_photographs(_import_photographs(archives, out, domain), json=json)
+    _report_photographs(_import_photographs(archives, out, domain or _SIGNS), json=json)
 
 
 def _check_format(name: str) -> None:
@@ -211,6 +220,15 @@ def _check_format(name: str) -> None:
         if path.exists():
             raise SeeWhyError(f"'{name}' is a source; say its format before it: {', '.join(known)}")
         raise SeeWhyError(f"'{name}' is no format that is imported; {did_you_mean(name, known)}")
+
+
+def _refuse(given: Mapping[str, object], format: str) -> None:
+    """Refuse options that go with other formats."""
+    from seewhy.errors import SeeWhyError
+
+    for option, value in given.items():
+        shown = option if value is True else f"{option} {value}"
+        raise SeeWhyError(f"{shown}: does not go with {format}; leave it out")
 
 
 def _check_sources(sources: Sequence[Path], *, most: int | None) -> None:

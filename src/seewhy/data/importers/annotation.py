@@ -81,6 +81,17 @@ class Note:
         return f"{self.text} ({len(self.places):,}): {shown}"
 
 
+def readable(text: str) -> str:
+    """Return text that can be written: what a file name has of no known letters becomes "?".
+
+    Examples
+    --------
+    >>> readable(b"caf\\xe9".decode(errors="surrogateescape"))
+    'caf?'
+    """
+    return text.encode("utf-8", errors="replace").decode()
+
+
 class Notes:
     """Collects notes while a source is read.
 
@@ -100,7 +111,7 @@ class Notes:
         """Note something; equal texts become one note with all their places."""
         places = self._places.setdefault(text, [])
         if place is not None:
-            places.append(place)
+            places.append(readable(place))
 
     def count(self, text: str) -> int:
         """How many places a note has so far."""

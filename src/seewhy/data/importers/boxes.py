@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from math import cos, radians, sin
 from typing import Literal
 
 from seewhy.data.importers.annotation import AnnotatedPicture, Box, Notes
@@ -14,6 +15,8 @@ ClassRule = Literal["only", "largest", "none"]
 """Which class boxes give their picture; see :func:`class_of_boxes`."""
 
 CLASS_RULES: tuple[ClassRule, ...] = ("only", "largest", "none")
+
+TURNED = "boxes that are turned, kept as the upright box around them"
 
 _SAME_SHAPE = 0.02
 _ROUNDING = 1.0
@@ -65,6 +68,36 @@ def boxes_in_pixels(
         if cut is not None:
             boxes.append(cut)
     return tuple(boxes)
+
+
+def around_turned(
+    corners: tuple[float, float, float, float],
+    degrees: float,
+    *,
+    pivot: tuple[float, float] | None = None,
+) -> tuple[float, float, float, float]:
+    """Return the upright box around one that is turned clockwise, around its centre or a point.
+
+    Examples
+    --------
+    >>> [round(edge, 6) for edge in around_turned((0, 0, 4, 2), 90)]
+    [1.0, -1.0, 3.0, 3.0]
+    """
+    left, top, right, bottom = corners
+    if degrees % 360 == 0:
+        return corners
+    middle = pivot or ((left + right) / 2, (top + bottom) / 2)
+    angle = radians(degrees)
+    turned = [
+        (
+            middle[0] + (x - middle[0]) * cos(angle) - (y - middle[1]) * sin(angle),
+            middle[1] + (x - middle[0]) * sin(angle) + (y - middle[1]) * cos(angle),
+        )
+        for x, y in ((left, top), (right, top), (left, bottom), (right, bottom))
+    ]
+    across = [point[0] for point in turned]
+    down = [point[1] for point in turned]
+    return (min(across), min(down), max(across), max(down))
 
 
 def _measured(

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from seewhy.data.importers.annotation import AnnotatedPicture
+from seewhy.data.importers.annotation import AnnotatedPicture, readable
 from seewhy.data.importers.picture_files import is_picture_name, split_of
 from seewhy.data.importers.source import Source
 from seewhy.errors import DatasetError
@@ -79,7 +79,7 @@ def _of_classes(source: Source, level: _Level, split: str) -> Iterator[Annotated
         if folder and "" not in (below := level.inside(folder)).folders and len(below.named) > 1:
             source.notes.add(DEEPER, f"{level.prefix}{folder}")
         for name in pictures:
-            yield AnnotatedPicture(file=name, class_name=folder, split=split)
+            yield AnnotatedPicture(file=name, class_name=readable(folder), split=split)
 
 
 def _chosen(source: Source, pictures: Sequence[str]) -> _Level:

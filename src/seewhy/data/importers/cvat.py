@@ -6,10 +6,10 @@ import posixpath
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
-from math import cos, radians, sin
 from xml.etree.ElementTree import Element
 
 from seewhy.data.importers.annotation import AnnotatedPicture, Box
+from seewhy.data.importers.boxes import TURNED, around_turned
 from seewhy.data.importers.picture_files import split_of
 from seewhy.data.importers.source import Source, split_in_folders
 from seewhy.data.importers.source_files import DamagedFileError
@@ -18,7 +18,6 @@ from seewhy.data.importers.xml_reading import as_number, elements, root_tag
 from seewhy.errors import DatasetError
 
 ROOT = "annotations"
-TURNED = "boxes that are turned, kept as the upright box around them"
 _MANY = 1_000
 _OUTLINES = ("polygon", "polyline", "points", "cuboid")
 
@@ -165,33 +164,3 @@ def _corners(shape: Element) -> tuple[float, float, float, float] | None:
         if len(across) > 1 and len(across) == len(down):
             return (min(across), min(down), max(across), max(down))
     return None
-
-
-def around_turned(
-    corners: tuple[float, float, float, float],
-    degrees: float,
-    *,
-    pivot: tuple[float, float] | None = None,
-) -> tuple[float, float, float, float]:
-    """Return the upright box around one that is turned clockwise, around its centre or a point.
-
-    Examples
-    --------
-    >>> [round(edge, 6) for edge in around_turned((0, 0, 4, 2), 90)]
-    [1.0, -1.0, 3.0, 3.0]
-    """
-    left, top, right, bottom = corners
-    if degrees % 360 == 0:
-        return corners
-    middle = pivot or ((left + right) / 2, (top + bottom) / 2)
-    angle = radians(degrees)
-    turned = [
-        (
-            middle[0] + (x - middle[0]) * cos(angle) - (y - middle[1]) * sin(angle),
-            middle[1] + (x - middle[0]) * sin(angle) + (y - middle[1]) * cos(angle),
-        )
-        for x, y in ((left, top), (right, top), (left, bottom), (right, bottom))
-    ]
-    across = [point[0] for point in turned]
-    down = [point[1] for point in turned]
-    return (min(across), min(down), max(across), max(down))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from posixpath import basename
 
-from seewhy.data.importers.annotation import AnnotatedPicture, Notes
+from seewhy.data.importers.annotation import AnnotatedPicture, Notes, readable
 from seewhy.errors import DatasetError
 
 _LONGEST_PATTERN = 200
@@ -67,7 +67,7 @@ def grouped(
         group = "" if found is None else (found.group(1) if found.groups() else found.group()) or ""
         if not group:
             notes.add(ungrouped, picture.file)
-        found_groups.append(replace(picture, group=group or picture.group))
+        found_groups.append(replace(picture, group=readable(group) or picture.group))
     if pictures and not any(picture.group for picture in found_groups):
         raise DatasetError(
             f"--group '{pattern.pattern}': is found in no file name, the first is "

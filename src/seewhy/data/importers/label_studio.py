@@ -10,9 +10,10 @@ from urllib.parse import urlsplit
 from pydantic import BaseModel, ConfigDict, Field
 
 from seewhy.data.importers.annotation import AnnotatedPicture, Box
+from seewhy.data.importers.boxes import TURNED
 from seewhy.data.importers.column_words import class_column
-from seewhy.data.importers.cvat import TURNED, around_turned
 from seewhy.data.importers.json_reading import checked, json_items, json_outline
+from seewhy.data.importers.label_studio_result import Result, corners_of, labels_of, said_of
 from seewhy.data.importers.picture_files import is_picture_name
 from seewhy.data.importers.source import Source, split_in_folders
 from seewhy.data.importers.source_files import SourceFiles
@@ -31,22 +32,10 @@ _NO_REGION = frozenset({"choices", "taxonomy", "rating", "number", "text", "pair
 _UNLABELLED = "thing"
 
 
-class _Result(BaseModel):
-    model_config = ConfigDict(extra="ignore")
-
-    id: str | int | None = None
-    from_name: str = Field(default="", max_length=500)
-    type: str = Field(default="", max_length=200)
-    value: dict[str, Any] = Field(default_factory=dict)
-    original_width: float | None = Field(default=None, gt=0, le=1e6)
-    original_height: float | None = Field(default=None, gt=0, le=1e6)
-    image_rotation: float = 0.0
-
-
 class _Completed(BaseModel):
     model_config = ConfigDict(extra="ignore")
 
-    result: list[_Result] = Field(default_factory=list, max_length=100_000)
+    result: list[Result] = Field(default_factory=list, max_length=100_000)
     was_cancelled: bool = False
     skipped: bool = False
     ground_truth: bool = False
@@ -185,7 +174,7 @@ def _of_task(source: Source, task: _Task, file: str) -> _Answers:
         source.notes.add("pictures that were annotated several times, the newest counts", file)
     chosen = max(completed, key=lambda one: one.rank)
     answers.answered = True
-    regions: dict[str, list[_Result]] = {}
+    regions: dict[str, list[Result]] = {}
     for number, result in enumerate(chosen.result):
         regions.setdefault(str(result.id if result.id is not None else -number - 1), []).append(
             result
@@ -210,18 +199,18 @@ def _of_record(
                 sides = {
                     side: one[side] for side in ("original_width", "original_height") if side in one
                 }
-                _add_region(source, answers, [checked(_Result, {**region, **sides}, place)])
+                _add_region(source, answers, [checked(Result, {**region, **sides}, place)])
             elif not isinstance(one, list):
                 answers.add(control, [known(one)])
     return answers
 
 
-def _add_region(source: Source, answers: _Answers, results: list[_Result]) -> None:
+def _add_region(source: Source, answers: _Answers, results: list[Result]) -> None:
     """Add what was said about one region, or about the picture as a whole."""
-    shaped = next((result for result in results if _corners(result) is not None), None)
+    shaped = next((result for result in results if corners_of(result) is not None), None)
     if shaped is None:
         for result in results:
-            said = _said(result)
+            said = said_of(result)
             if said:
                 answers.add(result.from_name, said)
             elif not _NO_REGION.intersection(result.value) and result.value:
@@ -230,7 +219,7 @@ def _add_region(source: Source, answers: _Answers, results: list[_Result]) -> No
                     f"{answers.file} {result.from_name}",
                 )
         return
-    corners = _corners(shaped)
+    corners = corners_of(shaped)
     if corners is None or shaped.image_rotation % 360:
         source.notes.add(
             "boxes on pictures that were turned while they were labelled, left out", answers.file
@@ -238,85 +227,11 @@ def _add_region(source: Source, answers: _Answers, results: list[_Result]) -> No
         return
     if shaped.value.get("rotation"):
         source.notes.add(TURNED, answers.file)
-    kind = next((label for result in results for label in _labels(result)), _UNLABELLED)
+    kind = next((label for result in results for label in labels_of(result)), _UNLABELLED)
     attributes = {
-        result.from_name: ", ".join(said) for result in results if (said := _said(result))
+        result.from_name: ", ".join(said) for result in results if (said := said_of(result))
     }
     answers.boxes.append(Box(*corners, kind, attributes))
-
-
-def _labels(result: _Result) -> list[str]:
-    """The labels of a region: rectanglelabels, polygonlabels, labels, …"""
-    return [
-        label.strip()
-        for key, value in result.value.items()
-        if key.endswith("labels") and isinstance(value, list)
-        for label in value
-        if isinstance(label, str) and label.strip()
-    ]
-
-
-def _said(result: _Result) -> list[str]:
-    """What a control says in words: choices, the ends of a taxonomy, a rating, a number."""
-    value = result.value
-    choices = value.get("choices")
-    if isinstance(choices, str):
-        choices = [choices]
-    if isinstance(choices, list):
-        return [known(choice) for choice in choices if isinstance(choice, str)]
-    paths = value.get("taxonomy")
-    if isinstance(paths, list):
-        return [known(path[-1]) for path in paths if isinstance(path, list) and path]
-    return [
-        known(value[key]) for key in ("rating", "number") if isinstance(value.get(key), int | float)
-    ]
-
-
-def _corners(result: _Result) -> tuple[float, float, float, float] | None:
-    """Left, top, right and bottom in shares of the picture."""
-    value = result.value
-    width, height = result.original_width or 1.0, result.original_height or 1.0
-    points = value.get("points")
-    if isinstance(points, list) and len(points) > 2:
-        pairs = [_numbers(point) for point in points if isinstance(point, list) and len(point) == 2]
-        if len(pairs) == len(points) and all(pairs):
-            across, down = [pair[0] for pair in pairs], [pair[1] for pair in pairs]
-            return (min(across) / 100, min(down) / 100, max(across) / 100, max(down) / 100)
-        return None
-    corner = _numbers([value.get("x"), value.get("y")])
-    size = _numbers([value.get("width"), value.get("height")])
-    radii = _numbers([value.get("radiusX"), value.get("radiusY")])
-    turned = _numbers([value.get("rotation", 0)])
-    if not corner or not (size or radii):
-        return None
-    if radii:
-        box = (
-            corner[0] - radii[0],
-            corner[1] - radii[1],
-            corner[0] + radii[0],
-            corner[1] + radii[1],
-        )
-    else:
-        box = (corner[0], corner[1], corner[0] + size[0], corner[1] + size[1])
-    # It is turned around its corner (an ellipse around its centre) on the picture in pixels.
-    left, top, right, bottom = around_turned(
-        (box[0] * width, box[1] * height, box[2] * width, box[3] * height),
-        turned[0] if turned else 0.0,
-        pivot=(corner[0] * width, corner[1] * height),
-    )
-    return (
-        left / width / 100, top / height / 100, right / width / 100, bottom / height / 100
-    )  # fmt: skip
-
-
-def _numbers(values: list[Any]) -> list[float]:
-    """The numbers of a list; none where one of them is no number of reasonable size."""
-    found = [
-        float(value)
-        for value in values
-        if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= 1e7
-    ]
-    return found if len(found) == len(values) else []
 
 
 def _pictures(source: Source, answers: list[_Answers]) -> Iterator[AnnotatedPicture]:

@@ -105,7 +105,7 @@ def read_source(
         )
         check_mixture(source, kind)
         found = list(reader_of(kind)(source))
-        _check_missing(request, notes, len(found))
+        _check_missing(source, len(found))
         pictures = _once_each(found, notes)
         pictures = _with_classes_of_boxes(pictures, request.class_rule, notes)
         pictures = grouped(pictures, pattern, notes)
@@ -173,15 +173,14 @@ def _check_options(request: ImportRequest, kind: Format) -> None:
         )
 
 
-def _check_missing(request: ImportRequest, notes: Notes, found: int) -> None:
-    missing = notes.count(MISSING)
+def _check_missing(source: Source, found: int) -> None:
+    missing = source.notes.count(MISSING)
     if missing <= found:
         return
-    first = next(note for note in notes.all() if note.text == MISSING).places[0]
-    where = request.pictures or request.source
+    first = next(note for note in source.notes.all() if note.text == MISSING).places[0]
     raise DatasetError(
-        f"{request.source}: {missing:,} of its {missing + found:,} pictures are not in {where}, "
-        f"the first of them {first}; say where they lie with --pictures DIR"
+        f"{source.said}: {missing:,} of its {missing + found:,} pictures are not in "
+        f"{source.pictures.path}, the first of them {first}; say where they lie with --pictures DIR"
     )
 
 

@@ -220,7 +220,7 @@ class ZipFiles:
     def open(self, name: str) -> Iterator[IO[bytes]]:
         try:
             stream = self._zip.open(self._members[name])
-        except zipfile.BadZipFile as problem:
+        except (zipfile.BadZipFile, OSError, ValueError) as problem:
             raise self._damaged(name, problem) from None
         except (RuntimeError, NotImplementedError):
             raise DamagedFileError(

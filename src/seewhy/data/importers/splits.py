@@ -56,7 +56,9 @@ def _divided(pictures: Sequence[AnnotatedPicture], test_share: float) -> list[An
         for label, count in Counter(picture.class_name for picture in pictures).items()
     }
     chosen: set[int] = set()
-    for group in sorted(members, key=lambda name: sha256(name.encode()).digest()):
+    for group in sorted(
+        members, key=lambda name: sha256(name.encode(errors="surrogateescape")).digest()
+    ):
         labels = Counter(pictures[number].class_name for number in members[group])
         # Taken where it fills more of what is wanted than it takes beyond that.
         if sum(min(count, wanted[label]) for label, count in labels.items()) * 2 > sum(
@@ -69,3 +71,7 @@ def _divided(pictures: Sequence[AnnotatedPicture], test_share: float) -> list[An
         replace(picture, split="test" if number in chosen else "train")
         for number, picture in enumerate(pictures)
     ]
+
+
+def _digest(name: str) -> bytes:
+    return sha256(name.encode(errors="surrogateescape")).digest()

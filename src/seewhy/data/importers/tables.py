@@ -107,7 +107,7 @@ def _checked(rows: Iterator[tuple[int, Sequence[object]]], said: str) -> Table:
     if first is None:
         raise DatasetError(f"{said}: the table is empty; its first line names the columns")
     line, heading = first
-    columns = ["" if cell is None else str(cell).strip() for cell in heading]
+    columns = ["" if cell is None else " ".join(str(cell).split()) for cell in heading]
     while columns and not columns[-1]:
         columns.pop()
     if not columns or len(columns) > _MOST_COLUMNS:
@@ -212,7 +212,7 @@ def _record(record: object, place: str) -> dict[str, Any]:
         raise DamagedFileError(
             f'{place}: must be an object such as {{"image": "a.jpg"}}, got {type(record).__name__}'
         )
-    return {str(key).strip(): value for key, value in record.items()}
+    return {" ".join(str(key).split()): value for key, value in record.items()}
 
 
 def _record_table(records: Iterator[tuple[str, dict[str, Any]]], said: str) -> Table:

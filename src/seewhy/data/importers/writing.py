@@ -294,12 +294,13 @@ def check_out_folder(folder: Path, request: ImportRequest) -> None:
 
 def _check_space(read: ReadSource, folder: Path) -> None:
     """Refuse what does not fit on the disk, before the first picture is written."""
-    if read.files.on_disk(read.pictures[0].file) is not None and not read.request.copy:
-        return  # links take no room; where they cannot be, copying says itself what is wrong
-    needed = sum(read.files.bytes_of(picture.file) for picture in read.pictures)
     there = folder
     while not there.exists():
         there = there.parent
+    first = read.files.on_disk(read.pictures[0].file)
+    if first is not None and not read.request.copy and first.stat().st_dev == there.stat().st_dev:
+        return  # links take no room
+    needed = sum(read.files.bytes_of(picture.file) for picture in read.pictures)
     free = shutil.disk_usage(there).free
     if needed + _SPARE_BYTES > free:
         raise DatasetError(

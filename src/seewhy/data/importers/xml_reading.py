@@ -45,9 +45,7 @@ def read_document(files: SourceFiles, name: str) -> Element:
     except DefusedXmlException:
         raise _unsafe(files.said(name)) from None
     except (ValueError, LookupError) as problem:
-        raise DamagedFileError(
-            f"{files.said(name)}: is no valid XML ({problem}); export it again"
-        ) from None
+        raise _invalid(files.said(name), problem) from None
     return root
 
 
@@ -83,6 +81,8 @@ def elements(files: SourceFiles, name: str) -> Iterator[Element]:
             raise _damaged(files.said(name), problem) from None
         except DefusedXmlException:
             raise _unsafe(files.said(name)) from None
+        except LookupError as problem:  # an encoding that does not exist
+            raise _invalid(files.said(name), problem) from None
 
 
 def text_of(element: Element, path: str) -> str:
@@ -130,6 +130,10 @@ def _damaged(said: str, problem: SyntaxError) -> DamagedFileError:
     return DamagedFileError(
         f"{said}:{line}:{column + 1}: is no valid XML ({what}); export it again"
     )
+
+
+def _invalid(said: str, problem: Exception) -> DamagedFileError:
+    return DamagedFileError(f"{said}: is no valid XML ({problem}); export it again")
 
 
 def _unsafe(said: str) -> DamagedFileError:
