@@ -738,6 +738,7 @@ def test_the_command(tmp_path: Path, run: Run) -> None:
         f"dataset: {tmp_path}/data (3 pictures of 2 classes, linked with their source)\n"
         "  classes: cats 2, dogs 1\n"
         "  splits: none; --test-share 0.25 would keep a quarter for evaluation\n"
+        f"  seewhy new NAME --from {tmp_path}/data writes a domain to go with it\n"
     )
     again = run("data", "import", "folder", "--from", source, "--out", tmp_path / "j", "--json")
     report = json.loads(again.out)

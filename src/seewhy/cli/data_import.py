@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -123,6 +124,7 @@ def import_(
         print_json(dataset.as_json())
     else:
         say_dataset(dataset)
+        say(f"  seewhy new NAME --from {shlex.quote(str(out))} writes a domain to go with it")
 
 
 def run_import(request: ImportRequest, out: Path) -> ImportedDataset:
