@@ -115,7 +115,7 @@ def _write_template(folder: Path, *, json: bool) -> None:
 
     write_new_domain(folder)
     if json:
-        print_json({"folder": str(folder), "files": sorted(p.name for p in folder.iterdir())})
+        print_json({"folder": str(folder), "files": sorted(path.name for path in folder.iterdir())})
         return
     say(f"{folder} holds a working domain; its README.md says how to make it yours.")
     say(f"  seewhy check {folder}")

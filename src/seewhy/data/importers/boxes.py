@@ -90,14 +90,14 @@ def around_turned(
     angle = radians(degrees)
     turned = [
         (
-            middle[0] + (x - middle[0]) * cos(angle) - (y - middle[1]) * sin(angle),
-            middle[1] + (x - middle[0]) * sin(angle) + (y - middle[1]) * cos(angle),
+            middle[0] + (across - middle[0]) * cos(angle) - (down - middle[1]) * sin(angle),
+            middle[1] + (across - middle[0]) * sin(angle) + (down - middle[1]) * cos(angle),
         )
-        for x, y in ((left, top), (right, top), (left, bottom), (right, bottom))
+        for across, down in ((left, top), (right, top), (left, bottom), (right, bottom))
     ]
-    across = [point[0] for point in turned]
-    down = [point[1] for point in turned]
-    return (min(across), min(down), max(across), max(down))
+    columns = [point[0] for point in turned]
+    rows = [point[1] for point in turned]
+    return (min(columns), min(rows), max(columns), max(rows))
 
 
 def _measured(

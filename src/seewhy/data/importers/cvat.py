@@ -151,14 +151,16 @@ def _corners(shape: Element) -> tuple[float, float, float, float] | None:
         numbers = [as_number(shape.get(name, "")) for name in names]
         if None in numbers:
             return None
-        a, b, c, d = (number or 0.0 for number in numbers)
+        first, second, third, fourth = (number or 0.0 for number in numbers)
         if shape.tag == "mask":
-            return (a, b, a + c, b + d)
-        corners = (a - c, b - d, a + c, b + d) if shape.tag == "ellipse" else (a, b, c, d)
+            return (first, second, first + third, second + fourth)
+        corners = (first, second, third, fourth)
+        if shape.tag == "ellipse":  # its centre and its radii
+            corners = (first - third, second - fourth, first + third, second + fourth)
         return around_turned(corners, as_number(shape.get("rotation", "0")) or 0.0)
     if shape.tag in _OUTLINES:
         points = [point.split(",") for point in shape.get("points", "").split(";") if point]
-        pairs = [(as_number(p[0]), as_number(p[1])) for p in points if len(p) == 2]
+        pairs = [(as_number(point[0]), as_number(point[1])) for point in points if len(point) == 2]
         across = [first for first, _ in pairs if first is not None]
         down = [second for _, second in pairs if second is not None]
         if len(across) > 1 and len(across) == len(down):

@@ -99,7 +99,7 @@ a valid integer, unable to parse string as an integer, got 'wide'; correct it or
 
 def _first(problem: ValidationError) -> str:
     error = problem.errors(include_url=False)[0]
-    where = "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in error["loc"])
+    where = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in error["loc"])
     if error["type"] == "missing":
         return f"{where} is missing"
     message = error["msg"].removeprefix("Value error, ")

@@ -191,7 +191,8 @@ class _Writer:
                     on_progress(number, len(pictures))
         left_out = self._read.notes.count(UNUSABLE)
         if left_out > len(pictures) / 2:
-            first = next(n for n in self._read.notes.all() if n.text == UNUSABLE).places[0]
+            notes = self._read.notes.all()
+            first = next(note for note in notes if note.text == UNUSABLE).places[0]
             raise DatasetError(
                 f"{self._read.request.source}: {left_out:,} of {len(pictures):,} pictures cannot "
                 f"be used, the first of them {first}; copy them again from where they come from"
@@ -256,7 +257,7 @@ class _Writer:
             linked=self._placing.links,
             classes={name: self._classes[name] for name in (*names, "") if self._classes[name]},
             features={
-                name: _in_order(self._read, name, own) for name, own in self._features.items()
+                name: _in_order(self._read, name, counts) for name, counts in self._features.items()
             },
             splits={key: self._splits[key] for key in ("train", "test") if self._splits[key]},
             groups=len(self._groups - {""}),
@@ -266,7 +267,8 @@ class _Writer:
 
 
 def _in_order(read: ReadSource, feature: str, counts: Mapping[str, int]) -> dict[str, int]:
-    words = next(w for w in read.vocabulary.features.values() if w.name == feature)
+    features = read.vocabulary.features.values()
+    words = next(words for words in features if words.name == feature)
     return {value: counts[value] for value in words.value_words if counts[value]}
 
 
