@@ -523,10 +523,15 @@ class Agent:
 
     # Seeing ---------------------------------------------------------------------------------
 
-    def read(self, pictures: np.ndarray[Any, Any]) -> list[Reading]:
-        """Return what the features of pictures of the domain's size are taken to be.
+    @property
+    def picture_size(self) -> int:
+        """The side, in pixels, of the pictures that the trained agent looks at."""
+        return self.domain.pictures.size if self.extractor is None else self.extractor.size
 
-        ``pictures`` is uint8 of shape (scenes, size, size, 3).
+    def read(self, pictures: np.ndarray[Any, Any]) -> list[Reading]:
+        """Return what the features of pictures are taken to be.
+
+        ``pictures`` is uint8 of shape (scenes, size, size, 3), of :attr:`picture_size`.
         """
         if self.extractor is None:
             raise NotFittedError("the agent is not trained yet; call fit, or load a model")
@@ -619,12 +624,11 @@ class Agent:
         """Classify one picture (a path, a Pillow image or an array)."""
         from seewhy.perception.picture import as_picture
 
-        shown = self.domain.pictures
-        pixels = as_picture(image, size=shown.size, fit=shown.fit)
+        pixels = as_picture(image, size=self.picture_size, fit=self.domain.pictures.fit)
         return self.classify_all(pixels[None])[0]
 
     def classify_all(self, pictures: np.ndarray[Any, Any]) -> list[Classification]:
-        """Classify pictures, uint8 of shape (scenes, size, size, 3)."""
+        """Classify pictures, uint8 of shape (scenes, size, size, 3), of :attr:`picture_size`."""
         readings, scores = self._read_and_score(pictures)
         decided = self._decide_all([own.vector for own in readings])
         uncertain = [own.vector for own in readings if self._below_gate(own)]

@@ -140,7 +140,7 @@ def evaluate(
             f"{everything.table.name}: no picture to evaluate on has a class; fill the column "
             "'class'"
         )
-    pictures = everything.pictures(agent.domain.pictures.size, on_progress=on_progress)
+    pictures = everything.pictures(agent.picture_size, on_progress=on_progress)
     seen = [replace(own, otherwise=()) for own in agent.classify_all(pictures)]
     features = {}
     for position, key in enumerate(agent.domain.features):

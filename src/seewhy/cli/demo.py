@@ -102,7 +102,7 @@ def demo(
 def choose_scenes(agent: Agent, dataset: Dataset, *, most: int = 6) -> list[Scene]:
     """Choose test scenes that differ: every way of deciding and every class, knowledge first."""
     scenes = dataset.of_split("test")
-    pictures = scenes.pictures(agent.domain.pictures.size)
+    pictures = scenes.pictures(agent.picture_size)
     kinds: dict[tuple[str, str | None, str], list[Scene]] = {}
     for scene, own in zip(scenes.scenes, agent.classify_all(pictures), strict=True):
         kinds.setdefault((own.method, own.label, own.verdict), []).append(scene)

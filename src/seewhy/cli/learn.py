@@ -231,7 +231,7 @@ def _accuracy(agent: Agent, dataset: Dataset) -> dict[str, float]:
     by_knowledge = [
         own.label == label for own, label in zip(decisions, scenes.classes, strict=True)
     ]
-    found = agent.classify_all(scenes.pictures(agent.domain.pictures.size))
+    found = agent.classify_all(scenes.pictures(agent.picture_size))
     pairs = zip(found, scenes.classes, strict=True)
     right = [own == label for own, label in zip(labels, scenes.classes, strict=True)]
     count = max(1, len(scenes))

@@ -112,8 +112,8 @@ class Sight:
         """
         from seewhy.perception.picture import as_picture
 
-        shown = self.agent.domain.pictures
-        pixels = as_picture(picture, size=shown.size, fit=shown.fit)
+        fit = self.agent.domain.pictures.fit
+        pixels = as_picture(picture, size=self.agent.picture_size, fit=fit)
         (reading,) = self.agent.read(pixels[None])
         return {
             fluent: reading.features[feature].value == "yes" for feature, fluent in features.items()
