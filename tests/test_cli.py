@@ -29,6 +29,7 @@ COMMANDS = [
     "trace",
     "new",
     "check",
+    "reference",
     "demo",
     "data",
 ]
@@ -55,6 +56,7 @@ def image(tmp_path: Path) -> Path:
         ("trace", "Show what each component did"),
         ("new", "Write a working domain folder"),
         ("check", "Check a domain folder"),
+        ("reference", "Say what may stand in a domain's files"),
         ("demo", "Make pictures, train, evaluate, ask"),
         ("experiment", "Run an experiment, or what is missing of it"),
         ("data", "Make datasets and look at them."),

@@ -390,8 +390,8 @@ class QuestionsFile(_Table):
     )
     answers: dict[str, str] = Field(
         default={},
-        description="For a form of answer, the domain's own wording of it; the forms, their "
-        "wordings and slots are those of seewhy/dialogue/answers.toml.",
+        description="For a form of answer, the domain's own wording of it; `seewhy reference` "
+        "lists the forms.",
     )
     question: tuple[QuestionTable, ...] = Field(
         min_length=1,

@@ -21,6 +21,7 @@ from seewhy.cli import (
     learn,
     new,
     plan,
+    reference,
     simulate,
     trace,
     train,
@@ -49,6 +50,7 @@ app.command("chat")(chat.chat)
 app.command("trace")(trace.trace)
 app.command("new")(new.new)
 app.command("check")(check.check)
+app.command("reference")(reference.reference)
 app.command("plan")(plan.plan)
 app.command("simulate")(simulate.simulate)
 app.command("demo")(demo.demo)

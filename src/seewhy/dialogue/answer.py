@@ -208,7 +208,14 @@ def _say_change(domain: Domain, feature: str, value: str) -> str:
 
 
 @cache
-def _defaults() -> dict[str, str]:
+def default_answer_templates() -> dict[str, str]:
+    """Return how every form of answer is worded where a domain says nothing else.
+
+    Examples
+    --------
+    >>> default_answer_templates()["yes_class"]
+    'yes, {it} is {class}'
+    """
     text = resources.files("seewhy.dialogue").joinpath("answers.toml").read_text(encoding="utf-8")
     return dict(tomllib.loads(text))
 
@@ -221,7 +228,7 @@ def answer_templates(domain: Domain) -> dict[str, str]:
     DomainError
         Where questions.toml words a form that does not exist, or with an unknown slot.
     """
-    defaults = _defaults()
+    defaults = default_answer_templates()
     path = domain.folder / "questions.toml"
     for form, template in domain.questions.answers.items():
         if form not in defaults:

@@ -15,106 +15,148 @@ class _Table(BaseModel):
 
 
 class PlanningTable(_Table):
-    """``[planning]``: what the domain is called, and who acts.
+    """``[planning]``: what the domain is called, and who acts."""
 
-    ``robot`` is the term that stands for whoever acts, if the knowledge has one. With
-    ``answer_sets`` plans are sought by answer sets alone, as in the paper.
-    """
-
-    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
-    title: str
-    robot: str | None = None
-    horizon: int = Field(default=50, ge=1, le=10_000)
-    answer_sets: bool = False
+    name: str = Field(
+        pattern=r"^[a-z][a-z0-9_]*$",
+        description="The domain's name in commands: small letters, digits and underscores.",
+    )
+    title: str = Field(description="The heading of reports and pages.")
+    robot: str | None = Field(
+        default=None,
+        description="The term that stands for whoever acts, if the knowledge has one.",
+    )
+    horizon: int = Field(
+        default=50, ge=1, le=10_000, description="The most steps that a plan may have."
+    )
+    answer_sets: bool = Field(
+        default=False,
+        description="Whether plans are sought by answer sets alone, as in the paper.",
+    )
 
 
 class FluentTable(_Table):
     """``[fluents.NAME]``: how it is said that the fluent holds, and that it does not.
 
     ``[statics.NAME]`` says the same of statics.
-
-    ``{0}``, ``{1}``, … are its arguments in words.
     """
 
-    say: str
-    deny: str | None = None
+    say: str = Field(
+        description="The clause that says that it holds, as in `{0} is in {1}`; {0}, {1}, … are "
+        "its arguments in words.",
+    )
+    deny: str | None = Field(
+        default=None,
+        description="The clause that says that it does not hold; where left out, `it is not so "
+        "that …`.",
+    )
 
 
 class ActionTable(_Table):
-    """``[actions.NAME]``: "move to {1}" (``do``), "moved to {1}" (``did``).
+    """``[actions.NAME]``: "move to {1}" (``do``), "moved to {1}" (``did``)."""
 
-    What happens unasked is said as a whole in ``did``: "{0} walked to {1}".
-    """
-
-    do: str | None = None
-    did: str
+    do: str | None = Field(
+        default=None,
+        description="The instruction, as in `move to {1}`; what happens unasked has none.",
+    )
+    did: str = Field(
+        description="What was done, as in `moved to {1}`; what happens unasked is said as a whole, "
+        "as in `{0} walked to {1}`.",
+    )
 
 
 class SensingTable(_Table):
-    """``[[sensing]]``: a fluent whose truth the robot sees, where a condition holds.
+    """``[[sensing]]``: a fluent whose truth the robot sees, where a condition holds."""
 
-    ``error`` is the probability that the sensor says the opposite (in simulation).
-    """
-
-    literal: str
-    where: str
-    error: Probability = 0.0
+    literal: str = Field(description="The fluent, as in `loc(A, L)`.")
+    where: str = Field(description="The condition on which it is seen, as in `loc(rob1, L)`.")
+    error: Probability = Field(
+        default=0.0,
+        description="How probably the sensor says the opposite, in the simulated world.",
+    )
 
 
 class PicturesTable(_Table):
-    """``[pictures]``: what the pictures that the robot takes say, where networks see.
+    """``[pictures]``: what the pictures that the robot takes say, where networks see."""
 
-    ``shows`` gives, for features of domain.toml that have the values yes and no, the fluent whose
-    truth each is, where the condition ``where`` holds.
-    """
-
-    where: str
-    shows: dict[str, str] = Field(min_length=1)
+    where: str = Field(
+        description="The condition on which a picture shows what it shows, as in `loc(rob1, L)`."
+    )
+    shows: dict[str, str] = Field(
+        min_length=1,
+        description="For features of domain.toml that have the values yes and no, the fluent whose "
+        "truth each is.",
+    )
 
 
 class SimulationTable(_Table):
-    """``[simulation]``: how often what happens, for the simulated world.
+    """``[simulation]``: how often what happens, for the simulated world."""
 
-    ``events`` gives, for exogenous actions, the probability that one of this kind happens at a
-    step; ``failures``, for actions, that it has no effect. ``before`` steps of events pass before
-    the robot begins. ``unknown`` is the probability that a fluent of which nothing is known at
-    first holds. ``durations`` gives, for actions, how many seconds one takes (1 where it says
-    nothing); they change nothing in the world.
-    """
-
-    events: dict[str, Probability] = {}
-    failures: dict[str, Probability] = {}
-    durations: dict[str, Seconds] = {}
-    before: int = Field(default=0, ge=0, le=10_000)
-    unknown: Probability = 0.0
+    events: dict[str, Probability] = Field(
+        default={},
+        description="For exogenous actions, how probably one of this kind happens at a step.",
+    )
+    failures: dict[str, Probability] = Field(
+        default={}, description="For actions, how probably one has no effect."
+    )
+    durations: dict[str, Seconds] = Field(
+        default={},
+        description="For actions, how many seconds one takes, 1 where left out; they change "
+        "nothing in the world.",
+    )
+    before: int = Field(
+        default=0,
+        ge=0,
+        le=10_000,
+        description="How many steps of events pass before the robot begins.",
+    )
+    unknown: Probability = Field(
+        default=0.0,
+        description="How probably a fluent of which nothing is known at first holds.",
+    )
 
 
 class MapTable(_Table):
-    """``[map]``: how to draw where things are.
+    """``[map]``: how to draw where things are."""
 
-    ``places`` is a sort, ``links`` a static that joins two places, ``where`` the fluent that says
-    which place a thing is in, ``closed`` one of places that cannot be entered.
-    """
-
-    places: str
-    links: str
-    where: str
-    closed: str | None = None
+    places: str = Field(description="The sort of places.")
+    links: str = Field(description="The static that joins two places.")
+    where: str = Field(description="The fluent that says which place a thing is in.")
+    closed: str | None = Field(
+        default=None, description="The fluent of places that cannot be entered."
+    )
 
 
 class PlanningFile(_Table):
-    """The whole of planning.toml.
+    """The whole of planning.toml."""
 
-    ``possessives`` says for a thing what stands for its name with 's, once it was named: "her".
-    """
-
-    planning: PlanningTable
-    things: dict[str, str] = {}
-    possessives: dict[str, str] = {}
-    fluents: dict[str, FluentTable] = {}
-    statics: dict[str, FluentTable] = {}
-    actions: dict[str, ActionTable] = {}
-    sensing: tuple[SensingTable, ...] = ()
-    pictures: PicturesTable | None = None
-    simulation: SimulationTable = SimulationTable()
-    map: MapTable | None = None
+    planning: PlanningTable = Field(description="What the domain is called, and who acts.")
+    things: dict[str, str] = Field(
+        default={}, description="For terms of the knowledge, how they are said."
+    )
+    possessives: dict[str, str] = Field(
+        default={},
+        description="For a thing, what stands for its name with 's once it was named, as in `her`.",
+    )
+    fluents: dict[str, FluentTable] = Field(
+        default={}, description="How it is said that a fluent holds, and that it does not."
+    )
+    statics: dict[str, FluentTable] = Field(
+        default={}, description="How it is said that a static holds, and that it does not."
+    )
+    actions: dict[str, ActionTable] = Field(
+        default={}, description="How it is said that an action is to be done, and that it was."
+    )
+    sensing: tuple[SensingTable, ...] = Field(
+        default=(),
+        description="One table a fluent whose truth the robot sees, where a condition holds.",
+    )
+    pictures: PicturesTable | None = Field(
+        default=None,
+        description="What the pictures that the robot takes say, where networks see for it.",
+    )
+    simulation: SimulationTable = Field(
+        default=SimulationTable(),
+        description="How often what happens, for the simulated world.",
+    )
+    map: MapTable | None = Field(default=None, description="How to draw where things are.")
