@@ -9,9 +9,17 @@ from pathlib import Path
 import pytest
 from pydantic import BaseModel, Field
 
-from conftest import Run
+from conftest import Run, write_tiles
 from seewhy.dialogue.question import Asks
-from seewhy.domain_tables import DomainFile, QuestionsFile, QuestionTable
+from seewhy.domain import load_domain
+from seewhy.domain_tables import (
+    DomainFile,
+    DomainTable,
+    NetworkTable,
+    PictureTable,
+    QuestionsFile,
+    QuestionTable,
+)
 from seewhy.key_reference import (
     TableReference,
     file_references,
@@ -137,6 +145,29 @@ def test_a_file_that_cannot_be_written_ends_with_one_sentence(run: Run, tmp_path
     result = run("reference", "--out", tmp_path / "file" / "page.md")
     assert (result.code, result.err.count("\n")) == (2, 1)
     assert "page.md" in result.err or "file" in result.err
+
+
+@pytest.mark.parametrize("source", ["template", "pictures"])
+def test_the_commented_keys_of_a_new_domain_work(source: str, run: Run, tmp_path: Path) -> None:
+    """Each is described as in the reference, and its example does something that check accepts."""
+    folder = tmp_path / "pears"
+    if source == "pictures":
+        write_tiles(tmp_path / "data", count=4)
+        run("new", folder, "--from", tmp_path / "data")
+    else:
+        run("new", folder)
+    text = (folder / "domain.toml").read_text(encoding="utf-8")
+    examples = re.findall(r"^# (\w+) = \S+$", text, re.MULTILINE)
+    assert {"reading", "known_share", "rotate", "size", "epochs"} <= set(examples)
+    sentences = " ".join(re.sub(r"^# ", "", line) for line in text.splitlines())
+    for table in (DomainTable, PictureTable, NetworkTable):
+        for name, field in table.model_fields.items():
+            assert (name in examples) <= (str(field.description) in sentences), name
+    used = re.sub(r"^# (\w+ = \S+|\[\w+\])$", r"\1", text, flags=re.MULTILINE)
+    (folder / "domain.toml").write_text(used, encoding="utf-8")
+    domain = load_domain(folder)
+    assert (domain.known_share, domain.pictures.rotate, domain.networks.epochs) == (0.95, 15, 30)
+    assert run("check", folder).code == 0
 
 
 def test_what_can_be_asked_is_named() -> None:

@@ -83,7 +83,7 @@ of_kind(S, 2) if -thumb(S), middle(S).
 of_kind(S, 3) if thumb(S).
 """
     )
-    assert "[networks]" not in (folder / "domain.toml").read_text()
+    assert "\n[networks]" not in (folder / "domain.toml").read_text()
     checked = run("check", folder)
     assert (checked.code, checked.err) == (0, "")
     assert checked.out.endswith("nothing is wrong\n")
@@ -172,7 +172,7 @@ def test_from_a_dataset_without_a_table_of_classes(tmp_path: Path, run: Run) -> 
 def _see_little(folder: Path) -> None:
     """Let networks look at small pictures, which is faster."""
     text = (folder / "domain.toml").read_text()
-    small = text.replace("# [pictures]\n# flip = true\n", "[pictures]\nsize = 16\n")
+    small = text.replace("# [pictures]\n", "[pictures]\nsize = 16\n")
     assert small != text
     (folder / "domain.toml").write_text(small)
 

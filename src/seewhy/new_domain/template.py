@@ -11,6 +11,7 @@ from importlib import resources
 from pathlib import Path
 
 from seewhy.errors import DomainError
+from seewhy.new_domain.common_keys import with_common_keys
 
 _PLACEHOLDER = "my_domain"
 
@@ -25,7 +26,9 @@ def write_new_domain(folder: Path) -> Path:
     """
     check_new_folder(folder)
     texts = {
-        file.name: file.read_text(encoding="utf-8").replace(_PLACEHOLDER, folder.name)
+        file.name: with_common_keys(
+            file.read_text(encoding="utf-8").replace(_PLACEHOLDER, folder.name)
+        )
         for file in resources.files("seewhy").joinpath("template").iterdir()
     }
     with whole_folder(folder) as temporary:

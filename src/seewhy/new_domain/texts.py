@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 
 from seewhy.data.importers.names import predicate_name, valid_name
+from seewhy.new_domain.common_keys import common_keys
 from seewhy.new_domain.proposals import Proposals
 from seewhy.new_domain.sketch import LOOK, Sketch, SketchFeature
 from seewhy.new_domain.words import (
@@ -64,6 +65,8 @@ def domain_text(sketch: Sketch) -> str:
     lines = [
         f"# {_title(sketch)}: written from {_comment(sketch.source)}; edit it as you like.",
         "# What pictures show and how it is said: {it} stands for the subject.",
+        "# `seewhy reference` lists every key; those that are often wanted stand here as comments,",
+        "# each with an example.",
         "",
         "[domain]",
         f"name = {_quoted(sketch.name)}",
@@ -71,9 +74,13 @@ def domain_text(sketch: Sketch) -> str:
         f"scene = {_quoted(scene_sort(sketch))}",
         f"subject = {_quoted(sketch.subject)}",
         "",
-        "# If a mirrored picture has the same features and the same class, say so:",
+        *common_keys("domain"),
+        "",
         "# [pictures]",
-        "# flip = true",
+        *common_keys("pictures"),
+        "",
+        "# [networks]",
+        *common_keys("networks"),
     ]
     if sketch.has_look:
         lines += [
@@ -226,7 +233,7 @@ def readme_text(sketch: Sketch, commands: Sequence[str], data: str) -> str:
         f"    {columns}\n\n"
         "An empty cell is a value that nobody knows. A column `split` with the words `train` and\n"
         "`test` says which pictures are kept for evaluation; pictures that show the same thing\n"
-        "share a word in a column `group`.\n"
+        "share a word in a column `group`. Every key of the files: `seewhy reference`.\n"
     )
 
 
