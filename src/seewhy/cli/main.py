@@ -14,6 +14,7 @@ from seewhy.cli import (
     axioms,
     chat,
     check,
+    classify,
     data,
     demo,
     evaluate,
@@ -47,6 +48,7 @@ app.command("learn")(learn.learn)
 app.command("axioms")(axioms.axioms)
 app.command("ask")(ask.ask)
 app.command("chat")(chat.chat)
+app.command("classify")(classify.classify)
 app.command("trace")(trace.trace)
 app.command("new")(new.new)
 app.command("check")(check.check)

@@ -1,0 +1,141 @@
+"""Picture files are classified, some at a time, each with its reasons."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from seewhy.data.reading_ahead import read_ahead
+from seewhy.dialogue.question import Asks, Question
+from seewhy.errors import PictureError
+from seewhy.induction.sentence import say_path
+from seewhy.perception.picture import Fit, Picture, read_picture
+from seewhy.reply import Classification
+from seewhy.wording import sentence
+
+if TYPE_CHECKING:
+    from seewhy.agent import Agent
+
+__all__ = ["BATCH", "ClassifiedPicture", "classify_pictures"]
+
+BATCH = 128
+"""Pictures that are seen at a time; as many are read meanwhile."""
+
+_REMEMBERED = 20_000
+"""Distinct scenes whose reasons are kept."""
+
+
+@dataclass(frozen=True)
+class ClassifiedPicture:
+    """What became of one picture file.
+
+    Attributes
+    ----------
+    picture : Path
+    classification : Classification or None
+        None where the file is no picture that can be looked at.
+    reasons : str
+        Why it is of its class, or why it has none, as a sentence.
+    problem : str
+        What is wrong with the file; empty where nothing is.
+    """
+
+    picture: Path
+    classification: Classification | None
+    reasons: str = ""
+    problem: str = ""
+
+
+def classify_pictures(
+    agent: Agent, pictures: Iterable[Path | str], *, batch: int = BATCH
+) -> Iterator[list[ClassifiedPicture]]:
+    """Classify any number of picture files; two batches of them are in the memory at a time.
+
+    Parameters
+    ----------
+    agent : Agent
+        A trained one.
+    pictures : iterable of Path or str
+        Files; :func:`seewhy.data.picture_listing.list_pictures` finds them in folders and tables.
+    batch : int, default 128
+        How many are yielded at a time; the last may be fewer.
+
+    Yields
+    ------
+    list of ClassifiedPicture
+        In the order of the files. One that cannot be read has a ``problem`` and does not stop the
+        others.
+
+    Raises
+    ------
+    NotFittedError
+        If the agent is not trained.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import seewhy
+    >>> file = Path(tempfile.mkdtemp()) / "a.png"
+    >>> _ = file.write_bytes(b"no picture")
+    >>> agent = seewhy.Agent(seewhy.load_domain("structure_stability"))
+    >>> ((found,),) = classify_pictures(agent, [file])
+    >>> found.problem.removeprefix(str(file))
+    ' is not a picture of a known type: save it as PNG or JPEG'
+    """
+    look = partial(_look, size=agent.picture_size, fit=agent.domain.pictures.fit)
+    why = _Reasons(agent)
+    looked = read_ahead(look, map(Path, pictures), ahead=batch)
+    while some := list(islice(looked, batch)):
+        pixels = [own for _, own in some if not isinstance(own, PictureError)]
+        scenes = iter(agent.classify_all(np.stack(pixels)) if pixels else ())
+        found = []
+        for picture, own in some:
+            if isinstance(own, PictureError):
+                found.append(ClassifiedPicture(picture, None, problem=str(own)))
+            else:
+                scene = next(scenes)
+                found.append(ClassifiedPicture(picture, scene, why(scene)))
+        yield found
+
+
+def _look(picture: Path, *, size: int, fit: Fit) -> tuple[Path, Picture | PictureError]:
+    """A picture with its pixels, or with what is wrong with it."""
+    try:
+        return picture, read_picture(picture, size=size, fit=fit)
+    except PictureError as problem:
+        return picture, problem
+
+
+class _Reasons:
+    """Says why scenes are of their class; of scenes that are alike it is found out once."""
+
+    def __init__(self, agent: Agent) -> None:
+        self._agent = agent
+        self._questions = {
+            question.label: question
+            for question in agent.questions.one_of_each()
+            if question.asks is Asks.WHY_CLASS
+        }
+        self._said: dict[tuple[object, ...], str] = {}
+
+    def __call__(self, scene: Classification) -> str:
+        alike = (scene.vector, scene.label, scene.method, scene.verdict)
+        if alike not in self._said:
+            if len(self._said) >= _REMEMBERED:
+                self._said.clear()
+            self._said[alike] = self._why(scene)
+        return self._said[alike]
+
+    def _why(self, scene: Classification) -> str:
+        asked = self._questions.get(scene.label)
+        if scene.method == "tree" and (asked is None or self._agent.answerer is None):
+            # Without the recurrent network, or words to ask it with, the tree speaks for itself.
+            return sentence(say_path(self._agent.domain, self._agent.tree.path(scene.vector)))
+        question = asked or Question(Asks.WHY_CLASS, text="", words=(), label=scene.label)
+        return self._agent.answer(scene, question).text
