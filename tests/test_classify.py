@@ -16,8 +16,8 @@ from pathlib import Path
 import pytest
 
 from conftest import Run, draw_tile
+from seewhy import classify_pictures
 from seewhy.agent import Agent
-from seewhy.classifying import classify_pictures
 from seewhy.classifying.rows import columns_of
 from seewhy.dialogue.question import Questions
 from seewhy.domain import Domain, load_domain
@@ -198,6 +198,12 @@ def test_features_that_are_called_like_columns(tiles_folder: Path, tmp_path: Pat
     names = [column.name for column in columns_of(load_domain(folder))]
     assert names[3:7] == ["method", "verdict", "feature_method", "feature_method_probability"]
     assert len(set(names)) == len(names)
+
+
+def test_help(run: Run) -> None:
+    result = run("classify", "--help")
+    assert (result.code, result.err) == (0, "")
+    assert "Classify many pictures: a table with classes, probabilities" in result.out
 
 
 # Which pictures --------------------------------------------------------------------------------

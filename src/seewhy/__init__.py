@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
+    from seewhy.classifying import classify_pictures
     from seewhy.data.dataset import Dataset
     from seewhy.domain import Domain, load_domain
     from seewhy.errors import SeeWhyError
@@ -27,6 +28,7 @@ __all__ = [
     "Node",
     "Reply",
     "SeeWhyError",
+    "classify_pictures",
     "evaluate",
     "load_domain",
 ]
@@ -39,6 +41,7 @@ _HOMES = {
     "Node": "seewhy.knowledge.justification",
     "Reply": "seewhy.reply",
     "SeeWhyError": "seewhy.errors",
+    "classify_pictures": "seewhy.classifying",
     "evaluate": "seewhy.evaluation",
     "load_domain": "seewhy.domain",
 }
