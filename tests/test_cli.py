@@ -401,7 +401,14 @@ def test_evaluating_on_training_pictures_is_remarked(
     result = run("evaluate", model_folder, "--data", folder, "--outside", "--json")
     assert result.code == 0
     assert json.loads(result.out)["seen_in_training"] == 2
-    assert result.err == ("2 of 2 pictures were trained on; results on them prove nothing\n")
+    assert result.err == (
+        "2 of 2 pictures were trained on; results on them prove nothing: the table keeps none for "
+        "evaluation; add a column split, with test in a quarter of the rows, and train again\n"
+    )
+    result = run("evaluate", model_folder, "--data", folder, "--outside")
+    assert result.out.splitlines()[0] == (
+        "2 scenes, 2 of them trained on: results on them prove nothing"
+    )
 
 
 class _Bars:

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from conftest import seen, write_tiles
+from conftest import KNOWLEDGE, seen, write_domain, write_tiles
 from seewhy.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
-from seewhy.domain import Domain
-from seewhy.evaluation import AxiomRecord, axiom_records, evaluate, score_answer
+from seewhy.domain import Domain, load_domain
+from seewhy.evaluation import (
+    AxiomRecord,
+    Misreading,
+    axiom_records,
+    evaluate,
+    score_answer,
+)
 from seewhy.reply import Classification
 
 
@@ -116,6 +123,115 @@ def test_shares_are_counted_by_hand(tiles: Domain, four: Dataset) -> None:
     assert 0.0 < result.answer_accuracy < 1.0
     assert result.answer_accuracy_strict <= result.answer_accuracy
     assert result.explanation_accuracy_strict <= result.explanation_accuracy
+
+
+def test_figures_are_counted_by_hand(tiles: Domain, four: Dataset) -> None:
+    agent = Stub(tiles)
+    agent.told = [("red", "yes"), ("blue", "no"), ("red", "yes"), ("green", "no")]
+    result = evaluate(agent, four)
+    classes = result.class_recognition.confusion
+    assert classes.values == ("good", "bad")
+    assert classes.counts == ((2, 1), (0, 0))
+    assert classes.undecided == (0, 1)
+    assert classes.pictures == {"good": 3, "bad": 1}
+    assert (classes.majority, classes.majority_share.value) == ("good", 0.75)
+    assert classes.balanced_accuracy == pytest.approx((2 / 3 + 0) / 2)
+    assert classes.share.interval == pytest.approx((0.15, 0.85), abs=0.001)
+    assert classes.confused == (("good", "bad", 1), ("bad", None, 1))
+    colours = result.feature_recognition["colour"]
+    assert colours.confusion.values == ("red", "green", "blue")
+    assert colours.confusion.counts == ((1, 0, 1), (1, 1, 0), (0, 0, 0))
+    assert colours.confusion.pictures == {"red": 2, "green": 2}
+    # All four were said with 0.9, two are right.
+    assert (colours.calibration.said, colours.calibration.share.value) == (0.9, 0.5)
+    assert colours.calibration.error == pytest.approx(0.4)
+    assert result.class_recognition.calibration.share.of == 0  # no probability was said
+    assert result.feature_recognition["round"].confusion.share.of == 3
+    assert (result.groups, result.has_splits) == (4, False)
+
+
+def test_wrong_pictures_are_listed(tiles: Domain, four: Dataset) -> None:
+    agent = Stub(tiles)
+    agent.told = [("red", "no"), ("blue", "no"), ("red", "yes"), ("green", "no")]
+    result = evaluate(agent, four)
+    listed = [
+        (one.image, one.label, one.said, one.wrong_class, one.not_annotated) for one in result.wrong
+    ]
+    assert listed == [
+        ("images/001.png", "good", "bad", True, ()),
+        ("images/003.png", "bad", None, True, ()),
+        ("images/000.png", "good", "good", False, ()),
+        ("images/002.png", "good", "good", False, ("round",)),
+    ]
+    assert [one.misread for one in result.wrong] == [
+        (Misreading("colour", "blue", 0.9, "red"),),
+        (),
+        (Misreading("round", "no", 0.9, "yes"),),
+        (Misreading("colour", "red", 0.9, "green"),),
+    ]
+    record = json.loads(json.dumps(result.to_dict()))
+    assert record["wrong"][0]["misread"] == [
+        {"feature": "colour", "seen": "blue", "probability": 0.9, "annotated": "red"}
+    ]
+
+
+def test_classes_are_decided_again_with_what_is_annotated(tiles: Domain, four: Dataset) -> None:
+    """A blue cornered tile is bad, a red one good, a green one undecided."""
+    agent = Stub(tiles)
+    # red seen as blue: mended by the colour; green seen as red, good by luck: spoilt by it;
+    # bad green: nothing decides it, however it is read.
+    agent.told = [("red", "yes"), ("blue", "no"), ("red", "yes"), ("green", "yes")]
+    found = evaluate(agent, four).redecided
+    assert (found.wrong, found.not_known) == (2, 0)
+    assert found.mended == {"colour": 1, "round": 0}
+    assert found.spoilt == {"colour": 1, "round": 0}
+    assert found.mended_by_all == 1
+
+
+def test_what_classes_depend_on(tiles: Domain, four: Dataset, tmp_path: Path) -> None:
+    agent = Stub(tiles)
+    agent.told = [("red", "yes"), ("red", "no"), ("green", "yes"), ("green", "no")]
+    result = evaluate(agent, four)
+    assert result.depended_on == {"colour": True, "round": False}  # no tile here is blue
+    assert result.asked_by_axioms == {"colour": True, "round": True}
+    short = KNOWLEDGE[: KNOWLEDGE.index("%% a blue")]
+    agent.told = [("blue", "no"), ("red", "no"), ("green", "yes"), ("green", "no")]
+    assert evaluate(agent, four).depended_on == {"colour": True, "round": True}
+    agent = Stub(load_domain(write_domain(tmp_path / "short", knowledge=short)))
+    agent.told = [("red", "yes"), ("red", "no"), ("green", "yes"), ("green", "no")]
+    result = evaluate(agent, four)
+    assert result.depended_on == {"colour": True, "round": False}
+    assert result.asked_by_axioms == {"colour": True, "round": False}
+    assert result.advice()[-1].startswith("No class of these pictures depends on 'round'")
+
+
+def test_pictures_to_train_on_are_counted(agent: Agent, dataset: Dataset) -> None:
+    """Those of the dataset, or, where it has none, those that the model remembers."""
+    split = evaluate(agent, dataset, questions_per_scene=1)
+    assert split.has_splits
+    assert sum(split.training_pictures["class"].values()) == 40
+    assert split.training_pictures["colour"] == {"red": 14, "green": 13, "blue": 13}
+    scenes = tuple(replace(scene, split="") for scene in dataset.of_split("test").scenes)
+    alone = evaluate(agent, dataset.of_scenes(scenes), questions_per_scene=1)
+    assert not alone.has_splits
+    assert alone.training_pictures == split.training_pictures
+
+
+def test_pictures_are_looked_at_some_at_a_time(
+    agent: Agent, dataset: Dataset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sizes = []
+    real = Agent.classify_all
+
+    def classify_all(self: Agent, pictures: np.ndarray) -> list[Classification]:
+        sizes.append(len(pictures))
+        return real(self, pictures)
+
+    monkeypatch.setattr(Agent, "classify_all", classify_all)
+    many = dataset.take([n % len(dataset) for n in range(150)])
+    scenes = tuple(replace(scene, split="") for scene in many.scenes)
+    assert evaluate(agent, dataset.of_scenes(scenes), questions_per_scene=1).scenes == 150
+    assert sizes == [64, 64, 22]
 
 
 def test_answers_of_the_knowledge_about_what_is_seen_rightly_are_right(

@@ -10,7 +10,7 @@ import pytest
 
 from conftest import draw_tile, one_process, write_domain, write_tiles
 from seewhy.agent import Agent
-from seewhy.cli.evaluate import print_classes
+from seewhy.cli.evaluation_tables import print_classes
 from seewhy.cli.main import main
 from seewhy.cli.training import trained_already
 from seewhy.data.dataset import Dataset
@@ -122,8 +122,8 @@ def test_the_accuracy_of_every_class(
     assert result.class_accuracy == {"brick": 1.0, "leaf": 0.75}
     print_classes(result, most=1)
     assert [line.split() for line in capsys.readouterr().out.splitlines()] == [
-        ["class", "classified", "rightly"],
-        ["leaf", "75.0", "%"],
+        ["class", "pictures", "classified", "rightly"],
+        ["leaf", "4", "75.0", "%"],
         ["1", "more,", "each", "at", "least", "100.0", "%"],
     ]
 

@@ -31,7 +31,7 @@ def demo(
     json: Json = False,
 ) -> None:
     """Make pictures, train, evaluate, ask, and write OUT/report.html."""
-    from seewhy.cli.evaluate import print_evaluation
+    from seewhy.cli.evaluation_tables import print_evaluation
     from seewhy.cli.train import print_learned
     from seewhy.cli.training import train_model, trained_already
     from seewhy.data.dataset import Dataset

@@ -1,7 +1,8 @@
-"""`seewhy evaluate`: accuracies of a model on annotated pictures."""
+"""`seewhy evaluate`: how good a model is on annotated pictures, and how it could become better."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -16,10 +17,13 @@ from seewhy.cli.options import (
     Reading,
     Seed,
 )
-from seewhy.cli.screen import add_row, output, percent, print_json, progress, remark, table
+from seewhy.cli.screen import print_json, progress, remark, say, warn
 
 if TYPE_CHECKING:
+    from seewhy.agent import Agent
+    from seewhy.data.dataset import Dataset
     from seewhy.evaluation import Evaluation
+    from seewhy.evaluation.curve import LearningCurve
 
 
 def evaluate(
@@ -28,6 +32,27 @@ def evaluate(
     questions: Annotated[
         int, typer.Option("--questions", min=1, help="Questions drawn for each picture.")
     ] = 8,
+    page: Annotated[
+        Path | None,
+        typer.Option(
+            "--page",
+            help="Write a page (HTML, a single file) with all figures and the wrong pictures.",
+        ),
+    ] = None,
+    most: Annotated[
+        int | None,
+        typer.Option(
+            "--most", min=0, help="How many wrong pictures the page shows (100); --json lists all."
+        ),
+    ] = None,
+    curve: Annotated[
+        bool,
+        typer.Option(
+            "--curve",
+            help="Also train on an eighth, a quarter, a half and all of the pictures to train on, "
+            "and say whether more labels would help. What was trained is kept in MODEL.curve.",
+        ),
+    ] = False,
     seed: Seed = 0,
     reading: Reading = None,
     gate: Gate = None,
@@ -36,76 +61,90 @@ def evaluate(
     json: Json = False,
 ) -> None:
     """Evaluate a model on a dataset (on the rows with split = test, where there are splits)."""
-    from seewhy.agent import Agent
-    from seewhy.cli.read_data import read_data
-    from seewhy.evaluation import evaluate as evaluate_agent
+    from dataclasses import replace
 
+    from seewhy.agent import Agent
+    from seewhy.cli.evaluation_tables import print_curve, print_evaluation
+    from seewhy.cli.read_data import read_data
+    from seewhy.errors import SeeWhyError
+    from seewhy.evaluation.advice import training_notice
+
+    if most is not None and page is None:
+        raise SeeWhyError("--most goes with --page; --json lists all wrong pictures")
     agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
     dataset = read_data(data, agent.domain, outside=outside, evaluated=True)
+    if curve:
+        from seewhy.evaluation.curve import require_splits
+
+        require_splits(dataset)
+    result = _evaluated(agent, dataset, questions=questions, seed=seed)
+    notice = training_notice(result)
+    if notice is not None:
+        warn(notice)
+    if result.without_class:
+        remark(
+            f"{result.without_class} more pictures have no class: they count for the features "
+            "that they are annotated with, for nothing else"
+        )
+    if curve:
+        result = replace(result, curve=_curve(agent, dataset, model))
+    if page is not None:
+        _write_page(page, agent, result, most=most)
+    if json:
+        print_json(result.to_dict())
+        return
+    print_evaluation(result)
+    if result.curve is not None:
+        print_curve(result.curve)
+    if page is not None:
+        say(f"page: {page}")
+
+
+def _evaluated(agent: Agent, dataset: Dataset, *, questions: int, seed: int) -> Evaluation:
+    from seewhy.evaluation import evaluate as evaluate_agent
+
     with progress() as bars:
         task = bars.add_task("looking at pictures", total=len(dataset.of_split("test")))
-        result = evaluate_agent(
+        return evaluate_agent(
             agent,
             dataset,
             questions_per_scene=questions,
             seed=seed,
             on_progress=lambda done: bars.update(task, completed=done),
         )
-    if result.without_class:
-        remark(
-            f"{result.without_class} more pictures have no class: they count for the features "
-            "that they are annotated with, for nothing else"
+
+
+def _curve(agent: Agent, dataset: Dataset, model: Path) -> LearningCurve:
+    from seewhy.evaluation.curve import CurvePoint, learning_curve
+    from seewhy.evaluation.share import percent
+
+    folder = model.resolve()
+    with progress() as bars:
+        task = bars.add_task("training", total=None)
+
+        def on_part(pictures: int) -> None:
+            bars.reset(task, description=f"training on {pictures:,} pictures", total=None)
+
+        def on_point(point: CurvePoint) -> None:
+            share = point.class_recognition.confusion.share
+            remark(f"trained on {point.pictures:,} pictures: {percent(share.value)} right")
+
+        return learning_curve(
+            agent,
+            dataset,
+            folder.with_name(f"{folder.name}.curve"),
+            on_part=on_part,
+            on_progress=lambda event: bars.update(
+                task, completed=event.epoch, total=event.epochs, visible=True
+            ),
+            on_point=on_point,
         )
-    if result.seen_in_training:
-        remark(
-            f"{result.seen_in_training} of {result.scenes} pictures were trained on; "
-            "results on them prove nothing"
-        )
-    if json:
-        print_json(result.to_dict())
-    else:
-        print_evaluation(result)
 
 
-def print_evaluation(result: Evaluation) -> None:
-    """Print an evaluation as tables."""
-    rows = table("measured on", ">share")
-    add_row(rows, "classification", percent(result.classification_accuracy))
-    add_row(rows, "  the best over the annotated features", percent(result.determined))
-    for method, share in result.accuracy_by_method.items():
-        add_row(rows, f"  decided by {method}", percent(share))
-    add_row(rows, "decided by knowledge", percent(result.decided_by_knowledge))
-    if result.unknown:
-        add_row(rows, "said not to be known", percent(result.unknown))
-    add_row(rows, "answers (every relevant attribute)", percent(result.answer_accuracy))
-    add_row(rows, "answers, strict (and no other)", percent(result.answer_accuracy_strict))
-    add_row(rows, "explanatory answers", percent(result.explanation_accuracy))
-    add_row(rows, "explanatory answers, strict", percent(result.explanation_accuracy_strict))
-    for name, share in result.feature_accuracy.items():
-        add_row(rows, f"feature {name}", percent(share))
-    output().print(f"{result.scenes} scenes", markup=False)
-    output().print(rows)
-    print_classes(result)
-    print_axioms(result)
+def _write_page(page: Path, agent: Agent, result: Evaluation, *, most: int | None) -> None:
+    from seewhy.cli.command_line import as_typed
+    from seewhy.files import write_whole
+    from seewhy.report.evaluation_page import MOST_PICTURES, evaluation_page
 
-
-def print_classes(result: Evaluation, *, most: int = 12) -> None:
-    """Print the classes that no picture was shown of, and the least well recognised of the rest."""
-    shares = result.class_accuracy
-    worst = sorted(shares, key=lambda label: (label not in result.without, shares[label]))
-    rows = table("class", ">classified rightly")
-    for label in worst[: max(most, len(result.without))]:
-        note = " (left out of training)" if label in result.without else ""
-        add_row(rows, f"{label}{note}", percent(shares[label]))
-    more = len(worst) - most
-    if more > 0:
-        add_row(rows, f"{more} more, each at least", percent(shares[worst[-more]]))
-    output().print(rows)
-
-
-def print_axioms(result: Evaluation) -> None:
-    """Print how often each axiom applied and was right, on the annotated features."""
-    rows = table("axiom", ">decides", ">right")
-    for own in result.axioms:
-        add_row(rows, own.statement, str(own.decided), percent(own.accuracy))
-    output().print(rows)
+    shown = MOST_PICTURES if most is None else most
+    write_whole(page, evaluation_page(agent.domain, result, command=as_typed(), most=shown))

@@ -41,6 +41,11 @@ def remark(text: str) -> None:
     notes().print(text, markup=False, style="dim")
 
 
+def warn(text: str) -> None:
+    """Print a line that nobody should overlook: results do not mean what they seem to."""
+    notes().print(text, markup=False, style="bold yellow")
+
+
 def complain(text: str) -> None:
     """Print the one sentence that says what is wrong."""
     notes().print(f"seewhy: {' '.join(text.splitlines())}", markup=False, style="red")

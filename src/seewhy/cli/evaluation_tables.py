@@ -1,0 +1,160 @@
+"""An evaluation as tables on the screen, with what its figures say."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from seewhy.cli.screen import add_row, output, percent, say, table
+
+if TYPE_CHECKING:
+    from seewhy.evaluation import Evaluation, Recognition
+    from seewhy.evaluation.curve import LearningCurve
+
+MOST = 12
+"""So many rows of classes, values and confusions are printed."""
+
+
+def print_evaluation(result: Evaluation) -> None:
+    """Print an evaluation as tables, and the advice that follows from it."""
+    seen = result.seen_in_training
+    trained_on = f", {seen} of them trained on: results on them prove nothing" if seen else ""
+    say(f"{result.scenes} scenes{trained_on}")
+    print_recognised(result)
+    rows = table("measured on", ">share")
+    add_row(rows, "the best over the annotated features", percent(result.determined))
+    for method, share in result.accuracy_by_method.items():
+        add_row(rows, f"classes decided by {method}", percent(share))
+    add_row(rows, "decided by knowledge", percent(result.decided_by_knowledge))
+    if result.unknown:
+        add_row(rows, "said not to be known", percent(result.unknown))
+    add_row(rows, "answers (every relevant attribute)", percent(result.answer_accuracy))
+    add_row(rows, "answers, strict (and no other)", percent(result.answer_accuracy_strict))
+    add_row(rows, "explanatory answers", percent(result.explanation_accuracy))
+    add_row(rows, "explanatory answers, strict", percent(result.explanation_accuracy_strict))
+    output().print(rows)
+    print_classes(result)
+    print_values(result)
+    print_confused(result)
+    print_axioms(result)
+    print_sentences("what the figures say", result.advice())
+
+
+def print_recognised(result: Evaluation) -> None:
+    """Print accuracies beside the majority's, balanced, with their intervals and calibration."""
+    rows = table(
+        "recognised", ">right", ">95 % interval", ">majority", ">balanced", ">pictures", ">said",
+        ">calibration error",
+    )  # fmt: skip
+    recognitions = {"classification": result.class_recognition}
+    recognitions |= {
+        f"feature {key}": recognition for key, recognition in result.feature_recognition.items()
+    }
+    for name, recognition in recognitions.items():
+        add_row(rows, name, *_figures(recognition))
+    output().print(rows)
+
+
+def _figures(recognition: Recognition) -> list[str]:
+    confusion, calibration = recognition.confusion, recognition.calibration
+    low, high = confusion.share.interval
+    judged = bool(calibration.share.of)
+    return [
+        percent(confusion.share.value),
+        f"{percent(low)} to {percent(high)}",
+        percent(confusion.majority_share.value),
+        percent(confusion.balanced_accuracy),
+        str(confusion.share.of),
+        percent(calibration.said) if judged else "",
+        percent(calibration.error) if judged else "",
+    ]
+
+
+def print_classes(result: Evaluation, *, most: int = MOST) -> None:
+    """Print the classes that no picture was shown of, and the least well recognised of the rest."""
+    recall = result.class_recognition.confusion.recall
+    worst = sorted(recall, key=lambda label: (label not in result.without, recall[label].value))
+    rows = table("class", ">pictures", ">classified rightly")
+    for label in worst[: max(most, len(result.without))]:
+        note = " (left out of training)" if label in result.without else ""
+        add_row(rows, f"{label}{note}", str(recall[label].of), percent(recall[label].value))
+    more = len(worst) - most
+    if more > 0:
+        add_row(rows, f"{more} more, each at least", "", percent(recall[worst[-more]].value))
+    output().print(rows)
+
+
+def print_values(result: Evaluation, *, most: int = MOST) -> None:
+    """Print the values of features that are recognised worst, with the number of their pictures."""
+    worst = sorted(
+        (
+            (f"{key} = {value}", share)
+            for key, recognition in result.feature_recognition.items()
+            for value, share in recognition.confusion.recall.items()
+        ),
+        key=lambda row: row[1].value,
+    )
+    rows = table("value", ">pictures", ">recognised")
+    for name, share in worst[:most]:
+        add_row(rows, name, str(share.of), percent(share.value))
+    if len(worst) > most:
+        more = len(worst) - most
+        add_row(rows, f"{more} more, each at least", "", percent(worst[most][1].value))
+    if worst:
+        output().print(rows)
+
+
+def print_confused(result: Evaluation, *, most: int = MOST) -> None:
+    """Print what was most often taken for what."""
+    recognitions = {"class": result.class_recognition, **result.feature_recognition}
+    found = sorted(
+        (
+            (key, *case)
+            for key, recognition in recognitions.items()
+            for case in recognition.confusion.confused
+        ),
+        key=lambda row: (-row[3], row[0] != "class"),
+    )
+    rows = table("confused", "annotated", "said", ">pictures")
+    for key, true, said, count in found[:most]:
+        add_row(rows, key, true, said or "undecided", str(count))
+    if len(found) > most:
+        add_row(rows, f"{len(found) - most} more", "", "", f"at most {found[most][3]}")
+    if found:
+        output().print(rows)
+
+
+def print_axioms(result: Evaluation) -> None:
+    """Print how often each axiom applied and was right, on the annotated features."""
+    rows = table("axiom", ">decides", ">right")
+    for axiom in result.axioms:
+        add_row(rows, axiom.statement, str(axiom.decided), percent(axiom.accuracy))
+    output().print(rows)
+
+
+def print_curve(curve: LearningCurve) -> None:
+    """Print a learning curve as a table, and whether more labels would help."""
+    keys = list(curve.points[-1].feature_recognition)
+    rows = table(">trained on", ">class", ">95 % interval", *(f">{key}" for key in keys))
+    for point in curve.points:
+        share = point.class_recognition.confusion.share
+        low, high = share.interval
+        add_row(
+            rows,
+            f"{point.pictures:,}",
+            percent(share.value),
+            f"{percent(low)} to {percent(high)}",
+            *(
+                percent(recognition.confusion.share.value)
+                for recognition in point.feature_recognition.values()
+            ),
+        )
+    output().print(rows)
+    print_sentences("what the curve says", curve.sentences())
+
+
+def print_sentences(title: str, sentences: tuple[str, ...]) -> None:
+    """Print sentences under a title, if there are some."""
+    if sentences:
+        say(f"{title}:")
+    for sentence in sentences:
+        say(f"  - {sentence}")
