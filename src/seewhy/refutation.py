@@ -6,9 +6,8 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from scipy.stats import binom
-
 from seewhy.domain import Domain
+from seewhy.induction.binomial import at_least
 from seewhy.induction.sentence import things
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Literal
 from seewhy.knowledge.ground import key_of
@@ -88,7 +87,7 @@ def refuted(
         (axiom, Withdrawn(str(axiom), _reason(domain, *counted, first[axiom.identifier]), True))
         for axiom in concluding
         for counted in [(wrong[axiom.identifier], spoken[axiom.identifier])]
-        if counted[0] and binom.sf(counted[0] - 1, counted[1], expected) < BY_CHANCE
+        if counted[0] and at_least(counted[0], counted[1], expected) < BY_CHANCE
     ]
 
 

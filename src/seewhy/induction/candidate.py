@@ -8,8 +8,8 @@ from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import binom
 
+from seewhy.induction.binomial import at_least
 from seewhy.induction.scene_table import Rows, SceneTable
 from seewhy.induction.tree import PathCondition
 
@@ -155,7 +155,7 @@ def _beyond_errors(
     """Whether more of some scenes are annotated wrongly than errors of annotation explain."""
     if tolerance == 0.0:
         return np.asarray(wrong > 0)
-    return np.asarray(binom.sf(wrong - 1, scenes, tolerance) < _IMPLAUSIBLE)
+    return np.asarray(at_least(wrong, scenes, tolerance) < _IMPLAUSIBLE)
 
 
 @lru_cache(maxsize=256)
@@ -199,7 +199,7 @@ def chance(
     '0.0020'
     """
     share = table.of_class(candidate.label).sum() / max(1, table.totals.sum())
-    alone = float(binom.sf(found.right - 1, found.right + found.wrong, share))
+    alone = float(at_least(found.right, found.right + found.wrong, share))
     if not searched:
         return alone
     tried = float(np.prod([len(table.features[own.feature]) for own in candidate.conditions]))

@@ -9,8 +9,8 @@ from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import binom
 
+from seewhy.induction.binomial import at_least
 from seewhy.induction.candidate import (
     Candidate,
     Tally,
@@ -382,7 +382,7 @@ def _validated(
         right = after[row].label
         share = table.of_class(right)[row] / table.totals[row] if right else 0.0
         wrong += int(rng.random() >= share)
-    if wrong and binom.sf(wrong - 1, drawn, options.tolerance) < BY_CHANCE:
+    if wrong and at_least(wrong, drawn, options.tolerance) < BY_CHANCE:
         return _with(own, Fate.REJECTED, f"{wrong} of {drawn} scenes drawn are misclassified")
     for row, (first, then) in enumerate(zip(before, after, strict=True)):
         if first.label is not None and then.label != first.label:
