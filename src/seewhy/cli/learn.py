@@ -16,11 +16,9 @@ from seewhy.cli.screen import percent, print_json, remark, say
 from seewhy.errors import DatasetError, SeeWhyError
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
     from seewhy.data.dataset import Dataset
+    from seewhy.evaluation.held_back import Judged, JudgedLearning, Proposal
     from seewhy.knowledge.axiom import Axiom
-    from seewhy.knowledge.learned_file import Withdrawn
-    from seewhy.learning import Learning
 
 
 _MODEL_STAYS = "the model stays as it was"
@@ -70,7 +68,18 @@ def learn(
             "is usual may be otherwise (as the record suggests).",
         ),
     ] = None,
-    yes: Annotated[bool, typer.Option("--yes", help="Add all axioms found, do not ask.")] = False,
+    yes: Annotated[
+        bool,
+        typer.Option(
+            "--yes",
+            help="Do not ask: add all axioms found, but for those with which accuracy on the "
+            "pictures held back would fall.",
+        ),
+    ] = False,
+    even_if_worse: Annotated[
+        bool,
+        typer.Option("--even-if-worse", help="With --yes: add those, too."),
+    ] = False,
     picture: Annotated[
         Path | None,
         typer.Option(
@@ -84,8 +93,10 @@ def learn(
 ) -> None:
     """Learn axioms from annotated pictures (those with split = train, where there are splits).
 
-    What the pictures let pass is shown and asked about, then added to the model's knowledge. With
-    --json nothing is asked: it is added with --yes, and only shown without.
+    A fifth of the pictures is held back, by group, to judge what the others propose. What is
+    proposed is shown with what it does to accuracy on those, asked about, and added to the model's
+    knowledge. With --json nothing is asked: it is added with --yes; without, it is only shown and
+    the model stays as it was.
 
     With --runs, learn what is usually so from the record of a robot's earlier runs, and write it
     to --out, for 'seewhy plan --learned' and 'seewhy simulate --learned'.
@@ -104,38 +115,43 @@ def learn(
     if out is not None or without:
         given = "--out" if out is not None else "--without"
         raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the model")
+    if even_if_worse and not yes:
+        raise SeeWhyError("--even-if-worse goes with --yes; without it you are asked")
     from seewhy.agent import Agent
     from seewhy.cli.read_data import read_data
+    from seewhy.evaluation.held_back import learn_judged, not_worse
     from seewhy.induction.learning import DEFAULTS, LearningOptions
 
     agent = Agent.load(model)
-    dataset = _with_class(read_data(data, agent.given, outside=outside, evaluated=True))
-    before = _accuracy(agent, dataset)
-    learning = agent.learn(
-        dataset,
+    only_shown = json and not yes
+    asked = not json and not yes
+    accept = _ask_judged if asked else _anything if even_if_worse else not_worse
+    found = learn_judged(
+        agent,
+        _with_class(read_data(data, agent.given, outside=outside)),
         options=LearningOptions(
             support=DEFAULTS.support if support is None else support,
             tolerance=DEFAULTS.tolerance if tolerance is None else tolerance,
             seed=seed,
         ),
-        accept=None if yes else _none if json else _ask,
-        set_aside=None if yes else _none if json else _ask_aside,
+        accept=accept,
+        seed=seed,
         answers=agent.answerer is not None,
+        on_held_back=_remark_held_back,
     )
-    after = _accuracy(agent, dataset)
-    agent.save(model)
+    if not only_shown:
+        found.agent.save(model)
     if picture is not None:
         from seewhy.files import write_whole
         from seewhy.report.tree import draw_tree
 
+        learning = found.learning
         tree = draw_tree(agent.domain, learning.tree, accepted=learning.accepted_leaves)
         write_whole(picture, tree.svg)
     if json:
-        print_json({**learning_dict(agent, learning), "before": before, "after": after})
+        print_json(learning_dict(found, only_shown=only_shown))
         return
-    print_learning(agent, learning)
-    for name, share in before.items():
-        say(f"{name}: {percent(share)} before, {percent(after[name])} now")
+    print_learning(found)
 
 
 def _from_runs(
@@ -174,7 +190,7 @@ def _from_runs(
     )
 
 
-def _ask(axioms: Sequence[Axiom], *, else_: str = _MODEL_STAYS) -> list[Axiom]:
+def _ask(axioms: Sequence[Axiom], *, else_: str) -> list[Axiom]:
     chosen = []
     for axiom in axioms:
         say(f"{axiom.text}")
@@ -184,23 +200,57 @@ def _ask(axioms: Sequence[Axiom], *, else_: str = _MODEL_STAYS) -> list[Axiom]:
     return chosen
 
 
-def _ask_aside(refuted: Sequence[Withdrawn]) -> list[Withdrawn]:
-    chosen = []
-    for own in refuted:
-        say(f"given: {own.statement}")
-        say(f"  {own.reason}")
-        if _confirmed("set this axiom aside?"):
-            chosen.append(own)
-    return chosen
+def _ask_judged(proposal: Proposal) -> bool:
+    from seewhy.knowledge.learned_file import Withdrawn
+
+    proposed = proposal.proposed
+    if isinstance(proposed, Withdrawn):
+        say(f"given: {proposed.statement}")
+        say(f"  {proposed.reason}")
+    else:
+        say(f"{proposed.text}")
+        say(f"  {proposed}  learned from {rests(proposed)}")
+    for line in _judgement(proposal):
+        say(f"  {line}")
+    question = "set this axiom aside?" if isinstance(proposed, Withdrawn) else "add this axiom?"
+    return _confirmed(question, default=not proposal.falls)
 
 
-def _confirmed(question: str, *, else_: str = _MODEL_STAYS) -> bool:
+def _judgement(proposal: Proposal) -> list[str]:
+    """Say what a proposal does to the accuracy on the pictures held back."""
+    before, after = proposal.before, proposal.after
+    if before is None or after is None:
+        return []
+    shares = f"{percent(before.right.value)} before, {percent(after.right.value)} with this"
+    said = f"of {before.right.of} pictures held back, classified rightly: {shares}"
+    if not proposal.falls:
+        return [said]
+    points = 100 * (before.right.value - after.right.value)
+    pictures = "1 picture" if proposal.lost == 1 else f"{proposal.lost} pictures"
+    return [said, f"ACCURACY WOULD FALL by {points:.1f} points ({pictures})"]
+
+
+def _anything(_: Proposal) -> bool:
+    return True
+
+
+def _remark_held_back(held_back: int, pictures: int) -> None:
+    many = f"{pictures} pictures are" if pictures > 1 else "1 picture is"
+    remark(
+        f"{held_back} of {many} held back: nothing is learned from them, they judge what is "
+        "proposed"
+        if held_back
+        else f"{many} too few to hold some back: nothing judges what is proposed"
+    )
+
+
+def _confirmed(question: str, *, default: bool = True, else_: str = _MODEL_STAYS) -> bool:
     try:
-        return typer.confirm(f"  {question}", default=True)
+        return typer.confirm(f"  {question}", default=default)
     except typer.Abort:
         raise SeeWhyError(
-            f"no answer to '{question}', {else_}; answer y or n, or give --yes to agree to "
-            "everything"
+            f"no answer to '{question}', {else_}; answer y or n, or give --yes to agree without "
+            "being asked"
         ) from None
 
 
@@ -223,58 +273,83 @@ def _with_class(dataset: Dataset) -> Dataset:
     return found
 
 
-def _accuracy(agent: Agent, dataset: Dataset) -> dict[str, float]:
-    """How much of the annotated features is classified, and how much of the pictures to test on."""
-    scenes = dataset.of_split("test")
-    decisions = agent.reasoner.decide_all(scenes.vectors)
-    labels = [agent.decide(agent.domain.named(vector)) for vector in scenes.vectors]
-    by_knowledge = [
-        own.label == label for own, label in zip(decisions, scenes.classes, strict=True)
-    ]
-    found = agent.classify_all(scenes.pictures(agent.picture_size))
-    pairs = zip(found, scenes.classes, strict=True)
-    right = [own == label for own, label in zip(labels, scenes.classes, strict=True)]
-    count = max(1, len(scenes))
-    return {
-        "annotated features that the knowledge decides rightly": sum(by_knowledge) / count,
-        "annotated features classified rightly": sum(right) / count,
-        "pictures classified rightly": sum(own.label == label for own, label in pairs) / count,
-    }
+def learning_dict(found: JudgedLearning, *, only_shown: bool) -> dict[str, Any]:
+    """What was learned, as values that JSON can hold.
 
-
-def learning_dict(agent: Agent, learning: Learning) -> dict[str, Any]:
-    """What was learned, as values that JSON can hold."""
+    What is only shown is judged as if all were accepted that lowers no accuracy; nothing is.
+    """
     from seewhy.induction.sentence import say_rule
+    from seewhy.knowledge.learned_file import Withdrawn
 
+    agent, learning = found.agent, found.learning
     return {
-        "found": [str(own) for own in learning.found],
-        "added": [axiom_dict(own) for own in learning.added],
-        "withdrawn": [withdrawn_dict(agent, own) for own in learning.withdrawn],
+        "found": [str(axiom) for axiom in learning.found],
+        "added": [axiom_dict(axiom) for axiom in learning.added if not only_shown],
+        "withdrawn": [withdrawn_dict(agent, gone) for gone in learning.withdrawn if not only_shown],
         "candidates": [
             {
-                "text": say_rule(agent.domain, own.candidate.conditions, own.candidate.label),
-                "fate": own.fate.value,
-                "reason": own.reason,
-                "right": own.tally.right,
-                "wrong": own.tally.wrong,
-                "left_open": own.tally.left,
+                "text": say_rule(agent.domain, one.candidate.conditions, one.candidate.label),
+                "fate": one.fate.value,
+                "reason": one.reason,
+                "right": one.tally.right,
+                "wrong": one.tally.wrong,
+                "left_open": one.tally.left,
             }
-            for own in learning.judgements
+            for one in learning.judgements
         ],
+        "held_back": found.held_back,
+        "learned_from": found.learned_from,
+        "judged": [
+            {
+                "statement": proposal.statement,
+                "set_aside": isinstance(proposal.proposed, Withdrawn),
+                "falls": proposal.falls,
+                "accepted": accepted and not only_shown,
+                "before": _shares(proposal.before),
+                "after": _shares(proposal.after),
+            }
+            for proposal, accepted in found.judged
+        ],
+        "before": _shares(found.before),
+        "after": _shares(found.after),
     }
 
 
-def print_learning(agent: Agent, learning: Learning) -> None:
-    """Print every candidate with its verdict, and what was added and withdrawn."""
+_RIGHT = "annotated features classified rightly"
+_BY_KNOWLEDGE = "annotated features that the knowledge decides rightly"
+
+
+def _shares(judged: Judged | None) -> dict[str, float] | None:
+    if judged is None:
+        return None
+    return {_BY_KNOWLEDGE: judged.by_knowledge.value, _RIGHT: judged.right.value}
+
+
+def print_learning(found: JudgedLearning) -> None:
+    """Print every candidate with its verdict, what was added and withdrawn, and what it did."""
     from seewhy.induction.sentence import say_rule, things
 
-    for own in learning.judgements:
-        text = say_rule(agent.domain, own.candidate.conditions, own.candidate.label)
-        why = f": {own.reason}" if own.reason else ""
-        say(f"{own.fate.value}: {text} ({own.tally.right} {things(agent.domain)} for it{why})")
+    agent, learning = found.agent, found.learning
+    for one in learning.judgements:
+        text = say_rule(agent.domain, one.candidate.conditions, one.candidate.label)
+        why = f": {one.reason}" if one.reason else ""
+        say(f"{one.fate.value}: {text} ({one.tally.right} {things(agent.domain)} for it{why})")
     for gone in learning.withdrawn:
         say(withdrawn_line(agent, gone))
     if not learning.found:
         say("no axiom is to be learned from these pictures")
     for axiom in learning.added:
         say(f"added {axiom.identifier}: {axiom}  ({rests(axiom)})")
+    for proposal, accepted in found.judged:
+        if proposal.falls:
+            fate = "accepted all the same" if accepted else "not accepted"
+            say(f"{fate}: {proposal.statement}")
+            for line in _judgement(proposal):
+                say(f"  {line}")
+    before, after = _shares(found.before), _shares(found.after)
+    for name in before or {}:
+        if before is not None and after is not None:
+            say(
+                f"{name}, of {found.held_back} held back: {percent(before[name])} before, "
+                f"{percent(after[name])} now"
+            )

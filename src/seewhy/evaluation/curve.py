@@ -5,13 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seewhy.errors import DatasetError, ModelError
 from seewhy.evaluation.judging import classified
+from seewhy.evaluation.other_knowledge import with_axioms
 from seewhy.evaluation.recognition import (
     Recognition,
     recognition_of_class,
@@ -138,8 +139,8 @@ def learning_curve(
     Parameters
     ----------
     agent : Agent
-        Whose domain, seed, reading, gate and share of known pictures the models have; its
-        networks are not used.
+        Whose given domain and options the models have; its networks and what it learned are not
+        used.
     dataset : Dataset
         With the splits "train" and "test".
     folder : Path or str
@@ -202,14 +203,7 @@ def _trained(
         return Agent.load(place)
     except ModelError:
         pass  # not trained yet, or not by this version
-    model = Agent(
-        like.given,
-        minimality=like.minimality,
-        seed=like.seed,
-        reading=like.reading,
-        gate=like.gate,
-        known_share=like.known_share,
-    )
+    model = with_axioms(like, (), ())
     checkpoints = folder / f"{place.name}.training"
     # Answers would be learned as well, but nobody asks questions here.
     model.fit(part, answers=False, checkpoints=checkpoints, on_progress=on_progress)
@@ -224,12 +218,11 @@ def _identity(like: Agent, part: Dataset) -> str:
 
     rows = zip(part.picture_digests(), part.vectors, part.labels, part.groups, strict=True)
     texts = [(like.given.folder / name).read_text(encoding="utf-8") for name in FILES]
-    options: Sequence[object] = (
-        like.minimality,
-        like.seed,
-        like.reading,
-        like.gate,
-        like.known_share,
-    )
-    said = json.dumps([list(rows), texts, options])
+    # Whatever options an agent has; where it computes is none that its models depend on.
+    options = {
+        name: value
+        for name, value in vars(like).items()
+        if name != "device" and isinstance(value, str | int | float | None)
+    }
+    said = json.dumps([list(rows), texts, options], sort_keys=True)
     return hashlib.sha256(said.encode()).hexdigest()[:12]
