@@ -263,19 +263,19 @@ def test_forms_without_reasons(structures: Domain, kind: AnswerType, text: str) 
             'yes = "yes, {reason}"',
             "2: the answer 'yes' uses a slot that does not exist; there are {it}, {reasons}, "
             "{changes}, {asked}, {class}, {explanation}, {scene}, {required}, {belief}, {name}, "
-            "{value}",
+            "{value}, {probably}",
         ),
         (
             'yes = "yes, {it.name}"',
             "2: the answer 'yes' uses a slot that does not exist; there are {it}, {reasons}, "
             "{changes}, {asked}, {class}, {explanation}, {scene}, {required}, {belief}, {name}, "
-            "{value}",
+            "{value}, {probably}",
         ),
         (
             'yes = "yes, {"',
             "2: the answer 'yes' uses a slot that does not exist; there are {it}, {reasons}, "
             "{changes}, {asked}, {class}, {explanation}, {scene}, {required}, {belief}, {name}, "
-            "{value}",
+            "{value}, {probably}",
         ),
     ],
 )

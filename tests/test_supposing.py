@@ -138,11 +138,11 @@ def doubted(agent: Agent) -> Classification:
             "the structure stable, give it a wide base and straighten it.",
         ),
         # What presumes nothing is answered as it is seen.
-        ("is it unstable?", "No, the structure is stable."),
+        ("is it unstable?", "Probably not: it seems that the structure is stable."),
         (
             "why is it stable?",
-            "The structure has two blocks and a wide base, it is standing straight, and no block "
-            "is displaced.",
+            "Probably because the structure has two blocks and a wide base, it is standing "
+            "straight, and no block is displaced.",
         ),
         ("does it lean?", "No, the structure is standing straight."),
     ],
@@ -172,8 +172,8 @@ def test_what_cannot_be_is_denied(reasoning: Agent) -> None:
     scene = replace(doubted(reasoning), otherwise=())
     reply = reasoning.answer(scene, reasoning.questions.understand("why is it unstable?"))
     assert reply.text == (
-        "The structure is not unstable: it is stable, since it has two blocks and a wide base, it "
-        "is standing straight, and no block is displaced."
+        "The structure is probably not unstable but stable, since it has two blocks and a wide "
+        "base, it is standing straight, and no block is displaced."
     )
 
 

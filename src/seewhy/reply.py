@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from seewhy.dialogue.answer import AnswerType
+from seewhy.dialogue.certainty import Certainty, Ground, certainty_of, says_nothing_seen
 from seewhy.dialogue.question import Question
 from seewhy.knowledge.justification import Node
 from seewhy.knowledge.scene import FeatureVector
@@ -118,6 +119,8 @@ class Reply:
     supposed : Classification or None
         What the answer supposes the picture to be, where that is not what it is taken to be but
         what the question presumes.
+    least_sure : Ground or None
+        The least sure of what the answer rests on; None where that is nothing uncertain.
     """
 
     question: Question
@@ -127,11 +130,17 @@ class Reply:
     kind: AnswerType
     classification: Classification = field(repr=False)
     supposed: Classification | None = field(default=None, repr=False)
+    least_sure: Ground | None = field(default=None, repr=False)
 
     @property
     def label(self) -> str | None:
         """The picture's class."""
         return self.classification.label
+
+    @property
+    def certainty(self) -> Certainty | None:
+        """How surely the answer is said; None where it says nothing that is seen."""
+        return None if says_nothing_seen(self.kind) else certainty_of(self.least_sure)
 
     @property
     def scene(self) -> Classification:
@@ -163,6 +172,8 @@ class Reply:
                 "class": self.supposed.label,
                 "probability": _rounded(self.supposed.probability),
             },
+            "certainty": None if self.certainty is None else self.certainty.value,
+            "least_sure": None if self.least_sure is None else self.least_sure.to_dict(),
             "verdict": self.scene.verdict,
             "features": {
                 name: {

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from seewhy.dialogue.certainty import Certainty, Ground
 from seewhy.dialogue.question import Asks
+from seewhy.domain_tables import CLASS
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import TreePath
 from seewhy.knowledge.axiom import Axiom
@@ -93,6 +95,7 @@ class Trace:
         """Return the trace as values that JSON can hold."""
         scene, concluded, path = self.scene, self.concluded, self.path
         why = concluded.justification
+        told = {} if self.reply is None else self.reply.to_dict()
         return {
             "asked": self.asked,
             "text": None if self.reply is None else self.reply.text,
@@ -141,7 +144,7 @@ class Trace:
             else {
                 "found_by": found_by(self.reply),
                 "type": self.reply.kind.identifier,
-                "supposed": self.reply.to_dict()["supposed"],
+                **{key: told[key] for key in ("supposed", "certainty", "least_sure")},
                 "justification": self.reply.justification.to_dict(),
             },
         }
@@ -214,6 +217,8 @@ class Trace:
                 f"(p = {own.probability or 0.0:.2f}), with "
                 f"{join_words(others) if others else 'the same features'}"
             )
+        if reply.least_sure is not None and reply.certainty not in (None, Certainty.SURE):
+            yield _say_least_sure(self.domain, reply.least_sure)
         yield f"found by {found_by(reply)}"
         if reply.justification == self.concluded.justification:
             yield "because of what the knowledge concludes above"
@@ -323,6 +328,14 @@ def _arguments(reply: Reply) -> dict[str, str]:
         "class": own.label, "feature": own.feature, "value": own.value, "static": own.predicate,
     }  # fmt: skip
     return {name: value for name, value in named.items() if value is not None}
+
+
+def _say_least_sure(domain: Domain, least: Ground) -> str:
+    if least.feature == CLASS:
+        what = f"the class: {domain.classes[least.value].say}"
+    else:
+        what = f"{domain.features[least.feature].name}: {least.value.replace('_', ' ')}"
+    return f"not sure; the least sure that it rests on is {what} (p = {least.probability:.2f})"
 
 
 def _reading(own: FeatureReading) -> dict[str, Any]:

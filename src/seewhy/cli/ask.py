@@ -45,6 +45,8 @@ def ask(
 
 def print_reply(reply: Reply) -> None:
     """Print an answer, what was seen, and the justification."""
+    from seewhy.dialogue.certainty import Certainty
+
     say(reply.text)
     say()
     seen = [f"{name} {own.value} ({own.probability:.2f})" for name, own in reply.features.items()]
@@ -68,6 +70,9 @@ def print_reply(reply: Reply) -> None:
             f"supposed: {_class(reply.supposed)}, as asked, instead of "
             f"{_class(reply.classification)}"
         )
+    if reply.certainty not in (None, Certainty.SURE) and reply.least_sure is not None:
+        least = reply.least_sure
+        say(f"not sure: {least.feature} {least.value} ({least.probability:.2f})")
     say(f"by: {reply.method}")
     say("because:")
     for line in reply.justification.to_text().splitlines():

@@ -23,7 +23,7 @@ Changes = tuple[tuple[str, str], ...]
 """What would have to change: (feature, new value) pairs."""
 SLOTS = (
     "it", "reasons", "changes", "asked", "class", "explanation", "scene", "required", "belief",
-    "name", "value",
+    "name", "value", "probably",
 )  # fmt: skip
 """What the wording of an answer may speak of; see answers.toml."""
 _MOST_CLASSES_NAMED = 4
@@ -89,8 +89,11 @@ def word_answer(
     *,
     vector: FeatureVector,
     label: str | None,
+    probably: str = "",
 ) -> str:
     """Return an answer as a sentence: the type's template with the picture's values filled in.
+
+    ``probably`` is the word that says that it is not sure; empty where it is.
 
     Examples
     --------
@@ -101,18 +104,19 @@ def word_answer(
     >>> word_answer(domain, question, AnswerType("reasons", ("base",)),
     ...             vector=("2", "wide", "no", "no"), label="stable")
     'The structure has a wide base.'
+    >>> word_answer(domain, question, AnswerType("reasons", ("base",)), probably="perhaps",
+    ...             vector=("2", "wide", "no", "no"), label="stable")
+    'Perhaps because the structure has a wide base.'
     """
-    templates = answer_templates(domain)
     form = kind.form
+    if not any(domain.named(vector)[feature] for feature in kind.mentions):
+        form = _WITHOUT_REASONS.get(form, form)
+    template = _template(domain, form, unsure=bool(probably))
     # "The structure is stable, since it has …": the subject is named once.
-    subject = "it" if "{it}" in templates[form] else None
+    subject = "it" if "{it}" in template else None
     asked = _say_asked(domain, question)
     reasons = say_features(domain, vector, kind.mentions, subject=subject)
-    if not reasons and f"{form}_bare" in templates:
-        form = f"{form}_bare"
-    elif not reasons and form == "reasons":
-        form = "no_reasons"
-    said = templates[form].format(
+    said = template.format(
         it=domain.subject,
         reasons=reasons,
         changes=_say_changes(domain, kind.changes),
@@ -122,11 +126,30 @@ def word_answer(
         scene=domain.scene.replace("_", " "),
         # "A stop sign is octagonal; the sign is …" or "It is a stop sign when it is octagonal …".
         required=_say_required(
-            domain, kind.changes, subject="it" if "{asked}" in templates[form] else asked
+            domain, kind.changes, subject="it" if "{asked}" in template else asked
         ),
+        probably=probably,
         **_say_belief(domain, question, kind),
     )
-    return sentence(said)
+    return sentence(" ".join(said.split()))
+
+
+_WITHOUT_REASONS = {
+    "reasons": "no_reasons",
+    **{form: f"{form}_bare" for form in ("false_premise", "denied_not", "against", "difference")},
+}
+"""Forms that tell reasons, and what is said where there is none to tell."""
+
+
+def _template(domain: Domain, form: str, *, unsure: bool) -> str:
+    """The wording of a form; one that a domain words for itself is made unsure by a first word."""
+    templates, reworded = answer_templates(domain), domain.questions.answers
+    if not unsure:
+        return templates[form]
+    if form in reworded and f"{form}_unsure" not in reworded:
+        own = reworded[form]
+        return own if "{probably}" in own else f"{{probably}}, {own}"
+    return templates[f"{form}_unsure"]
 
 
 def word_supposed(

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from seewhy.dialogue.answer import AnswerType, word_answer, word_supposed
+from seewhy.dialogue.certainty import certainty_of, least_sure, least_sure_told
 from seewhy.dialogue.narration import narrate
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
@@ -64,15 +65,21 @@ class Answering:
         spoken_of = self._spoken_of(scene, question)
         kind, justification = self._answer(spoken_of, question)
         justification = spoken_of.read_in(justification)
+        supposed = None if spoken_of is scene else spoken_of
+        ground = least_sure(kind, spoken_of, justification, supposed=supposed is not None)
         text = word_answer(
-            self.domain, question, kind, vector=spoken_of.vector, label=spoken_of.label
+            self.domain,
+            question,
+            kind,
+            vector=spoken_of.vector,
+            label=spoken_of.label,
+            probably=certainty_of(ground).adverb,
         )
-        if spoken_of is scene:
-            return Reply(question, text, scene.method, justification, kind, scene)
-        text = word_supposed(
-            self.domain, question, text, label=scene.label or "", supposed=spoken_of.label or ""
-        )
-        return Reply(question, text, spoken_of.method, justification, kind, scene, spoken_of)
+        if supposed is not None:
+            text = word_supposed(
+                self.domain, question, text, label=scene.label or "", supposed=supposed.label or ""
+            )
+        return Reply(question, text, spoken_of.method, justification, kind, scene, supposed, ground)
 
     def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
         """Answer many questions about classified scenes; the recurrent network runs once for all.
@@ -209,6 +216,7 @@ class Answering:
             AnswerType("explain", previous.kind.mentions, previous.kind.changes),
             previous.classification,
             previous.supposed,
+            least_sure_told(previous.least_sure, previous.scene, previous.justification),
         )
 
 

@@ -2,8 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 from seewhy.dialogue.answer import SLOTS, answer_templates
+from seewhy.dialogue.certainty import (
+    Certainty,
+    Ground,
+    certainty_of,
+    least_sure_told,
+    weakest,
+)
 from seewhy.domain import Domain
+from seewhy.domain_tables import CLASS
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.reply import Reply
@@ -26,8 +37,10 @@ def narrate(domain: Domain, reply: Reply) -> str:
     if seen:
         sure = [reply.features[feature].probability for feature in features]
         each = "each with a probability of at least" if len(sure) > 1 else "with a probability of"
-        parts.append(f"I see that {seen} ({each} {min(sure):.2f})")
-    parts += _steps(justification)
+        adverb = certainty_of(least_sure_told(None, reply.scene, justification)).adverb
+        begun = f"{adverb} {seen}" if adverb else f"I see that {seen}"
+        parts.append(f"{begun} ({each} {min(sure):.2f})")
+    parts += _steps(justification, _Said(justification, _class_ground(reply)))
     if reply.kind.form == "no_belief":
         parts.append(justification.text)
     if reply.kind.form == "undecided":
@@ -38,7 +51,41 @@ def narrate(domain: Domain, reply: Reply) -> str:
     )
 
 
-def _steps(node: Node) -> list[str]:
+def _class_ground(reply: Reply) -> Ground | None:
+    """How probable the class is, where it is not supposed."""
+    scene = reply.scene
+    if scene.label is None or scene.probability is None or reply.supposed is not None:
+        return None
+    return Ground(CLASS, scene.label, scene.probability)
+
+
+@dataclass(frozen=True)
+class _Said:
+    """How surely each step of a justification may be said.
+
+    Each is no surer than what it needs, and what the whole comes to no surer than the class.
+    """
+
+    whole: Node
+    known: Ground | None
+
+    def clause(self, node: Node) -> str:
+        """The clause of a belief, with the word that says that it is not sure."""
+        grounds = [weakest(node), self.known if node.literal == self.whole.literal else None]
+        found = {certainty_of(ground) for ground in grounds}
+        worst = max(found, key=list(Certainty).index)
+        return f"{worst.adverb} {node.text}".strip()
+
+    def missing(self, nodes: Sequence[Node]) -> str:
+        """The word in front of what follows from conditions that all fail; one is enough."""
+        best = max(nodes, key=lambda node: 1.0 if node.probability is None else node.probability)
+        if best.probability is None:
+            return ""
+        adverb = certainty_of(Ground("", "", best.probability)).adverb
+        return f"{adverb} " if adverb else ""
+
+
+def _steps(node: Node, said: _Said) -> list[str]:
     tree = next((own for own in node.walk() if own.basis is Basis.TREE), None)
     if tree is not None:
         path, *learned, undecided = tree.children
@@ -46,27 +93,32 @@ def _steps(node: Node) -> list[str]:
             _why_undecided(undecided),
             f"so the decision tree is asked: {path.text}",
             *(own.text for own in learned),
-            *_axioms(node),
+            *_axioms(node, said),
         ]
     if node.literal in ("undecided", "unknown") or node.basis is Basis.CONFLICT:
         return [_why_undecided(node)]
-    steps = _axioms(node)
+    steps = _axioms(node, said)
     refused = [n for n in node.children if not n.holds and n.axiom is not None]
     for child in refused[:3]:
         assert child.axiom is not None
-        missing = [c.text for c in child.children if not c.holds]
+        missing = [condition for condition in child.children if not condition.holds]
         if missing:
+            why = join_words([condition.text for condition in missing])
             steps.append(
-                f'the axiom "{child.axiom.text}" does not apply, since {join_words(missing)}'
+                f'{said.missing(missing)}the axiom "{child.axiom.text}" does not apply, since {why}'
             )
     return list(dict.fromkeys(steps))
 
 
-def _axioms(node: Node) -> list[str]:
+def _axioms(node: Node, said: _Said) -> list[str]:
     """The axioms that were used, what others rest on first; those of a tree's path are its own."""
-    steps = [] if node.basis is Basis.TREE else [s for c in node.children for s in _axioms(c)]
+    steps = (
+        []
+        if node.basis is Basis.TREE
+        else [step for child in node.children for step in _axioms(child, said)]
+    )
     if node.holds and node.axiom is not None and _says_more(node.axiom):
-        steps.append(f'{node.text}, because "{node.axiom.text}"')
+        steps.append(f'{said.clause(node)}, because "{node.axiom.text}"')
     return list(dict.fromkeys(steps))
 
 
