@@ -133,9 +133,14 @@ def test_which_feature_holds_the_class_back() -> None:
         "'shape' holds the class back most: 7 of 20 wrong classes would be right if only it were "
         "read rightly (and 1 right would be wrong); 3 for 'colour'.",
         "4 of 20 wrong classes are of pictures that the model says it does not know.",
-        "5 of 20 wrong classes would stay wrong with every annotated feature read rightly: there "
+        "5 of 20 wrong classes would stay wrong with every annotated feature read rightly. There "
         "the knowledge, the tree or the annotation is at fault, not what is seen; 'seewhy learn' "
         "looks for axioms that are missing.",
+    )
+    assert advice(replace(found, determined=0.995))[-1] == (
+        "5 of 20 wrong classes would stay wrong with every annotated feature read rightly. There "
+        "the features do not tell: pictures that are annotated alike have several classes, which "
+        "one more feature or better annotation would have to tell apart."
     )
 
 

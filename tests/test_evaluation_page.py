@@ -140,11 +140,20 @@ def test_evaluate_writes_a_page(
     assert f"<code>seewhy evaluate {model_folder} --data" in text
     lines = shown.out.splitlines()
     assert " ".join(lines[1].split()) == (
-        "recognised right 95 % interval majority balanced pictures said calibration error"
+        "recognised right 95 % interval majority balanced pictures"
     )
-    assert " ".join(lines[2].split()).startswith(
-        "classification 95.0 % 76.4 % to 99.1 % 60.0 % 93.8 % 20 "
-    )
+    assert " ".join(lines[2].split()) == ("classification 95.0 % 76.4 to 99.1 % 60.0 % 93.8 % 20")
+    assert lines[5].split() == [
+        "how",
+        "sure",
+        "said",
+        "on",
+        "average",
+        "right",
+        "calibration",
+        "error",
+    ]
+    assert lines[6].split()[-5:-2] == ["%", "95.0", "%"]
     assert "what the figures say:" in lines
     assert any(line.split()[:4] == ["class", "bad", "good", "1"] for line in lines)
 

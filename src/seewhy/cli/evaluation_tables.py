@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 from seewhy.cli.screen import add_row, output, percent, say, table
 
 if TYPE_CHECKING:
-    from seewhy.evaluation import Evaluation, Recognition
+    from seewhy.evaluation import Evaluation
     from seewhy.evaluation.curve import LearningCurve
+    from seewhy.evaluation.share import Share
 
 MOST = 12
 """So many rows of classes, values and confusions are printed."""
@@ -40,33 +41,49 @@ def print_evaluation(result: Evaluation) -> None:
 
 
 def print_recognised(result: Evaluation) -> None:
-    """Print accuracies beside the majority's, balanced, with their intervals and calibration."""
-    rows = table(
-        "recognised", ">right", ">95 % interval", ">majority", ">balanced", ">pictures", ">said",
-        ">calibration error",
-    )  # fmt: skip
+    """Print accuracies beside the majority's, balanced, with their intervals; and calibration."""
     recognitions = {"classification": result.class_recognition}
     recognitions |= {
         f"feature {key}": recognition for key, recognition in result.feature_recognition.items()
     }
+    rows = table("recognised", ">right", ">95 % interval", ">majority", ">balanced", ">pictures")
     for name, recognition in recognitions.items():
-        add_row(rows, name, *_figures(recognition))
+        confusion = recognition.confusion
+        add_row(
+            rows,
+            name,
+            percent(confusion.share.value),
+            interval(confusion.share),
+            percent(confusion.majority_share.value),
+            percent(confusion.balanced_accuracy),
+            str(confusion.share.of),
+        )
+    output().print(rows)
+    rows = table("how sure", ">said on average", ">right", ">calibration error")
+    for name, recognition in recognitions.items():
+        calibration = recognition.calibration
+        if calibration.share.of:
+            add_row(
+                rows,
+                name,
+                percent(calibration.said),
+                percent(calibration.share.value),
+                percent(calibration.error),
+            )
     output().print(rows)
 
 
-def _figures(recognition: Recognition) -> list[str]:
-    confusion, calibration = recognition.confusion, recognition.calibration
-    low, high = confusion.share.interval
-    judged = bool(calibration.share.of)
-    return [
-        percent(confusion.share.value),
-        f"{percent(low)} to {percent(high)}",
-        percent(confusion.majority_share.value),
-        percent(confusion.balanced_accuracy),
-        str(confusion.share.of),
-        percent(calibration.said) if judged else "",
-        percent(calibration.error) if judged else "",
-    ]
+def interval(share: Share) -> str:
+    """The ends of the interval of a share, as short as may be.
+
+    Examples
+    --------
+    >>> from seewhy.evaluation.share import Share
+    >>> interval(Share(18, 20))
+    '69.9 to 97.2 %'
+    """
+    low, high = share.interval
+    return f"{100 * low:.1f} to {100 * high:.1f} %"
 
 
 def print_classes(result: Evaluation, *, most: int = MOST) -> None:
@@ -137,12 +154,11 @@ def print_curve(curve: LearningCurve) -> None:
     rows = table(">trained on", ">class", ">95 % interval", *(f">{key}" for key in keys))
     for point in curve.points:
         share = point.class_recognition.confusion.share
-        low, high = share.interval
         add_row(
             rows,
             f"{point.pictures:,}",
             percent(share.value),
-            f"{percent(low)} to {percent(high)}",
+            interval(share),
             *(
                 percent(recognition.confusion.share.value)
                 for recognition in point.feature_recognition.values()

@@ -134,11 +134,19 @@ def _held_back(evaluation: Evaluation) -> Iterator[str]:
             "it does not know."
         )
     rest = found.wrong - found.not_known - found.mended_by_all
+    # Of scenes that are annotated alike and have several classes, all but one class are wrong.
+    left_open = round((1.0 - evaluation.determined) * evaluation.scenes)
     if rest:
+        fault = (
+            "the features do not tell: pictures that are annotated alike have several classes, "
+            "which one more feature or better annotation would have to tell apart"
+            if rest <= left_open
+            else "the knowledge, the tree or the annotation is at fault, not what is seen; "
+            "'seewhy learn' looks for axioms that are missing"
+        )
         yield (
             f"{rest} of {found.wrong} wrong classes would stay wrong with every annotated feature "
-            "read rightly: there the knowledge, the tree or the annotation is at fault, not what "
-            "is seen; 'seewhy learn' looks for axioms that are missing."
+            f"read rightly. There {fault}."
         )
 
 

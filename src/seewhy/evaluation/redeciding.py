@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from seewhy.knowledge.scene import FeatureVector
     from seewhy.reply import Classification
 
+_BATCH = 16
+"""Most features matter to some of so many feature vectors: then no more are looked at."""
+
 __all__ = ["Redecided", "classes_of", "depended_on", "redecided"]
 
 
@@ -99,21 +102,21 @@ def redecided(agent: Agent, dataset: Dataset, found: Sequence[Classification]) -
 def depended_on(agent: Agent, vectors: Sequence[FeatureVector]) -> dict[str, bool]:
     """Feature → whether another value of it would change the class of some of these vectors."""
     distinct = list(dict.fromkeys(vectors))
-    variants = {
-        key: [
-            (vector, _with(vector, position, value))
-            for vector in distinct
-            for value in feature.values
-        ]
+    return {
+        key: any(
+            _matters(agent, distinct[start : start + _BATCH], position, feature.values)
+            for start in range(0, len(distinct), _BATCH)
+        )
         for position, (key, feature) in enumerate(agent.domain.features.items())
     }
-    classes = classes_of(
-        agent, [vector for pairs in variants.values() for pair in pairs for vector in pair]
-    )
-    return {
-        key: any(classes[vector] != classes[other] for vector, other in pairs)
-        for key, pairs in variants.items()
-    }
+
+
+def _matters(
+    agent: Agent, vectors: Sequence[FeatureVector], position: int, values: Sequence[str]
+) -> bool:
+    pairs = [(vector, _with(vector, position, value)) for vector in vectors for value in values]
+    classes = classes_of(agent, [vector for pair in pairs for vector in pair])
+    return any(classes[vector] != classes[other] for vector, other in pairs)
 
 
 def _corrected(seen: FeatureVector, true: FeatureVector) -> FeatureVector:
