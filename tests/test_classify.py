@@ -87,6 +87,8 @@ def test_a_folder_becomes_a_table(run: Run, model_folder: Path, photos: Path) ->
         "  photos/b.png is damaged or cut short (…): copy the picture again from its source\n"
     )
     text = re.sub(r"\b[01]\.\d+", "#", Path("table.csv").read_text())
+    # How sure the networks are is not settled here.
+    text = re.sub("(Probably|Perhaps) because the", "The", text)
     assert re.sub(r"\(.*\): .*", "(…)", text) == GOLDEN
     assert not Path("table.csv.part").exists()
 
@@ -182,7 +184,7 @@ def test_reasons_where_nothing_answers(
 
 def test_pictures_that_are_not_known(model_folder: Path, photos: Path) -> None:
     agent = Agent.load(model_folder, known_share=0.9)
-    agent.validation_scores = {"argmax": [1000.0] * 50}
+    agent.validation_scores = {agent.reading: [1000.0] * 50}
     ((found,),) = classify_pictures(agent, [photos / "a.png"])
     assert found.reasons == "I don't know: the picture shows no tile that I know."
     assert found.classification is not None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
@@ -26,9 +26,6 @@ __all__ = ["BATCH", "ClassifiedPicture", "classify_pictures"]
 
 BATCH = 128
 """Pictures that are seen at a time; as many are read meanwhile."""
-
-_REMEMBERED = 20_000
-"""Distinct scenes whose reasons are kept."""
 
 
 @dataclass(frozen=True)
@@ -89,19 +86,18 @@ def classify_pictures(
     ' is not a picture of a known type: save it as PNG or JPEG'
     """
     look = partial(_look, size=agent.picture_size, fit=agent.domain.pictures.fit)
-    why = _Reasons(agent)
+    say_why = _why(agent)
     looked = read_ahead(look, map(Path, pictures), ahead=batch)
     while some := list(islice(looked, batch)):
         pixels = [own for _, own in some if not isinstance(own, PictureError)]
-        scenes = iter(agent.classify_all(np.stack(pixels)) if pixels else ())
-        found = []
-        for picture, own in some:
-            if isinstance(own, PictureError):
-                found.append(ClassifiedPicture(picture, None, problem=str(own)))
-            else:
-                scene = next(scenes)
-                found.append(ClassifiedPicture(picture, scene, why(scene)))
-        yield found
+        scenes = agent.classify_all(np.stack(pixels)) if pixels else []
+        explained = zip(scenes, say_why(scenes), strict=True)
+        yield [
+            ClassifiedPicture(picture, None, problem=str(own))
+            if isinstance(own, PictureError)
+            else ClassifiedPicture(picture, *next(explained))
+            for picture, own in some
+        ]
 
 
 def _look(picture: Path, *, size: int, fit: Fit) -> tuple[Path, Picture | PictureError]:
@@ -112,30 +108,29 @@ def _look(picture: Path, *, size: int, fit: Fit) -> tuple[Path, Picture | Pictur
         return picture, problem
 
 
-class _Reasons:
-    """Says why scenes are of their class; of scenes that are alike it is found out once."""
+def _why(agent: Agent) -> Callable[[Sequence[Classification]], list[str]]:
+    """A function that says why scenes are of their class."""
+    questions = {
+        question.label: question
+        for question in agent.questions.one_of_each()
+        if question.asks is Asks.WHY_CLASS
+    }
 
-    def __init__(self, agent: Agent) -> None:
-        self._agent = agent
-        self._questions = {
-            question.label: question
-            for question in agent.questions.one_of_each()
-            if question.asks is Asks.WHY_CLASS
-        }
-        self._said: dict[tuple[object, ...], str] = {}
-
-    def __call__(self, scene: Classification) -> str:
-        alike = (scene.vector, scene.label, scene.method, scene.verdict)
-        if alike not in self._said:
-            if len(self._said) >= _REMEMBERED:
-                self._said.clear()
-            self._said[alike] = self._why(scene)
-        return self._said[alike]
-
-    def _why(self, scene: Classification) -> str:
-        asked = self._questions.get(scene.label)
-        if scene.method == "tree" and (asked is None or self._agent.answerer is None):
+    def question_about(scene: Classification) -> Question | None:
+        asked = questions.get(scene.label)
+        if scene.method == "tree" and (asked is None or agent.answerer is None):
             # Without the recurrent network, or words to ask it with, the tree speaks for itself.
-            return sentence(say_path(self._agent.domain, self._agent.tree.path(scene.vector)))
-        question = asked or Question(Asks.WHY_CLASS, text="", words=(), label=scene.label)
-        return self._agent.answer(scene, question).text
+            return None
+        return asked or Question(Asks.WHY_CLASS, text="", words=(), label=scene.label)
+
+    def say(scenes: Sequence[Classification]) -> list[str]:
+        asked = [(scene, question_about(scene)) for scene in scenes]
+        replies = iter(agent.answer_all([(scene, own) for scene, own in asked if own is not None]))
+        return [
+            next(replies).text
+            if question is not None
+            else sentence(say_path(agent.domain, agent.tree.path(scene.vector)))
+            for scene, question in asked
+        ]
+
+    return say
