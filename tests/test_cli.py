@@ -102,6 +102,51 @@ def test_what_is_not_needed_is_not_imported(code: str) -> None:
     assert found.stdout.splitlines()[-1] == "heavy: []"
 
 
+NOT_FOR_ANSWERS = (
+    *("scipy", "sklearn", "skops", "joblib", "loky", "pandas", "pyarrow", "openpyxl"),
+    *("mujoco", "gymnasium", "jinja2", "matplotlib", "torchvision", "yaml", "defusedxml"),
+)
+
+
+@pytest.mark.parametrize(
+    ("colour", "command", "said"),
+    [
+        ("blue", ["ask", "{model}", "{image}", "why is it bad?"], "by: knowledge"),
+        ("green", ["ask", "{model}", "{image}", "why is it bad?", "--json"], '"method": "tree"'),
+        ("blue", ["classify", "{model}", "{image}", "--out", "{out}"], "1 pictures: bad 1"),
+    ],
+)
+def test_an_answer_imports_what_it_needs(
+    model_folder: Path, tmp_path: Path, colour: str, command: list[str], said: str
+) -> None:
+    """Every answer pays for what the program imports, often more than for the answer."""
+    image = tmp_path / "tile.png"
+    draw_tile(colour, "no", 1).save(image)
+    places = {"model": model_folder, "image": image, "out": tmp_path / "table.csv"}
+    typed = ["seewhy", *(word.format(**places) for word in command)]
+    code = (
+        f"import sys; sys.argv = {typed!r}\n"
+        "from seewhy.cli.main import main\n"
+        "try: main()\nexcept SystemExit: pass\n"
+        f"print('needless:', [m for m in {NOT_FOR_ANSWERS} if m in sys.modules])"
+    )
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert said in found.stdout
+    assert found.stdout.splitlines()[-1] == "needless: []"
+
+
+def test_no_garbage_is_looked_for_at_exit() -> None:
+    """With PyTorch loaded, that takes a fifth of the whole time of an answer."""
+    code = (
+        "import atexit, gc, sys; sys.argv = ['seewhy', '--help']\n"
+        "atexit.register(lambda: print('frozen:', gc.get_freeze_count() > 0))\n"
+        "from seewhy.cli.main import main\n"
+        "main()"
+    )
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.splitlines()[-1] == "frozen: True"
+
+
 PROGRAM = [str(Path(sys.executable).with_name("seewhy"))]
 MODULE = [sys.executable, "-m", "seewhy.cli.main"]
 

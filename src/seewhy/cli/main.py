@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import io
 import os
 import sys
@@ -63,6 +65,9 @@ def main() -> None:
     """Run a command; errors that are the user's to mend end with one sentence and code 2."""
     from seewhy.errors import SeeWhyError
 
+    # PyTorch's modules last until the end. Looking for garbage among them then takes ten times
+    # as long as an answer.
+    atexit.register(gc.freeze)
     for stream in (sys.stdin, sys.stdout, sys.stderr):
         # Names and questions may hold what the terminal's encoding does not.
         if isinstance(stream, io.TextIOWrapper):
