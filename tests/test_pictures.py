@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from joblib.externals.loky import get_reusable_executor
 
-from conftest import DOMAIN, write_domain
+from conftest import DOMAIN, Run, write_domain
 from seewhy.data.dataset import Dataset
 from seewhy.data.making import determined_share, make_dataset
 from seewhy.domain import Domain, load_domain
@@ -213,6 +213,39 @@ def test_a_source_that_is_none(tmp_path: Path, module: str, why: str) -> None:
         f"{tmp_path}/tiles/domain.toml: source = '{module}' must be a module that can be imported, "
         f"or a file of this folder, and have a function draw(seed=, index=, size=) ({why})"
     )
+
+
+@pytest.mark.parametrize(
+    ("source", "text", "why"),
+    [
+        ("no_such_module", None, "there is no such module"),
+        ("seewhy.domains.no_such_module", None, "there is no such module"),
+        ("json.decoder.deeper", None, "there is no such module"),
+        ("json", None, "it has no function draw"),
+        ("pictures.py", None, "No such file or directory"),
+        ("pictures.py", "def paint(): pass\n", "it has no function draw"),
+        ("pictures.py", "def draw(:\n", "line 1: invalid syntax"),
+        ("pictures.py", "def draw(*, seed, index, size): ...\n", None),
+        ("pictures.py", "from paint import tile as draw\n", None),
+        ("pictures.py", "try:\n    from paint import *\nexcept ImportError:\n    pass\n", None),
+        ("pictures.py", "paint = draw = print\n", None),
+        ("seewhy.domains.structure_stability.source", None, None),
+    ],
+)
+def test_check_reads_a_source_and_runs_nothing_of_it(
+    run: Run, tmp_path: Path, source: str, text: str | None, why: str | None
+) -> None:
+    named = DOMAIN.replace("subject =", f'source = "{source}"\nsubject =')
+    folder = write_domain(tmp_path / "tiles", domain=named)
+    if text is not None:
+        (folder / "pictures.py").write_text(f"{text}\nopen('{tmp_path}/was_run', 'w')\n")
+    result = run("check", folder)
+    said = (
+        f"seewhy: {folder}/domain.toml: source = '{source}' must be a module that can be imported, "
+        f"or a file of this folder, and have a function draw(seed=, index=, size=) ({why})\n"
+    )
+    assert (result.code, result.err) == ((0, "") if why is None else (2, said))
+    assert not (tmp_path / "was_run").exists()
 
 
 def test_a_source_in_the_domains_own_folder(tmp_path: Path) -> None:

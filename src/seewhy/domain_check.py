@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from seewhy.data.dataset import Dataset
-from seewhy.data.picture_source import load_source
+from seewhy.data.picture_source import check_source
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.question import Questions
 from seewhy.domain import Domain
@@ -70,7 +70,7 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
             "'not', that its own conclusion is not believed; look for 'p if not p'"
         )
     if domain.source is not None:
-        load_source(domain)
+        check_source(domain)
     warnings = [
         f"{axiom.location}: no feature vector satisfies the conditions of '{axiom}'"
         for axiom in never_applies(domain.knowledge, domain.schema)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 import importlib
 import importlib.util
-from collections.abc import Mapping
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
+from importlib.machinery import ModuleSpec
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -53,6 +56,67 @@ def load_source(domain: Domain) -> Draw:
     (32, 32, 3)
     """
     return load_draw(_named_source(domain), domain.folder)
+
+
+def check_source(domain: Domain) -> None:
+    """Raise a DomainError if a domain's source is not there, or has no function ``draw``.
+
+    Nothing of it is run, so that a stranger's domain can be checked.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> check_source(load_domain("structure_stability"))
+    """
+    source, folder = _named_source(domain), domain.folder
+    file = folder / source if source.endswith(".py") else _file_of_module(source)
+    problem = "there is no such module" if file is None else _lacks_draw(file)
+    if problem:
+        raise DomainError(_no_source(source, folder, "draw(seed=, index=, size=)", problem))
+
+
+def _file_of_module(name: str) -> Path | None:
+    """The file of a module, which is found without importing what it belongs to."""
+    spec: ModuleSpec | None = None
+    within: Sequence[str] | None = None
+    parts = name.split(".")
+    for depth in range(len(parts)):
+        called = ".".join(parts[: depth + 1])
+        finders = (getattr(finder, "find_spec", None) for finder in sys.meta_path)
+        found = (find(called, within) for find in finders if find is not None)
+        spec = next((own for own in found if own is not None), None)
+        within = None if spec is None else spec.submodule_search_locations
+        if spec is None or (within is None and depth + 1 < len(parts)):
+            return None
+    return None if spec is None or spec.origin is None else Path(spec.origin)
+
+
+def _lacks_draw(file: Path) -> str:
+    """What is wrong with the text of a source; empty where nothing is."""
+    if file.suffix != ".py":
+        return ""  # what is compiled shows its functions when it is loaded
+    try:
+        names = set(_defined(ast.parse(file.read_bytes()).body))
+    except OSError as problem:
+        return str(problem.strerror)
+    except SyntaxError as problem:
+        return f"line {problem.lineno}: {problem.msg}"
+    except (ValueError, RecursionError) as problem:
+        return str(problem)
+    return "" if names & {"draw", "*", "__getattr__"} else "it has no function draw"
+
+
+def _defined(nodes: Iterable[ast.AST]) -> Iterator[str]:
+    """The names that statements define in their module; "*" for all of another one."""
+    for node in nodes:
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            yield node.name
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            yield from (alias.asname or alias.name for alias in node.names)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        else:
+            yield from _defined(ast.iter_child_nodes(node))
 
 
 def load_depict(domain: Domain) -> Depict:
@@ -106,11 +170,15 @@ def _load(source: str, folder: Path, wanted: str) -> Any:
             module = importlib.import_module(source)
         return getattr(module, wanted.partition("(")[0])
     except Exception as problem:
-        raise DomainError(
-            f"{folder / 'domain.toml'}: source = '{source}' must be a module that can be imported, "
-            f"or a file of this folder, and have a function {wanted} "
-            f"({type(problem).__name__}: {problem})"
-        ) from problem
+        why = f"{type(problem).__name__}: {problem}"
+        raise DomainError(_no_source(source, folder, wanted, why)) from problem
+
+
+def _no_source(source: str, folder: Path, wanted: str, why: str) -> str:
+    return (
+        f"{folder / 'domain.toml'}: source = '{source}' must be a module that can be imported, "
+        f"or a file of this folder, and have a function {wanted} ({why})"
+    )
 
 
 def draw_picture(
