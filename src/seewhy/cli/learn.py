@@ -327,13 +327,15 @@ def _shares(judged: Judged | None) -> dict[str, float] | None:
 
 def print_learning(found: JudgedLearning) -> None:
     """Print every candidate with its verdict, what was added and withdrawn, and what it did."""
+    from seewhy.induction.learning import Fate
     from seewhy.induction.sentence import say_rule, things
 
     agent, learning = found.agent, found.learning
     for one in learning.judgements:
         text = say_rule(agent.domain, one.candidate.conditions, one.candidate.label)
         why = f": {one.reason}" if one.reason else ""
-        say(f"{one.fate.value}: {text} ({one.tally.right} {things(agent.domain)} for it{why})")
+        fate = "proposed" if one.fate is Fate.ACCEPTED else one.fate.value
+        say(f"{fate}: {text} ({one.tally.right} {things(agent.domain)} for it{why})")
     for gone in learning.withdrawn:
         say(withdrawn_line(agent, gone))
     if not learning.found:
@@ -342,8 +344,7 @@ def print_learning(found: JudgedLearning) -> None:
         say(f"added {axiom.identifier}: {axiom}  ({rests(axiom)})")
     for proposal, accepted in found.judged:
         if proposal.falls:
-            fate = "accepted all the same" if accepted else "not accepted"
-            say(f"{fate}: {proposal.statement}")
+            say(f"{'agreed to all the same' if accepted else 'left out'}: {proposal.statement}")
             for line in _judgement(proposal):
                 say(f"  {line}")
     before, after = _shares(found.before), _shares(found.after)
