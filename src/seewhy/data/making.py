@@ -10,8 +10,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from joblib import Parallel, delayed
-
 from seewhy.data.dataset import TABLE
 from seewhy.data.picture_source import draw_picture, load_source
 from seewhy.domain import Domain
@@ -76,6 +74,8 @@ def make_dataset(
     4
     """
     folder = Path(folder)
+    from joblib import Parallel, delayed  # what else is here is used where no picture is made
+
     load_source(domain)
     settings = {"domain": domain.name, "seed": seed, "size": size}
     (folder / "images").mkdir(parents=True, exist_ok=True)
