@@ -264,6 +264,11 @@ def test_a_curve_that_rises() -> None:
     )
 
 
+def test_a_curve_promises_no_more_than_the_features_tell() -> None:
+    curve = LearningCurve((point(100, 60), point(200, 80)), 100, determined=0.85)
+    assert "Twice as many may bring about 85.0 %" in curve.sentences()[0]
+
+
 def test_a_curve_that_is_flat() -> None:
     curve = LearningCurve(
         (point(1000, 93), point(2000, 94)), 100, skipped=((250, "scenes.csv: no two classes"),)

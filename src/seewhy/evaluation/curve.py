@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from seewhy.data.making import determined_share
 from seewhy.errors import DatasetError, ModelError
 from seewhy.evaluation.judging import classified
 from seewhy.evaluation.other_knowledge import with_axioms
@@ -63,11 +64,14 @@ class LearningCurve:
         Pictures with a class that every point was evaluated on.
     skipped : tuple of (int, str)
         Parts that no model could be trained on: their number of pictures, and why not.
+    determined : float
+        The share of the held-out classes that the annotated features tell at best.
     """
 
     points: tuple[CurvePoint, ...]
     held_out: int
     skipped: tuple[tuple[int, str], ...] = ()
+    determined: float = 1.0
 
     def sentences(self) -> tuple[str, ...]:
         """Say in words whether more labels would help."""
@@ -79,6 +83,7 @@ class LearningCurve:
         """Return the curve as values that JSON can hold."""
         return {
             "held_out": self.held_out,
+            "determined": self.determined,
             "points": [
                 {
                     "pictures": point.pictures,
@@ -185,7 +190,9 @@ def learning_curve(
         )
         if on_point is not None:
             on_point(points[-1])
-    return LearningCurve(tuple(points), len(points[-1].right), tuple(skipped))
+    judged = test.with_class()
+    determined = determined_share(judged.vectors, judged.classes)
+    return LearningCurve(tuple(points), len(judged), tuple(skipped), determined)
 
 
 def _trained(

@@ -21,7 +21,7 @@ def curve_advice(curve: LearningCurve) -> tuple[str, ...]:
 
     The last two points are compared picture by picture (the sign test, two-sided, 5 %). The
     accuracy of twice as many pictures supposes that the share of wrong classes shrinks once more
-    as it did.
+    as it did; it is no more than the annotated features tell.
     """
     return tuple(_sentences(curve))
 
@@ -46,7 +46,8 @@ def _sentences(curve: LearningCurve) -> Iterator[str]:
         f"wrong ({percent(before)} to {percent(after)})"
     )
     if told and mended > spoilt:
-        next_share = 1.0 - (1.0 - after) ** 2 / (1.0 - before)
+        reached = 1.0 - (1.0 - after) ** 2 / (1.0 - before)
+        next_share = min(reached, max(after, curve.determined))
         yield (
             f"{step}: more labels help. Twice as many may bring about {percent(next_share)}, if "
             "mistakes go on to become fewer as they did."
