@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from seewhy.evaluation.advice import advice, training_notice
+from seewhy.evaluation.advice import advice
 from seewhy.evaluation.curve import CurvePoint, LearningCurve
 from seewhy.evaluation.recognition import Recognition, recognition_of
 from seewhy.evaluation.redeciding import Redecided
@@ -78,7 +78,7 @@ def test_pictures_trained_on_come_first() -> None:
         "7 of 1000 pictures were trained on; results on them prove nothing: the table keeps none "
         "for evaluation; add a column split, with test in a quarter of the rows, and train again.",
     )
-    assert training_notice(evaluation(has_splits=False)) is None
+    assert advice(evaluation(has_splits=False)) == ()
 
 
 def test_few_pictures_are_uncertain() -> None:

@@ -171,7 +171,13 @@ def test_wrong_pictures_are_listed(tiles: Domain, four: Dataset) -> None:
     ]
     record = json.loads(json.dumps(result.to_dict()))
     assert record["wrong"][0]["misread"] == [
-        {"feature": "colour", "seen": "blue", "probability": 0.9, "annotated": "red"}
+        {
+            "feature": "colour",
+            "seen": "blue",
+            "probability": 0.9,
+            "annotated": "red",
+            "overruled": None,
+        }
     ]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,7 @@ from conftest import Run
 from seewhy.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain
-from seewhy.evaluation import Evaluation, evaluate
+from seewhy.evaluation import Evaluation, Misreading, WrongPicture, evaluate
 from seewhy.report.evaluation_page import evaluation_page
 from test_advice import evaluation, point, recognised
 from test_report import Page
@@ -188,15 +189,41 @@ def test_pictures_trained_on_are_said_first_on_the_page(
     table = folder / "scenes.csv"
     table.write_text(re.sub(r",(train|test|split)\n", "\n", table.read_text()))
     page = tmp_path / "page.html"
+    lines = table.read_text().splitlines()
+    table.write_text("\n".join([*lines, lines[1]]) + "\n")  # there is something to remark on
     result = run("evaluate", model_folder, "--data", folder, "--page", page)
     assert result.code == 0
     said = (
-        "40 of 60 pictures were trained on; results on them prove nothing: the table keeps none "
+        "41 of 61 pictures were trained on; results on them prove nothing: the table keeps none "
         "for evaluation; add a column split, with test in a quarter of the rows, and train again"
     )
-    assert result.err.splitlines()[-1] == said
+    assert result.err.splitlines()[0] == said
+    assert "1 picture is in several rows" in result.err.splitlines()[1]
     assert result.out.splitlines()[0] == (
-        "60 scenes, 40 of them trained on: results on them prove nothing"
+        "61 scenes, 41 of them trained on: results on them prove nothing"
     )
     body = page.read_text().split("<body>")[1]
     assert re.sub(r"<.*?>", "", body).split("\n")[2] == f"{said}."
+
+
+def test_what_the_network_alone_saw_is_shown(
+    tiles: Domain, result: Evaluation, mislabelled: Path
+) -> None:
+    wrong = WrongPicture(
+        image="a <b>.png",
+        picture=mislabelled / "images" / "000.png",
+        label="good",
+        said=None,
+        method="none",
+        verdict="silent",
+        probability=None,
+        misread=(Misreading("colour", "blue", 0.25, "red", overruled=("green", 0.7)),),
+        not_annotated=(),
+    )
+    page = evaluation_page(tiles, replace(result, wrong=(wrong,)), command="seewhy")
+    assert (
+        'colour: <span class="bad">blue</span> (0.25; the network alone saw green, 0.70), '
+        "annotated red"
+    ) in page
+    assert "a &lt;b&gt;.png" in page
+    assert '<span class="bad">undecided: silent</span>' in page

@@ -67,20 +67,22 @@ def evaluate(
     from seewhy.cli.evaluation_tables import print_curve, print_evaluation
     from seewhy.cli.read_data import read_data
     from seewhy.errors import SeeWhyError
-    from seewhy.evaluation.advice import training_notice
 
     if most is not None and page is None:
         raise SeeWhyError("--most goes with --page; --json lists all wrong pictures")
     agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
-    dataset = read_data(data, agent.domain, outside=outside, evaluated=True)
+    dataset = read_data(
+        data,
+        agent.domain,
+        outside=outside,
+        evaluated=True,
+        before_notices=lambda read: _warn_of_training(agent, read),
+    )
     if curve:
         from seewhy.evaluation.curve import require_splits
 
         require_splits(dataset)
     result = _evaluated(agent, dataset, questions=questions, seed=seed)
-    notice = training_notice(result)
-    if notice is not None:
-        warn(notice)
     if result.without_class:
         remark(
             f"{result.without_class} more pictures have no class: they count for the features "
@@ -98,6 +100,20 @@ def evaluate(
         print_curve(result.curve)
     if page is not None:
         say(f"page: {page}")
+
+
+def _warn_of_training(agent: Agent, dataset: Dataset) -> None:
+    from seewhy.evaluation.advice import training_notice
+    from seewhy.evaluation.judging import seen_in_training
+
+    scenes = dataset.of_split("test").with_class()
+    notice = training_notice(
+        seen=seen_in_training(agent, scenes),
+        scenes=len(scenes),
+        has_splits=any(scene.split for scene in dataset.scenes),
+    )
+    if notice is not None:
+        warn(notice)
 
 
 def _evaluated(agent: Agent, dataset: Dataset, *, questions: int, seed: int) -> Evaluation:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,12 @@ if TYPE_CHECKING:
 
 
 def read_data(
-    folder: Path, domain: Domain, *, outside: bool = False, evaluated: bool = False
+    folder: Path,
+    domain: Domain,
+    *,
+    outside: bool = False,
+    evaluated: bool = False,
+    before_notices: Callable[[Dataset], None] | None = None,
 ) -> Dataset:
     """Read a dataset, compare its pictures, and remark on what shows the same.
 
@@ -25,6 +31,8 @@ def read_data(
         See :meth:`~seewhy.data.dataset.Dataset.load`.
     evaluated : bool, default False
         Whether there must be pictures to test on that are not trained on.
+    before_notices : callable, optional
+        Called with the dataset before anything is remarked on, to say what matters more.
 
     Raises
     ------
@@ -42,6 +50,8 @@ def read_data(
         )
     if evaluated:
         settled.require_test_pictures()
+    if before_notices is not None:
+        before_notices(settled.dataset)
     for notice in settled.notices:
         remark(notice)
     return settled.dataset

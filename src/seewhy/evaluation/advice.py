@@ -57,13 +57,25 @@ def advice(evaluation: Evaluation) -> tuple[str, ...]:
     )
 
 
-def training_notice(evaluation: Evaluation) -> str | None:
-    """Say that pictures were trained on, if some were: of them figures prove nothing."""
-    seen, scenes = evaluation.seen_in_training, evaluation.scenes
+def training_notice(*, seen: int, scenes: int, has_splits: bool) -> str | None:
+    """Say that pictures were trained on, if some were: of them figures prove nothing.
+
+    Parameters
+    ----------
+    seen, scenes : int
+        Pictures that were trained on, and all that are evaluated.
+    has_splits : bool
+        Whether the dataset keeps pictures for evaluation.
+
+    Examples
+    --------
+    >>> training_notice(seen=2, scenes=9, has_splits=True)
+    '2 of 9 pictures were trained on; results on them prove nothing'
+    """
     if not seen:
         return None
     said = f"{seen} of {scenes} pictures were trained on; results on them prove nothing"
-    if evaluation.has_splits:
+    if has_splits:
         return said
     return (
         f"{said}: the table keeps none for evaluation; add a column split, with test in a quarter "
@@ -72,7 +84,7 @@ def training_notice(evaluation: Evaluation) -> str | None:
 
 
 def _trained_on(evaluation: Evaluation) -> Iterator[str]:
-    notice = training_notice(evaluation)
+    notice = evaluation.training_notice
     if notice is not None:
         yield f"{notice}."
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from seewhy.dialogue.reference import ReferenceAnswers
     from seewhy.reply import Classification
 
-__all__ = ["classified", "evaluate"]
+__all__ = ["classified", "evaluate", "seen_in_training"]
 
 
 def evaluate(
@@ -83,7 +83,7 @@ def evaluate(
         without_class=len(everything) - len(scenes),
         groups=len(set(scenes.groups)),
         has_splits=any(scene.split for scene in dataset.scenes),
-        seen_in_training=sum(digest in agent.trained_on for digest in scenes.picture_digests()),
+        seen_in_training=seen_in_training(agent, scenes),
         class_recognition=recognition_of_class(everything, seen),
         feature_recognition=recognition_of_features(everything, seen),
         without=agent.without,
@@ -105,6 +105,11 @@ def evaluate(
         wrong=wrong_pictures(everything, seen),
         axioms=axiom_records(agent.reasoner, scenes.vectors, scenes.classes),
     )
+
+
+def seen_in_training(agent: Agent, scenes: Dataset) -> int:
+    """The number of pictures that an agent's networks were trained on."""
+    return sum(digest in agent.trained_on for digest in scenes.picture_digests())
 
 
 def classified(

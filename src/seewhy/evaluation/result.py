@@ -113,6 +113,15 @@ class Evaluation:
             for key, recognition in self.feature_recognition.items()
         }
 
+    @property
+    def training_notice(self) -> str | None:
+        """That pictures were trained on, in words, if some were."""
+        from seewhy.evaluation.advice import training_notice
+
+        return training_notice(
+            seen=self.seen_in_training, scenes=self.scenes, has_splits=self.has_splits
+        )
+
     def advice(self) -> tuple[str, ...]:
         """Say in words what the figures suggest; see :func:`seewhy.evaluation.advice.advice`."""
         from seewhy.evaluation.advice import advice

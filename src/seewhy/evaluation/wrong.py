@@ -16,12 +16,17 @@ __all__ = ["Misreading", "WrongPicture", "wrong_pictures"]
 
 @dataclass(frozen=True)
 class Misreading:
-    """A feature that was seen as another value than it is annotated with, and how surely."""
+    """A feature that was seen as another value than it is annotated with, and how surely.
+
+    ``overruled`` is what the network alone saw, with its probability, where that did not fit what
+    is known; see :class:`~seewhy.reply.FeatureReading`.
+    """
 
     feature: str
     seen: str
     probability: float
     annotated: str
+    overruled: tuple[str, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -85,7 +90,7 @@ def wrong_pictures(dataset: Dataset, found: Sequence[Classification]) -> tuple[W
     for row, scene in zip(dataset.scenes, found, strict=True):
         annotated = dataset.domain.named(row.vector)
         misread = tuple(
-            Misreading(key, reading.value, reading.probability, true)
+            Misreading(key, reading.value, reading.probability, true, reading.overruled)
             for key, reading in scene.features.items()
             if (true := annotated[key]) is not None and true != reading.value
         )

@@ -7,7 +7,6 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 from seewhy.domain_tables import CLASS
-from seewhy.evaluation.advice import training_notice
 from seewhy.report.card import embedded
 from seewhy.report.html import rendered
 from seewhy.report.line_chart import Line, Point, draw_lines
@@ -61,7 +60,7 @@ def evaluation_page(
         "evaluation.html",
         domain=domain,
         evaluation=evaluation,
-        notice=training_notice(evaluation),
+        notice=evaluation.training_notice,
         advice=[*evaluation.advice(), *(evaluation.curve.sentences() if evaluation.curve else ())],
         recognitions=[
             _recognition(domain, key, name, recognition, evaluation.training_pictures[key])
@@ -158,6 +157,7 @@ def _wrong(domain: Domain, picture: WrongPicture) -> dict[str, Any]:
                 "seen": one.seen,
                 "probability": one.probability,
                 "annotated": one.annotated,
+                "overruled": one.overruled,
             }
             for one in picture.misread
         ],
