@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from seewhy.class_shares import with_class_shares
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.answering import Answering
@@ -541,7 +542,15 @@ class Agent:
         self, probabilities: Mapping[str, np.ndarray[Any, Any]], rule: ReadingRule
     ) -> list[Reading]:
         if rule == "argmax":
-            return read_separately(self.reasoner.schema, probabilities)
+            schema = self.reasoner.schema
+            return with_class_shares(
+                read_separately(schema, probabilities),
+                schema,
+                probabilities,
+                shares_of_all=self._class_shares_of_all,
+                label_of=lambda vector: self._decide(vector)[0],
+                other_from=self._believed_from,
+            )
         if rule not in self._readers:
             self._readers[rule] = ConsistentReading(
                 self.reasoner,
@@ -673,6 +682,10 @@ class Agent:
         if decision.label is not None:
             return {decision.label: 1.0}
         return self.tree.probability(vector) if self.tree.fitted else {}
+
+    def _class_shares_of_all(self, vectors: Sequence[FeatureVector]) -> list[dict[str, float]]:
+        self.reasoner.decide_all(vectors)  # remembers them; at once is much faster
+        return [self._class_shares(vector) for vector in vectors]
 
     def _otherwise(
         self, scene: Classification, others: Sequence[Other]

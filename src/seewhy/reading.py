@@ -78,9 +78,10 @@ class Reading:
         most vectors are candidates.)
     probability : float
         Of the class: where features are read separately, the probability that all of them are
-        read rightly. Where the reading is consistent, the share of the candidates of that class
-        in the probability of all; one that the knowledge leaves open counts for each class as
-        often as the tree's training scenes in its leaf are of that class.
+        read rightly, until :mod:`seewhy.class_shares` says more. Where the reading is consistent,
+        the share of the candidates of that class in the probability of all; one that the knowledge
+        leaves open counts for each class as often as the tree's training scenes in its leaf are of
+        that class.
     class_seen : (str, float) or None
         The most probable class that a network of its own saw, and its probability, where such a
         network has a say in the reading.
