@@ -11,18 +11,21 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from conftest import draw_tile, seen
-from knowledge_builders import World, worlds
+from knowledge_builders import VALUES, World, worlds
 from seewhy.agent import Agent
+from seewhy.class_shares import with_class_shares
 from seewhy.cli.ask import print_reply
 from seewhy.data.dataset import Dataset
-from seewhy.domain import load_domain
+from seewhy.dialogue.certainty import SURE_FROM, Certainty
+from seewhy.dialogue.question import Asks
+from seewhy.domain import Domain, load_domain
 from seewhy.domain_tables import CLASS
 from seewhy.errors import DomainError
 from seewhy.evaluation import evaluate
 from seewhy.knowledge.candidates import decided_vectors
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.reading import ConsistentReading
+from seewhy.reading import ConsistentReading, read_separately
 from seewhy.reply import Classification, FeatureReading
 from test_reading import SPACE, distributions, logarithm
 
@@ -311,3 +314,196 @@ def scenes_of(agent: Agent) -> list[Classification]:
     vectors = decided_vectors(agent.reasoner, limit=1000) or ()
     found = {own.label: own for own in (seen(agent, *vector) for vector in vectors)}
     return list(found.values())
+
+
+# Nothing silently, however pictures are read --------------------------------------------------
+
+
+class Seeing:
+    """What networks would see of one picture."""
+
+    size = 56
+
+    def __init__(self, tables: dict[str, np.ndarray[Any, Any]]) -> None:
+        self.tables = tables
+
+    def probabilities(self, pictures: np.ndarray[Any, Any]) -> dict[str, np.ndarray[Any, Any]]:
+        return {key: np.repeat(table, len(pictures), axis=0) for key, table in self.tables.items()}
+
+    def shown(self, feature: str) -> frozenset[str]:
+        assert feature == CLASS
+        return frozenset(("stable", "unstable"))
+
+
+@st.composite
+def sights(draw: st.DrawFn, domain: Domain) -> dict[str, np.ndarray[Any, Any]]:
+    """Random probabilities of features and class, near to sure as often as not."""
+    found = {}
+    values = {key: feature.values for key, feature in domain.features.items()}
+    for key, names in {**values, CLASS: tuple(domain.classes)}.items():
+        weights = np.array(
+            draw(
+                st.lists(
+                    st.sampled_from([0.001, 0.05, 0.1, 0.5, 1.0, 3.0]),
+                    min_size=len(names),
+                    max_size=len(names),
+                )
+            )
+        )
+        weights[draw(st.integers(0, len(names) - 1))] *= draw(st.sampled_from([1.0, 10.0, 100.0]))
+        found[key] = (weights / weights.sum())[None]
+    return found
+
+
+def class_probabilities(
+    agent: Agent, sight: dict[str, np.ndarray[Any, Any]], rule: str
+) -> dict[str, float]:
+    """By going through all feature vectors; nothing here is shared with what is tested."""
+    found = dict.fromkeys(agent.domain.classes, 0.0)
+    total = 0.0
+    features = agent.domain.features
+    for places in np.ndindex(*(len(feature.values) for feature in features.values())):
+        vector = tuple(
+            feature.values[n] for feature, n in zip(features.values(), places, strict=True)
+        )
+        probability = float(
+            np.prod([sight[key][0, n] for key, n in zip(features, places, strict=True)])
+        )
+        label = agent.decide(dict(zip(features, vector, strict=True)))
+        if label is None and rule != "argmax":
+            continue  # nothing annotated is left open here, so that it is no candidate
+        if label is not None and rule == "with_class":
+            seen_class = sight[CLASS][0]
+            probability *= float(seen_class[list(found).index(label)] / seen_class.max())
+        total += probability
+        if label is not None:
+            found[label] += probability
+    return {label: own / total for label, own in found.items()}
+
+
+@settings(
+    max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
+)
+@given(
+    data=st.data(),
+    rule=st.sampled_from(["argmax", "consistent", "with_class"]),
+    trust=st.sampled_from([0.0, 0.5, 0.9, 0.99]),
+)
+def test_nothing_is_supposed_silently_however_pictures_are_read(
+    structures: Domain, data: st.DataObject, rule: str, trust: float
+) -> None:
+    agent = Agent(structures, reading=rule, known_share=1.0, trust=trust)
+    sight = data.draw(sights(structures))
+    agent.extractor = Seeing(sight)  # type: ignore[assignment]
+    (scene,) = agent.classify_all(np.zeros((1, 56, 56, 3), dtype=np.uint8))
+    probable = class_probabilities(agent, sight, rule)
+    question = data.draw(st.sampled_from(agent.questions.one_of_each()))
+    reply = agent.answer(scene, question)
+    # What the answer speaks of is what the picture is taken to be, or it says what it supposes.
+    assert (reply.supposed is not None) == ("as you say" in reply.text)
+    if scene.label is None:
+        assert reply.supposed is None
+        return
+    presumed = reply.supposed
+    if presumed is not None:
+        assert reply.text.startswith("I took the structure to be ")
+        assert f"to be {structures.classes[scene.label].say}." in reply.text
+        assert presumed.label != scene.label
+        assert presumed.probability == pytest.approx(probable[presumed.label or ""], abs=2e-3)
+        assert (presumed.probability or 0.0) >= agent._believed_from
+    assert scene.probability == pytest.approx(probable[scene.label], abs=2e-3)
+    other = sum(own for label, own in probable.items() if label != scene.label)
+    presumes_another = (question.asks is Asks.WHY_CLASS and question.label != scene.label) or (
+        question.asks in (Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS, Asks.DIFFERENCE_TO_CLASS)
+        and question.label == scene.label
+    )
+    if trust and presumes_another and abs(other - (1.0 - trust)) > 3e-3:
+        assert (presumed is not None) == (other > 1.0 - trust)
+    if not trust or not presumes_another:
+        assert presumed is None
+    # What is said flatly is at least as probable as what is said flatly has to be.
+    if presumed is None and question.feature is None and question.asks is not Asks.EXPLAIN:
+        if probable[scene.label] < SURE_FROM - 2e-3:
+            assert reply.certainty is not Certainty.SURE
+        if probable[scene.label] <= 0.05:
+            assert reply.certainty is Certainty.PERHAPS
+    for feature in reply.kind.mentions:
+        if reply.features[feature].probability < SURE_FROM:
+            assert reply.certainty is not Certainty.SURE
+            assert reply.certainty is not None
+            assert reply.certainty.adverb in reply.text.casefold()
+
+
+@settings(
+    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
+)
+@given(data=st.data())
+def test_the_classes_of_a_picture_read_feature_by_feature(data: st.DataObject) -> None:
+    """Against going through all vectors; shares of open ones count as the tree would say."""
+    world = data.draw(worlds())
+    sure = data.draw(distributions())
+    least = data.draw(st.sampled_from([0.02, 0.1, 0.4, 1.0]))
+    reasoner = Reasoner(world.knowledge, world.schema)
+    names = list(world.schema.classes)
+
+    def shares(vector: FeatureVector) -> dict[str, float]:
+        label = reasoner.decide(vector).label
+        if label is not None:
+            return {label: 1.0}
+        return {names[0]: 0.7, names[1]: 0.3} if vector[0] == "yes" else {}
+
+    def label_of(vector: FeatureVector) -> str | None:
+        own = shares(vector)
+        return max(own, key=lambda name: own[name]) if own else None
+
+    (alone,) = read_separately(world.schema, sure)
+    (found,) = with_class_shares(
+        [alone],
+        world.schema,
+        sure,
+        shares_of_all=lambda vectors: [shares(vector) for vector in vectors],
+        label_of=label_of,
+        other_from=least,
+    )
+    pairs = {
+        (name, vector): float(np.exp(logarithm(sure, vector))) * share
+        for vector in SPACE
+        for name, share in shares(vector).items()
+    }
+    probable = {
+        name: sum(own for (label, _), own in pairs.items() if label == name) for name in names
+    }
+    read = label_of(alone.vector)
+    assert (found.vector, found.features, found.score) == (
+        alone.vector,
+        alone.features,
+        alone.score,
+    )
+    assert found.probability == pytest.approx(
+        alone.probability if read is None else probable[read], abs=1.1e-3
+    )
+    expected = {n for n, p in probable.items() if n != read and p >= least + 2e-3 and least < 1.0}
+    others = {own.label: own for own in found.others}
+    assert expected <= others.keys() <= {n for n, p in probable.items() if p >= least - 1e-9}
+    for own in found.others:
+        assert own.probability == pytest.approx(probable[own.label], abs=1.1e-3)
+        best = max(p for (label, _), p in pairs.items() if label == own.label)
+        assert pairs[own.label, own.vector] == pytest.approx(best)
+        for (key, reading), value in zip(own.features.items(), own.vector, strict=True):
+            assert reading.value == value
+            assert reading.probability == sure[key][0, VALUES[key].index(value or "")]
+            assert (reading.overruled is None) == (reading.probability == sure[key].max())
+    order = [own.probability for own in found.others]
+    assert order == sorted(order, reverse=True)
+
+
+def test_more_vectors_than_are_looked_at_make_no_class_more_probable() -> None:
+    signs = load_domain("traffic_signs")
+    agent = Agent(signs, reading="argmax", known_share=1.0)
+    even = {
+        key: np.full((1, len(feature.values)), 1 / len(feature.values))
+        for key, feature in signs.features.items()
+    }
+    (reading,) = agent._read(even, "argmax")
+    assert reading.probability < 0.05
+    assert sum(own.probability for own in reading.others) < 0.05
