@@ -165,6 +165,18 @@ def test_values_with_too_few_pictures_are_named() -> None:
         "12 pictures to train on show colour = blue, 74.2 % of 400 evaluated were recognised: "
         "label 30 more.",
     )
+    found.training_pictures["colour"]["green"] = 39
+    worse = recognised(
+        {("red", "red"): 500, ("green", "red"): 99, ("green", "green"): 1, ("blue", "red"): 40,
+         ("blue", "blue"): 360}, order=COLOURS,
+    )  # fmt: skip
+    asked = advice(replace(found, feature_recognition={"colour": worse}))[-2:]
+    assert asked == (
+        "39 pictures to train on show colour = green, 1.0 % of 100 evaluated were recognised: "
+        "label 10 more.",
+        "12 pictures to train on show colour = blue, 90.0 % of 400 evaluated were recognised: "
+        "label 30 more.",
+    )
     nowhere = recognised({("red", "red"): 500, ("green", "green"): 500}, order=COLOURS)
     found = replace(
         found,
@@ -218,18 +230,26 @@ def test_a_class_left_out_on_purpose_is_not_asked_for() -> None:
     )
 
 
-@pytest.mark.parametrize(("probability", "said"), [(0.99, "too sure"), (0.6, "less sure")])
+@pytest.mark.parametrize(
+    ("probability", "said"),
+    [
+        (0.99, "Surer than it is right, on average: the class (99.0 % said, 90.0 % right)."),
+        (
+            0.6,
+            "Right more often than it is sure, on average: the class (60.0 % said, 90.0 % right).",
+        ),
+    ],
+)
 def test_what_is_too_sure(probability: float, said: str) -> None:
     classes = recognised(
         {("good", "good"): 450, ("good", "bad"): 50, ("bad", "bad"): 450, ("bad", "good"): 50},
         order=("good", "bad"),
         probability=probability,
     )
-    (sentence,) = advice(evaluation(class_recognition=classes))
-    assert sentence.startswith(
-        f"The class is said with a probability of {100 * probability:.1f} % on average and right "
-        f"in 90.0 % of 1000 pictures: it is {said}"
-    )
+    assert advice(evaluation(class_recognition=classes)) == (said,)
+    colours = recognised({(c, c): 300 for c in COLOURS}, order=COLOURS, probability=0.5)
+    both = evaluation(class_recognition=classes, feature_recognition={"colour": colours})
+    assert " ".join(advice(both)).count("'colour' (50.0 % said, 100.0 % right)") == 1
 
 
 def test_a_feature_that_could_be_dropped() -> None:

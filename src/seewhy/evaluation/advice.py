@@ -197,7 +197,8 @@ def _too_few(evaluation: Evaluation) -> Iterator[str]:
             known = value in recall and recall[value].value >= WELL
             if number < ENOUGH and not left_out and not known:
                 cases.append((number, key, value, recall.get(value)))
-    cases.sort(key=lambda case: case[0])
+    # What nothing was learned of first, then what is recognised worst.
+    cases.sort(key=lambda case: (case[0] > 0, case[3].value if case[3] else 1.0, case[0]))
     for number, key, value, share in cases[:SHOWN]:
         more = 10 * math.ceil((ENOUGH - number) / 10)
         shown = f"{number or 'no'} picture{'s' * (number > 1)} to train on"
@@ -233,14 +234,20 @@ def _not_evaluated(evaluation: Evaluation) -> Iterator[str]:
 
 
 def _miscalibrated(evaluation: Evaluation) -> Iterator[str]:
+    surer: list[str] = []
+    less_sure: list[str] = []
     for key, recognition in _recognitions(evaluation):
         found = recognition.calibration
         if not found.off_by_chance:
-            too = "too sure" if found.said > found.share.value else "less sure than it could be"
-            yield (
-                f"{_named(key)} is said with a probability of {percent(found.said)} on average and "
-                f"right in {percent(found.share.value)} of {found.share.of} pictures: it is {too}."
+            (surer if found.said > found.share.value else less_sure).append(
+                f"{_named(key)} ({percent(found.said)} said, {percent(found.share.value)} right)"
             )
+    for what, named in (
+        ("Surer than it is right, on average", surer),
+        ("Right more often than it is sure, on average", less_sure),
+    ):
+        if named:
+            yield f"{what}: {', '.join(named)}."
 
 
 def _droppable(evaluation: Evaluation) -> Iterator[str]:
