@@ -16,7 +16,7 @@ from seewhy.reply import FeatureReading
 
 __all__ = ["MOST_VECTORS", "with_class_shares"]
 
-MOST_VECTORS = 256
+MOST_VECTORS = 128
 """So many of a picture's most probable feature vectors are looked at at most.
 
 What is beyond them counts for no class: a class may be more probable than it is said to be.
