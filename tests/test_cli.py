@@ -125,14 +125,15 @@ def test_an_answer_imports_what_it_needs(
     places = {"model": model_folder, "image": image, "out": tmp_path / "table.csv"}
     typed = ["seewhy", *(word.format(**places) for word in command)]
     code = (
-        f"import sys; sys.argv = {typed!r}\n"
+        f"import os, sys; sys.argv = {typed!r}\n"
         "from seewhy.cli.main import main\n"
         "try: main()\nexcept SystemExit: pass\n"
-        f"print('needless:', [m for m in {NOT_FOR_ANSWERS} if m in sys.modules])"
+        f"print('needless:', [m for m in {NOT_FOR_ANSWERS} if m in sys.modules])\n"
+        "print('waiting threads:', os.environ.get('OMP_WAIT_POLICY'))"
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert said in found.stdout
-    assert found.stdout.splitlines()[-1] == "needless: []"
+    assert found.stdout.splitlines()[-2:] == ["needless: []", "waiting threads: PASSIVE"]
 
 
 def test_no_garbage_is_looked_for_at_exit() -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from seewhy.cli.cores import share_cores
 from seewhy.cli.options import Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
 from seewhy.cli.screen import print_json, remark, say
 
@@ -28,6 +29,7 @@ def ask(
     json: Json = False,
 ) -> None:
     """Answer a question about a picture, with the reasons."""
+    share_cores()
     from seewhy.agent import Agent
 
     agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from seewhy.cli.conversation import converse
+from seewhy.cli.cores import share_cores
 from seewhy.cli.options import Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ def chat(
 
     With --json every answer is one line of JSON.
     """
+    share_cores()
     from seewhy.agent import Agent
 
     agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)

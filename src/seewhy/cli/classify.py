@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from seewhy.cli.cores import share_cores
 from seewhy.cli.options import Gate, Json, KnownShare, ModelFolder, Outside, Reading
 from seewhy.cli.screen import print_json, progress, remark, say
 
@@ -46,9 +46,7 @@ def classify(
     from seewhy.classifying.table_files import check_table
 
     check_table(out)
-    # Files are read on the cores that the networks compute on: threads of these that wait for
-    # work must not keep the others waiting, which on two busy cores doubles the time.
-    os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+    share_cores()
     from seewhy.agent import Agent
     from seewhy.classifying.running import classify_to_table
     from seewhy.data.digest import digest_of

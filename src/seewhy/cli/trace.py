@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from seewhy.cli.cores import share_cores
 from seewhy.cli.options import Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
 from seewhy.cli.screen import print_json, say
 
@@ -23,6 +24,7 @@ def trace(
     json: Json = False,
 ) -> None:
     """Show what each component did: networks, knowledge, tree, question, answer."""
+    share_cores()
     from seewhy.agent import Agent
     from seewhy.trace import trace as traced
 
