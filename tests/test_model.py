@@ -105,7 +105,7 @@ def test_an_edited_manifest_is_refused_whichever_byte(copy: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"[]", b"{}", b"null", b'{"format": 4, "files": []}', b"\xff\xfe", b"[" * 9999]
+    "content", [b"", b"[]", b"{}", b"null", b'{"format": 5, "files": []}', b"\xff\xfe", b"[" * 9999]
 )
 def test_a_damaged_manifest(copy: Path, content: bytes) -> None:
     (copy / "model.json").write_bytes(content)
@@ -120,7 +120,7 @@ def test_a_model_of_another_format(copy: Path) -> None:
     with pytest.raises(ModelError) as problem:
         Agent.load(copy)
     assert str(problem.value) == (
-        f"{copy}/model.json: the model has format 99, this version reads 4; train it again"
+        f"{copy}/model.json: the model has format 99, this version reads 5; train it again"
     )
 
 

@@ -200,6 +200,8 @@ def test_contradictory_vectors_are_never_read(tmp_path: Path) -> None:
 class Networks:
     """Gives the probabilities that it is told, one row a picture."""
 
+    size = 16
+
     def __init__(
         self,
         colour: list[float],
@@ -304,7 +306,8 @@ def test_a_reply_says_what_was_overruled(
 
 
 def test_the_domain_says_how_it_is_read(tmp_path: Path, tiles: Domain) -> None:
-    assert (tiles.reading, Agent(tiles).reading) == ("argmax", "argmax")
+    assert (tiles.reading, Agent(tiles).reading) == (None, "argmax")
+    assert Agent(tiles, eyes="efficientnet-lite0").reading == "with_class"
     folder = write_domain(tmp_path / "tiles")
     path = folder / "domain.toml"
     text = path.read_text()

@@ -160,6 +160,8 @@ def test_a_training_of_a_domain_that_asks_for_nothing_refuses_nothing(agent: Age
 class Blurred:
     """Networks that see hardly anything: what they make of it is at an angle to all they know."""
 
+    size = 16
+
     def see(self, pictures: np.ndarray[Any, Any]) -> Seen:
         rows = {"colour": [[0.4, 0.3, 0.3]], "round": [[0.5, 0.5]]}
         known = {"colour": [[3.0, 4.0]], "round": [[1.0, 0.0]]}

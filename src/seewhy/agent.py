@@ -36,17 +36,20 @@ from seewhy.learning import (
     superseded,
 )
 from seewhy.nearest import did_you_mean
+from seewhy.perception.backbones import NONE, require_backbone
 from seewhy.reading import (
     READINGS,
     ConsistentReading,
     Other,
     Reading,
     ReadingRule,
+    ReadingWeights,
+    fit_reading_weights,
     open_vectors,
     read_separately,
     reading_rule,
 )
-from seewhy.refusal import refusal_threshold
+from seewhy.refusal import KNOWN_SHARE, refusal_threshold
 from seewhy.refutation import refuted
 from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
 
@@ -54,7 +57,9 @@ if TYPE_CHECKING:
     from PIL import Image
 
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
+    from seewhy.fitting import Taught
     from seewhy.perception.extractor import FeatureExtractor, Seen
+    from seewhy.perception.eyes import Eyes
     from seewhy.perception.familiarity import Familiarity
     from seewhy.pretraining import Pretrained
 
@@ -80,11 +85,17 @@ class Agent:
         :class:`~seewhy.knowledge.reasoner.Reasoner`.
     seed : int
         Two agents with the same seed and data agree.
+    eyes : str, optional
+        The backbone that sees, see :mod:`seewhy.perception.backbones`; ``"none"``: networks that
+        grow on the domain's pictures alone, as in the paper. What the domain says where left out.
+    device : {"auto", "cpu", "cuda", "mps"}, default "auto"
+        Where eyes compute: on a graphics processor where there is one.
     reading : {"argmax", "consistent", "with_class"}, optional
         How the features of a picture are read: each its most probable value, as in the paper,
         together the most probable vector that fits what is known
-        (:class:`~seewhy.reading.ConsistentReading`), or that with a network of the class as one
-        more witness. What the domain says where left out.
+        (:class:`~seewhy.reading.ConsistentReading`), or that with the class, seen by itself, as
+        one more witness. What the domain says where left out; else ``"with_class"``, and
+        ``"argmax"`` without eyes.
     gate : float, optional
         Scenes of which some network is less sure than this (0 to 1) are classified by the tree,
         whatever the knowledge says of them, and also train it: the paper's threshold on the
@@ -93,7 +104,7 @@ class Agent:
         Below 1: the share of pictures like those of training that is answered; of pictures less
         like them the agent says that it does not know them (see :mod:`seewhy.refusal` and
         :class:`~seewhy.perception.familiarity.Familiarity`). 1 answers
-        every picture. What the domain says where left out.
+        every picture. What the domain says where left out; else 0.995, and 1 without eyes.
     trust : float, default 0.9
         How often who asks is taken to be right about what a question presumes ("why is it
         unstable?"). Where the picture is not taken to be so, but it is more probable that it is
@@ -125,6 +136,8 @@ class Agent:
         *,
         minimality: Minimality = "cardinality",
         seed: int = 0,
+        eyes: str | None = None,
+        device: str = "auto",
         reading: str | None = None,
         gate: float | None = None,
         known_share: float | None = None,
@@ -134,9 +147,16 @@ class Agent:
     ) -> None:
         self.given = domain
         self.seed = seed
-        self.reading = reading_rule(domain.reading if reading is None else reading)
+        self.eyes = domain.eyes if eyes is None else eyes
+        require_backbone(self.eyes)
+        self.device = device
+        grown = self.eyes == NONE
+        self.reading = reading_rule(
+            reading or domain.reading or ("argmax" if grown else "with_class")
+        )
         self.gate = gate or None
-        self.known_share = domain.known_share if known_share is None else known_share
+        shares = (known_share, domain.known_share, 1.0 if grown else KNOWN_SHARE)
+        self.known_share = next(share for share in shares if share is not None)
         self.trust = trust
         self._check_options()
         self.minimality: Minimality = minimality
@@ -146,7 +166,8 @@ class Agent:
         self._experience: Experience = {}
         self._know(learned)
         self.tree = DecisionTree({key: f.values for key, f in domain.features.items()})
-        self.extractor: FeatureExtractor | None = None
+        self.extractor: FeatureExtractor | Eyes | None = None
+        self.reading_weights: dict[ReadingRule, ReadingWeights] = {}
         self.answerer: RecurrentAnswerer | None = None
         self.trained_on: frozenset[str] = frozenset()
         self.without_class: frozenset[str] = frozenset()
@@ -245,105 +266,118 @@ class Agent:
             some feature, if a class to leave out is none of the domain's, or if there are both
             networks to start from and pictures to draw.
         """
-        from seewhy.perception.domain_options import (
-            seen_labels,
-            seen_values,
-            trained_together,
-            training_options,
-        )
-        from seewhy.perception.extractor import fit_extractor
-        from seewhy.perception.options import TrainingOptions
-        from seewhy.perception.validation import split
-        from seewhy.pretraining import Pretrained, is_drawn, pretrained
+        from seewhy.fitting import grown_networks, taught_eyes
 
         self._require_own(dataset)
         scenes = dataset.of_split("train").without_classes(without)
         scenes.require_two_classes()
         scenes.require_feature_labels()
         scenes = scenes.annotated()
-        classed = scenes.with_class()
-        with_label = [n for n, label in enumerate(scenes.labels) if label is not None]
-        pixels = scenes.pictures(self.domain.pictures.size)
-        with_class = self.reading == "with_class"
-        validation = None
-        if self.known_share < 1.0:
-            # Only of pictures that no network was trained on is it known how well such fit.
-            _, validation = split(
-                scenes.labels,
-                share=TrainingOptions().validation_share,
-                seed=self.seed,
-                groups=scenes.groups,
-            )
-        earlier = start_from.extractor if start_from else None
-        first = start_from if isinstance(start_from, Pretrained) else None
         if drawn and start_from is not None:
             raise DatasetError(
                 "start_from, drawn: networks begin with what they know (--from) or with new "
                 "drawings (--drawn); leave one of the two out"
             )
-        if drawn is None:
-            drawn = 0 if earlier is not None or is_drawn(dataset) else self.domain.pictures.drawn
-        if drawn:
-            first = pretrained(
-                self.domain,
-                count=drawn,
-                seed=self.seed,
-                without=without,
-                with_class=with_class,
-                workers=workers,
-                checkpoints=checkpoints,
-                on_picture=on_picture,
-                on_progress=on_progress,
-            )
-            earlier = first.extractor
-        self.extractor = fit_extractor(
-            pixels,
-            seen_labels(self.domain, scenes.vectors, scenes.labels, with_class=with_class),
-            values=seen_values(self.domain, with_class=with_class),
-            options=training_options(self.domain, seed=self.seed, with_class=with_class),
-            groups=scenes.groups,
-            validation=validation,
-            checkpoints=checkpoints,
-            start_from=earlier,
-            rehearsal=first.rehearsal if first else None,
-            together=trained_together(self.domain),
+        first = self._drawings(
+            dataset,
+            start_from,
+            drawn,
+            without=without,
             workers=workers,
+            checkpoints=checkpoints,
+            on_picture=on_picture,
             on_progress=on_progress,
         )
+        earlier = first or start_from
+        if self.eyes == NONE:
+            taught = grown_networks(
+                scenes,
+                with_class=self.reading == "with_class",
+                judged=self.known_share < 1.0,
+                start_from=earlier,
+                seed=self.seed,
+                checkpoints=checkpoints,
+                workers=workers,
+                on_progress=on_progress,
+            )
+        else:
+            taught = taught_eyes(
+                scenes,
+                backbone=self.eyes,
+                device=self.device,
+                start_from=earlier,
+                seed=self.seed,
+                on_progress=on_progress,
+            )
+        self.extractor = taught.extractor
+        classed = scenes.with_class()
+        with_label = [n for n, label in enumerate(scenes.labels) if label is not None]
         self.trained_on = frozenset(scenes.picture_digests())
         self.without_class = self.trained_on - frozenset(classed.picture_digests())
         self.without = tuple(dict.fromkeys(without))
+        self.reading_weights = {}
         # Drawings show all classes alike; a few photographs leave most of them out.
         self.fit_induction(
             [*classed.vectors, *(first.vectors if first else ())],
             [*classed.classes, *(first.labels if first else ())],
-            uncertain=self._uncertain(pixels[with_label]),
+            uncertain=self._uncertain(taught.seen.of(np.array(with_label, dtype=np.int64))),
             answers=answers,
             reference=reference,
         )
-        self.familiarity, self.validation_scores = None, {}
-        if validation is not None:
-            self._get_familiar(self.extractor.see(pixels), scenes.vectors, validation)
+        self._weigh_reading(taught, scenes.labels)
+        self._get_familiar(taught)
         return self
 
-    def _get_familiar(
-        self, seen: Seen, vectors: Sequence[FeatureVector], validation: np.ndarray[Any, Any]
-    ) -> None:
-        """Keep what the networks make of training pictures, and how like those the others are."""
-        from seewhy.perception.familiarity import fit_familiarity
+    def _drawings(
+        self,
+        dataset: Dataset,
+        start_from: Agent | Pretrained | None,
+        drawn: int | None,
+        **options: Any,
+    ) -> Pretrained | None:
+        """Networks that know drawings, where there are to be any."""
+        from seewhy.pretraining import Pretrained, is_drawn, pretrained
 
-        known = np.setdiff1d(np.arange(len(vectors)), validation)
-        columns = zip(*(vectors[n] for n in known), strict=True)
-        self.familiarity = fit_familiarity(
-            {key: seen.embeddings[key][known] for key in self.domain.features},
-            dict(zip(self.domain.features, columns, strict=True)),
+        if start_from is not None:
+            return start_from if isinstance(start_from, Pretrained) else None
+        if drawn is None:
+            drawn = 0 if is_drawn(dataset) else self.domain.pictures.drawn
+        if not drawn:
+            return None
+        return pretrained(
+            self.domain,
+            eyes=self.eyes,
+            device=self.device,
+            count=drawn,
             seed=self.seed,
+            with_class=self.reading == "with_class",
+            **options,
         )
-        kept = seen.of(validation)
+
+    def _weigh_reading(self, taught: Taught, labels: Sequence[str | None]) -> None:
+        """Weigh what is seen by pictures that taught it nothing, for both consistent readings."""
+        self.reading_weights = {}
+        held = taught.held_out
+        if held is None or not len(held.rows):
+            return
         for rule in READINGS:
-            if rule == "with_class" and CLASS not in seen.probabilities:
-                continue
-            self.validation_scores[rule] = self._scores(kept, self._read(kept.probabilities, rule))
+            if rule != "argmax":
+                self.reading_weights[rule] = fit_reading_weights(
+                    self._reader(rule), held.probabilities, [labels[n] for n in held.rows]
+                )
+        self._readers = {}
+
+    def _get_familiar(self, taught: Taught) -> None:
+        """Keep what is made of training pictures, and how like those others are."""
+        self.familiarity, self.validation_scores = taught.familiarity, {}
+        if taught.scores is not None:
+            self.validation_scores = dict.fromkeys(READINGS, taught.scores)
+        elif taught.judged is not None:
+            for rule in READINGS:
+                if rule == "with_class" and CLASS not in taught.judged.probabilities:
+                    continue
+                readings = self._read(taught.judged.probabilities, rule)
+                self.validation_scores[rule] = self._scores(taught.judged, readings)
 
     def fit_induction(
         self,
@@ -551,6 +585,9 @@ class Agent:
                 label_of=lambda vector: self._decide(vector)[0],
                 other_from=self._believed_from,
             )
+        return self._reader(rule).read(probabilities)
+
+    def _reader(self, rule: ReadingRule) -> ConsistentReading:
         if rule not in self._readers:
             self._readers[rule] = ConsistentReading(
                 self.reasoner,
@@ -559,8 +596,9 @@ class Agent:
                 shares_of=self._class_shares,
                 other_from=self._believed_from,
                 witnessed=self._witnessed() if rule == "with_class" else (),
+                weights=self.reading_weights.get(rule, ReadingWeights()),
             )
-        return self._readers[rule].read(probabilities)
+        return self._readers[rule]
 
     def _witnessed(self) -> frozenset[str]:
         """The classes that the network of the class was shown."""
@@ -584,17 +622,19 @@ class Agent:
         """How like pictures are to those of training that show the values read."""
         assert self.familiarity is not None
         values = {
-            key: [own.features[key].value for own in readings] for key in self.domain.features
+            key: [reading.features[key].value for reading in readings]
+            if key in self.domain.features
+            else [key] * len(readings)
+            for key in self.familiarity.known
         }
-        embeddings = {key: seen.embeddings[key] for key in self.domain.features}
+        embeddings = {key: seen.embeddings[key] for key in values}
         return [float(own) for own in self.familiarity.likeness(embeddings, values)]
 
-    def _uncertain(self, pictures: np.ndarray[Any, Any]) -> list[int]:
+    def _uncertain(self, seen: Seen) -> list[int]:
         """The positions of the pictures of which some network is less sure than the gate."""
-        if self.gate is None or self.extractor is None:
+        if self.gate is None or not self.domain.features:
             return []
-        probabilities = self.extractor.probabilities(pictures)
-        own = [probabilities[key].max(axis=1) for key in self.domain.features]
+        own = [seen.probabilities[key].max(axis=1) for key in self.domain.features]
         certainty = np.min(own, axis=0)
         return [int(n) for n in np.flatnonzero(certainty < self.gate)]
 
@@ -798,7 +838,9 @@ class Agent:
             without_class=self.without_class,
             minimality=self.minimality,
             seed=self.seed,
+            eyes=self.eyes,
             reading=self.reading,
+            reading_weights=self.reading_weights,
             gate=self.gate,
             known_share=self.known_share,
             familiarity=self.familiarity,
@@ -811,6 +853,7 @@ class Agent:
     def load(
         folder: Path | str,
         *,
+        device: str = "auto",
         reading: str | None = None,
         gate: float | None = None,
         known_share: float | None = None,
@@ -820,7 +863,7 @@ class Agent:
         Parameters
         ----------
         folder : Path or str
-        reading, gate, known_share : optional
+        device, reading, gate, known_share : optional
             As for :class:`Agent`, instead of what the model was trained with; a gate of 0 is none.
 
         Raises
@@ -833,23 +876,26 @@ class Agent:
         """
         from seewhy.model import read_model
 
-        model = read_model(Path(folder))
+        model = read_model(Path(folder), device=device)
         agent = Agent(
             model.domain,
             minimality=model.minimality,
             seed=model.seed,
+            eyes=model.eyes,
+            device=device,
             reading=model.reading if reading is None else reading,
             gate=model.gate if gate is None else gate,
             known_share=model.known_share if known_share is None else known_share,
             learned=model.learned,
             withdrawn=model.withdrawn,
         )
-        if agent.reading == "with_class" and CLASS not in model.extractor.networks:
+        if agent.reading == "with_class" and CLASS not in model.extractor.values:
             raise ModelError(
                 f"{folder}: the model has no network of the class; train it with --reading "
                 "with_class, or read its pictures in another way"
             )
         agent.extractor, agent.tree, agent.answerer = model.extractor, model.tree, model.answerer
+        agent.reading_weights = dict(model.reading_weights)
         agent.experience, agent.trained_on = model.experience, model.trained_on
         agent.without_class = model.without_class
         agent.familiarity = model.familiarity

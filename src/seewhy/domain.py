@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from seewhy.domain_tables import (
     CLASS,
+    EMBEDDED,
     RESERVED,
     TOGETHER,
     BeliefTable,
@@ -98,11 +99,14 @@ class Domain:
     folder : Path
     source : str or None
         The importable module that makes pictures (``draw(seed=, index=, size=)``).
-    reading : {"argmax", "consistent", "with_class"}
-        How the features of a picture are read, see :mod:`seewhy.reading`.
-    known_share : float
+    eyes : str
+        The backbone that sees, or "none" for networks that grow.
+    reading : {"argmax", "consistent", "with_class"} or None
+        How the features of a picture are read, see :mod:`seewhy.reading`; None leaves it to what
+        sees.
+    known_share : float or None
         The share of pictures like those of training that is answered, see
-        :mod:`seewhy.refusal`; 1 answers every picture.
+        :mod:`seewhy.refusal`; 1 answers every picture, None leaves it to what sees.
 
     Examples
     --------
@@ -126,8 +130,9 @@ class Domain:
     networks: NetworkTable
     folder: Path
     source: str | None
-    reading: ReadingRule = "argmax"
-    known_share: float = 1.0
+    eyes: str = EMBEDDED
+    reading: ReadingRule | None = None
+    known_share: float | None = None
 
     @property
     def schema(self) -> SceneSchema:
@@ -228,6 +233,7 @@ def load_domain(name: str | Path) -> Domain:
         networks=table.networks,
         folder=folder,
         source=table.domain.source,
+        eyes=table.domain.eyes,
         reading=table.domain.reading,
         known_share=table.domain.known_share,
     )

@@ -12,6 +12,9 @@ ReadingRule = OneOf["argmax", "consistent", "with_class"]
 
 READINGS: tuple[ReadingRule, ...] = get_args(ReadingRule)
 
+EMBEDDED = "efficientnet-lite0"
+"""The backbone that comes with SeeWhy."""
+
 CLASS = "class"
 """What the network of the class is called among those of the features."""
 
@@ -48,18 +51,26 @@ class DomainTable(_Table):
         default=None,
         description="The Python module that makes pictures of the domain, for `seewhy data make`.",
     )
-    reading: ReadingRule = Field(
-        default="argmax",
-        description="How values are read from the networks: `argmax` takes the most probable value "
-        "of each feature by itself, `consistent` the most probable values that go together by what "
-        "is known, `with_class` those with a network of the class as one more witness.",
+    eyes: str = Field(
+        default=EMBEDDED,
+        description="What sees: the name of a backbone, a network that has seen millions of "
+        "pictures before and is tuned to the domain's, or `none` for networks that grow on the "
+        "domain's pictures alone, as in the paper.",
     )
-    known_share: float = Field(
-        default=1.0,
+    reading: ReadingRule | None = Field(
+        default=None,
+        description="How values are read from what is seen: `argmax` takes the most probable value "
+        "of each feature by itself, `consistent` the most probable values that go together by what "
+        "is known, `with_class` those with the class, seen by itself, as one more witness. Where "
+        'left out, `with_class`; `argmax` with `eyes = "none"`.',
+    )
+    known_share: float | None = Field(
+        default=None,
         gt=0.0,
         le=1.0,
         description="The share of pictures like those of training that is answered; of all less "
-        "like them it is said that they are not known, and at 1 every picture is answered.",
+        "like them it is said that they are not known, and at 1 every picture is answered. Where "
+        'left out, 0.995; 1 with `eyes = "none"`.',
     )
 
 
@@ -67,15 +78,18 @@ class PictureTable(_Table):
     """``[pictures]``: how pictures are shown to the networks, and how they may be varied.
 
     See :func:`seewhy.perception.picture.read_picture` for ``fit`` and
-    :class:`seewhy.perception.options.TrainingOptions` for the variations. Where there are
-    photographs to train on, ``drawn`` pictures of the source are trained on before.
+    :class:`seewhy.perception.options.TrainingOptions` for the variations. Those that are left out
+    are chosen from the pictures (:mod:`seewhy.perception.variations`), or have the defaults of
+    TrainingOptions with ``eyes = "none"``. Where there are photographs to train on, ``drawn``
+    pictures of the source are trained on before.
     """
 
     size: int = Field(
         default=56,
         ge=16,
         le=512,
-        description="The side, in pixels, of the square that every picture becomes.",
+        description="The side, in pixels, of the square that every picture becomes for networks "
+        "that grow; a backbone has a side of its own.",
     )
     fit: OneOf["pad", "stretch"] = Field(
         default="pad",
@@ -87,59 +101,59 @@ class PictureTable(_Table):
         description="Whose mean and deviation the pixels are standardised by: those of all "
         "training pictures (`set`), or each picture's own (`picture`), which evens out light.",
     )
-    flip: bool = Field(
-        default=False,
+    flip: bool | None = Field(
+        default=None,
         description="Whether half of the training pictures are mirrored left to right; say so only "
         "where a mirrored picture has the same features and the same class.",
     )
-    shift: float = Field(
-        default=0.05,
+    shift: float | None = Field(
+        default=None,
         ge=0.0,
         le=0.5,
         description="How far training pictures are moved at most in each direction, as a share of "
         "the side.",
     )
-    rotate: float = Field(
-        default=0.0,
+    rotate: float | None = Field(
+        default=None,
         ge=0.0,
         le=180.0,
         description="How far training pictures are turned at most, in degrees to either side.",
     )
-    scale: float = Field(
-        default=0.0,
+    scale: float | None = Field(
+        default=None,
         ge=0.0,
         le=0.9,
         description="By which share the width and the height of training pictures grow or shrink "
         "at most, each on its own.",
     )
-    shear: float = Field(
-        default=0.0,
+    shear: float | None = Field(
+        default=None,
         ge=0.0,
         le=0.9,
         description="How far the top of training pictures is moved against the bottom at most, as "
         "a share of the side.",
     )
-    brightness: float = Field(
-        default=0.1,
+    brightness: float | None = Field(
+        default=None,
         ge=0.0,
         le=0.9,
         description="By which share the brightness of training pictures changes at most.",
     )
-    contrast: float = Field(
-        default=0.1,
+    contrast: float | None = Field(
+        default=None,
         ge=0.0,
         le=0.9,
         description="By which share the contrast of training pictures changes at most.",
     )
-    colour: float = Field(
-        default=0.1,
+    colour: float | None = Field(
+        default=None,
         ge=0.0,
         le=0.9,
         description="By which share red, green and blue of training pictures change at most, each "
         "on its own.",
     )
-    noise: float = Field(
-        default=2.0,
+    noise: float | None = Field(
+        default=None,
         ge=0.0,
         le=128.0,
         description="The standard deviation of the noise added to training pictures, in levels of "

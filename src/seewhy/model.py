@@ -7,7 +7,7 @@ import json
 import shutil
 import tempfile
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,18 +20,21 @@ from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import LEARNED, Withdrawn, read_learned, write_learned
 from seewhy.knowledge.reasoner import Minimality
+from seewhy.perception.backbones import NONE
+from seewhy.reading import ReadingWeights
 
 if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
     from seewhy.perception.extractor import FeatureExtractor
+    from seewhy.perception.eyes import Eyes
     from seewhy.perception.familiarity import Familiarity
 
 MANIFEST = "model.json"
-FORMAT = 4
+FORMAT = 5
 
 _KEYS = (
-    *("domain", "minimality", "seed", "reading", "gate", "known_share", "validation_scores"),
-    *("without", "answers", "trained_on", "files"),
+    *("domain", "minimality", "seed", "eyes", "reading", "reading_weights", "gate"),
+    *("known_share", "validation_scores", "without", "answers", "trained_on", "files"),
 )
 
 
@@ -51,7 +54,7 @@ class Model:
     domain: Domain
     learned: tuple[Axiom, ...]
     withdrawn: tuple[Withdrawn, ...]
-    extractor: FeatureExtractor
+    extractor: FeatureExtractor | Eyes
     tree: DecisionTree
     answerer: RecurrentAnswerer | None
     experience: Experience
@@ -59,7 +62,9 @@ class Model:
     without_class: frozenset[str]
     minimality: Minimality
     seed: int
+    eyes: str
     reading: ReadingRule
+    reading_weights: Mapping[ReadingRule, ReadingWeights]
     gate: float | None
     known_share: float
     familiarity: Familiarity | None
@@ -123,8 +128,8 @@ def check_target(folder: Path) -> None:
         )
 
 
-def read_model(folder: Path) -> Model:
-    """Read what :func:`write_model` wrote.
+def read_model(folder: Path, *, device: str = "auto") -> Model:
+    """Read what :func:`write_model` wrote; eyes are to compute on ``device``.
 
     Raises
     ------
@@ -144,10 +149,9 @@ def read_model(folder: Path) -> Model:
             f"domain folder is '{domain.name}'; train it again"
         )
     from seewhy.perception.domain_options import seen_values
-    from seewhy.perception.extractor import FeatureExtractor
     from seewhy.perception.familiarity import FAMILIARITY, Familiarity
 
-    extractor = FeatureExtractor.load(folder / "perception")
+    extractor = _read_extractor(folder / "perception", manifest["eyes"], device)
     with_class = CLASS in extractor.values
     if dict(extractor.values) != seen_values(domain, with_class=with_class):
         raise ModelError(
@@ -175,6 +179,10 @@ def read_model(folder: Path) -> Model:
         without_class=frozenset(manifest.get("without_class", ())),
         minimality=manifest["minimality"],
         seed=manifest["seed"],
+        eyes=manifest["eyes"],
+        reading_weights={
+            rule: ReadingWeights(**weights) for rule, weights in manifest["reading_weights"].items()
+        },
         reading=manifest["reading"],
         gate=manifest["gate"],
         known_share=manifest["known_share"],
@@ -182,6 +190,16 @@ def read_model(folder: Path) -> Model:
         validation_scores=manifest["validation_scores"],
         without=tuple(manifest["without"]),
     )
+
+
+def _read_extractor(folder: Path, eyes: str, device: str) -> FeatureExtractor | Eyes:
+    if eyes == NONE:
+        from seewhy.perception.extractor import FeatureExtractor
+
+        return FeatureExtractor.load(folder)
+    from seewhy.perception.eyes import Eyes
+
+    return Eyes.load(folder, device=device)
 
 
 def _experience_text(model: Model) -> str:
@@ -201,6 +219,10 @@ def _manifest(model: Model, folder: Path) -> dict[str, Any]:
         "domain": model.domain.name,
         "minimality": model.minimality,
         "seed": model.seed,
+        "eyes": model.eyes,
+        "reading_weights": {
+            rule: asdict(weights) for rule, weights in model.reading_weights.items()
+        },
         "reading": model.reading,
         "gate": model.gate,
         "known_share": model.known_share,

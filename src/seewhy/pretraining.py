@@ -12,9 +12,11 @@ from seewhy.data.dataset import Dataset
 from seewhy.data.making import MADE, make_dataset
 from seewhy.domain import Domain
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.perception.backbones import NONE
 
 if TYPE_CHECKING:
     from seewhy.perception.extractor import FeatureExtractor
+    from seewhy.perception.eyes import Eyes
     from seewhy.perception.rehearsal import Rehearsal
 
 __all__ = ["Pretrained", "is_drawn", "pretrained"]
@@ -24,10 +26,18 @@ __all__ = ["Pretrained", "is_drawn", "pretrained"]
 class Pretrained:
     """Networks that know a domain's drawings, and the drawings with their annotation."""
 
-    extractor: FeatureExtractor
-    rehearsal: Rehearsal
+    extractor: FeatureExtractor | Eyes
+    rehearsal: Rehearsal | None
     vectors: tuple[FeatureVector, ...]
     labels: tuple[str, ...]
+
+    @property
+    def networks(self) -> FeatureExtractor:
+        """The extractor, where networks were grown."""
+        from seewhy.perception.extractor import FeatureExtractor
+
+        assert isinstance(self.extractor, FeatureExtractor)
+        return self.extractor
 
 
 def is_drawn(dataset: Dataset) -> bool:
@@ -38,6 +48,8 @@ def is_drawn(dataset: Dataset) -> bool:
 def pretrained(
     domain: Domain,
     *,
+    eyes: str = NONE,
+    device: str = "auto",
     count: int,
     seed: int = 0,
     without: Sequence[str] = (),
@@ -56,6 +68,10 @@ def pretrained(
     ----------
     domain : Domain
         With a source of pictures.
+    eyes : str, default "none"
+        A backbone to teach instead of growing networks; see :mod:`seewhy.perception.backbones`.
+    device : str, default "auto"
+        Where it computes.
     count : int
         How many pictures to draw.
     seed : int, default 0
@@ -100,6 +116,14 @@ def pretrained(
             on_progress=on_picture,
         )
         scenes = Dataset.load(folder / "drawn", domain).without_classes(without)
+        shown = (tuple(scenes.vectors), tuple(scenes.classes))
+        if eyes != NONE:
+            from seewhy.perception.teaching import teach_eyes
+
+            taught = teach_eyes(
+                scenes, backbone=eyes, device=device, seed=seed, on_progress=on_progress
+            )
+            return Pretrained(taught.eyes, None, *shown)
         columns = seen_labels(domain, scenes.vectors, scenes.labels, with_class=with_class)
         labels = {key: [str(value) for value in column] for key, column in columns.items()}
         pixels = scenes.pictures(domain.pictures.size)
@@ -114,4 +138,4 @@ def pretrained(
             on_progress=on_progress,
         )
         drawn = Rehearsal(pixels, labels)
-        return Pretrained(extractor, drawn, tuple(scenes.vectors), tuple(scenes.classes))
+        return Pretrained(extractor, drawn, *shown)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -23,6 +24,8 @@ __all__ = [
     "Other",
     "Reading",
     "ReadingRule",
+    "ReadingWeights",
+    "fit_reading_weights",
     "open_vectors",
     "read_separately",
     "reading_rule",
@@ -95,6 +98,23 @@ class Reading:
     probability: float
     class_seen: tuple[str, float] | None = None
     others: tuple[Other, ...] = ()
+
+
+@dataclass(frozen=True)
+class ReadingWeights:
+    """How much what is seen counts in a consistent reading.
+
+    Attributes
+    ----------
+    features : float
+        The power to which the probabilities of features are raised: below 1 where features are
+        misread together, so that their product says more than it knows.
+    witness : float
+        That of the class's, where it is seen by itself; 0 does not ask it.
+    """
+
+    features: float = 1.0
+    witness: float = 1.0
 
 
 def reading_rule(name: str) -> ReadingRule:
@@ -170,6 +190,8 @@ class ConsistentReading:
         vectors are searched instead of listed none is.
     witnessed : collection of str
         The classes that the network of the class was shown; none where there is no such network.
+    weights : ReadingWeights
+        See :func:`fit_reading_weights`.
     listed : int
         With more vectors that the knowledge decides than this, the best one is searched for every
         picture: the reading is the same, but the class's probability is then that of the one
@@ -201,6 +223,7 @@ class ConsistentReading:
         shares_of: Callable[[FeatureVector], Mapping[str, float]] | None = None,
         other_from: float = 1.0,
         witnessed: Collection[str] = (),
+        weights: ReadingWeights = ReadingWeights(),  # noqa: B008: a frozen value
         listed: int = LISTED,
         tried: int = TRIED,
     ) -> None:
@@ -210,6 +233,7 @@ class ConsistentReading:
         self.shares_of = shares_of
         self.other_from = other_from
         self.witnessed = frozenset(witnessed)
+        self.weights = weights
         self.listed = listed
         self.tried = tried
         self._open = [v for v in dict.fromkeys(open_vectors) if None not in v]
@@ -309,7 +333,7 @@ class ConsistentReading:
             seen = _logarithms(np.asarray(probabilities[CLASS], dtype=np.float64))
             relative = seen - seen.max(axis=1, keepdims=True)
             own = [n for n, name in enumerate(self.schema.classes) if name in self.witnessed]
-            scores[:, own] = relative[:, own]
+            scores[:, own] = self.weights.witness * relative[:, own]
         return scores
 
     def _classes_seen(
@@ -328,10 +352,10 @@ class ConsistentReading:
     ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64], list[tuple[Other, ...]]]:
         """The best candidate of every picture, its score, its class's probability, and others."""
         alone = self._joint(logarithms)
-        best = (alone + class_scores[:, self._classes]).argmax(axis=1)
-        relative = np.exp(alone - alone.max(axis=1, keepdims=True))
-        weights = (relative @ self._shares) * np.exp(class_scores)
-        probable = weights / np.maximum(weights.sum(axis=1, keepdims=True), _SMALLEST)
+        weighted = self.weights.features * alone
+        best = (weighted + class_scores[:, self._classes]).argmax(axis=1)
+        relative = np.exp(weighted - weighted.max(axis=1, keepdims=True))
+        probable = self._probable(relative, class_scores)
         rows, read = np.arange(len(best)), self._classes[best]
         shares = probable[rows, read]
         probable[rows, read] = 0.0
@@ -339,6 +363,40 @@ class ConsistentReading:
         if self.other_from < 1.0:
             others = self._others(probable, relative, tables)
         return self._candidates[best], alone[rows, best], shares, others
+
+    def _probable(
+        self, relative: NDArray[np.float64], class_scores: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Probabilities of the classes, and of none: shape (pictures, classes + 1)."""
+        mass = (relative @ self._shares) * np.exp(class_scores)
+        found: NDArray[np.float64] = mass / np.maximum(mass.sum(axis=1, keepdims=True), _SMALLEST)
+        return found
+
+    def class_probabilities(self, probabilities: Probabilities) -> NDArray[np.float64] | None:
+        """Probabilities of the classes, and of none, by all candidates together.
+
+        Parameters
+        ----------
+        probabilities : mapping
+            As for :meth:`read`.
+
+        Returns
+        -------
+        ndarray of float, shape (pictures, classes + 1), or None
+            None where candidates are searched instead of listed.
+        """
+        if self._decided is None or not len(self._candidates):
+            return None
+        tables = _tables(self.schema, probabilities)
+        weighted = self.weights.features * self._joint([_logarithms(table) for table in tables])
+        relative = np.exp(weighted - weighted.max(axis=1, keepdims=True))
+        return self._probable(relative, self._class_scores(probabilities, len(tables[0])))
+
+    def weighing(self, weights: ReadingWeights) -> ConsistentReading:
+        """The same reading, with what is seen weighed otherwise; candidates are not listed anew."""
+        other = copy(self)
+        other.weights = weights
+        return other
 
     def _others(
         self,
@@ -374,6 +432,7 @@ class ConsistentReading:
         """The same for candidates that are not listed; without any, the separate reading."""
         best = np.stack([own.argmax(axis=1) for own in logarithms], axis=1)
         places = [{value: n for n, value in enumerate(own)} for own in self._values]
+        logarithms = [self.weights.features * table for table in logarithms]
         opened = self._joint(logarithms) + class_scores[:, self._classes]
         for number in range(len(best)):
             above = -np.inf
@@ -393,8 +452,57 @@ class ConsistentReading:
                 chosen = zip(places, found[0], strict=True)
                 best[number] = [place[value or ""] for place, value in chosen]
         rows = np.arange(len(best))
-        alone = np.sum([own[rows, n] for own, n in zip(logarithms, best.T, strict=True)], axis=0)
+        weighted = np.sum([own[rows, n] for own, n in zip(logarithms, best.T, strict=True)], axis=0)
+        alone = weighted / self.weights.features
         return best, alone, np.exp(alone)
+
+
+_FEATURE_WEIGHTS = (0.35, 0.5, 0.7, 1.0, 1.4)
+_WITNESS_WEIGHTS = (0.0, 0.15, 0.3, 0.5, 0.7, 1.0)
+_JUDGED = 500  # pictures: more cost time and change nothing
+_LEAST = 1e-3  # a class that the knowledge excludes is no infinite surprise
+
+
+def fit_reading_weights(
+    reader: ConsistentReading,
+    probabilities: Probabilities,
+    labels: Sequence[str | None],
+) -> ReadingWeights:
+    """Weigh what is seen so that the classes of pictures that taught nobody are most likely.
+
+    A witness that was shown three pictures of every class is worse than the knowledge, one that was
+    shown a hundred may be better: how much it counts is a matter of the pictures.
+
+    Parameters
+    ----------
+    reader : ConsistentReading
+    probabilities : mapping
+        As for :meth:`ConsistentReading.read`, of pictures kept out of training.
+    labels : sequence of str or None
+        Their classes.
+
+    Returns
+    -------
+    ReadingWeights
+        Those given where there are too few pictures, or candidates are searched.
+    """
+    places = {name: n for n, name in enumerate(reader.schema.classes)}
+    rows = [n for n, label in enumerate(labels) if label in places][:_JUDGED]
+    if len(rows) < 10:
+        return reader.weights
+    true = [places[str(labels[n])] for n in rows]
+    some = {name: table[rows] for name, table in probabilities.items()}
+    found: list[tuple[float, float, ReadingWeights]] = []
+    for features in _FEATURE_WEIGHTS:
+        for witness in _WITNESS_WEIGHTS if reader.witnessed else (1.0,):
+            weights = ReadingWeights(features, witness)
+            classes = reader.weighing(weights).class_probabilities(some)
+            if classes is None:
+                return reader.weights
+            loss = -np.log(np.maximum(classes[np.arange(len(true)), true], _LEAST)).sum()
+            # Of nearly equal ones the plainest: features as they are, a witness little asked.
+            found.append((round(float(loss), 1), abs(np.log(features)) + witness, weights))
+    return min(found, key=lambda row: row[:2])[2]
 
 
 def open_vectors(

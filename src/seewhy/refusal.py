@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-__all__ = ["refusal_threshold"]
+__all__ = ["KNOWN_SHARE", "refusal_threshold"]
+
+KNOWN_SHARE = 0.995
+"""Of two hundred pictures like those of training one is refused in vain, where eyes see."""
 
 
 def refusal_threshold(scores: Sequence[float], *, known_share: float) -> float | None:

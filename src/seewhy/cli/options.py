@@ -24,6 +24,20 @@ Outside = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Seed = Annotated[int, typer.Option("--seed", min=0, help="Settles every random choice.")]
 
+Eyes = Annotated[
+    str | None,
+    typer.Option(
+        "--eyes",
+        help="What sees: a backbone's name, or none for networks that grow (what the domain says).",
+    ),
+]
+Device = Annotated[
+    str,
+    typer.Option(
+        "--device",
+        help="Where it computes: cpu, cuda or mps; auto: on a graphics processor if there is one.",
+    ),
+]
 Reading = Annotated[
     str | None,
     typer.Option(

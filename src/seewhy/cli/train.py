@@ -9,7 +9,9 @@ import typer
 
 from seewhy.cli.options import (
     DataFolder,
+    Device,
     DomainName,
+    Eyes,
     Gate,
     Json,
     KnownShare,
@@ -30,7 +32,7 @@ def train(
     out: Annotated[Path, typer.Option("--out", help="The model folder to write.")],
     start_from: Annotated[
         Path | None,
-        typer.Option("--from", help="Fine-tune the networks of this model instead of growing new."),
+        typer.Option("--from", help="Train further what this model sees by, instead of anew."),
     ] = None,
     drawn: Annotated[
         int | None,
@@ -50,6 +52,8 @@ def train(
             "more than once for several.",
         ),
     ] = None,
+    eyes: Eyes = None,
+    device: Device = "auto",
     reading: Reading = None,
     gate: Gate = None,
     known_share: KnownShare = None,
@@ -73,6 +77,8 @@ def train(
         drawn=drawn,
         outside=outside,
         seed=seed,
+        eyes=eyes,
+        device=device,
         reading=reading,
         gate=gate,
         known_share=known_share,
@@ -83,6 +89,7 @@ def train(
             {
                 "model": str(out),
                 "domain": own.name,
+                "eyes": agent.eyes,
                 "networks": summary,
                 "tree_scenes": tree_scenes(agent),
                 "without": list(agent.without),
@@ -91,13 +98,14 @@ def train(
             }
         )
         return
-    rows = table("feature", "layers", ">validation", ">epochs")
+    rows = table("feature", "seen by", ">validation", ">pictures", ">epochs")
     for name, record in summary.items():
         add_row(
             rows,
             name,
             str(record["layers"]),
             percent(float(str(record["validation_accuracy"]))),
+            str(record["validation_pictures"] or f"{record['training_pictures']} (trained on)"),
             str(record["epochs"]),
         )
     output().print(rows)

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from seewhy.cli.screen import percent, progress, remark
 
 if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
+
     from seewhy.agent import Agent
     from seewhy.data.dataset import Dataset
     from seewhy.domain import Domain
     from seewhy.perception.events import TrainingEvent
+    from seewhy.perception.fitting_eyes import EyesEvent
 
 
 def trained_already(folder: Path, dataset: Dataset, *, seed: int) -> Agent | None:
@@ -39,7 +42,7 @@ def trained_already(folder: Path, dataset: Dataset, *, seed: int) -> Agent | Non
     plain = Agent(dataset.domain, seed=seed)
     same_options = all(
         getattr(agent, name) == getattr(plain, name)
-        for name in ("seed", "reading", "gate", "known_share", "without")
+        for name in ("seed", "eyes", "reading", "gate", "known_share", "without")
     )
     return agent if same_domain and same_pictures and same_options else None
 
@@ -54,6 +57,8 @@ def train_model(
     drawn: int | None = None,
     outside: bool = False,
     seed: int = 0,
+    eyes: str | None = None,
+    device: str = "auto",
     reading: str | None = None,
     gate: float | None = None,
     known_share: float | None = None,
@@ -66,13 +71,21 @@ def train_model(
     from seewhy.agent import Agent
     from seewhy.cli.read_data import read_data
     from seewhy.data.coverage import coverage_notices
-    from seewhy.domain_tables import CLASS, TOGETHER
     from seewhy.model import check_target
+    from seewhy.perception.backbones import NONE
 
     check_target(out)
     earlier = Agent.load(start_from) if start_from else None
     checkpoints = out.with_name(f"{out.name}.training")
-    agent = Agent(domain, seed=seed, reading=reading, gate=gate, known_share=known_share)
+    agent = Agent(
+        domain,
+        seed=seed,
+        eyes=eyes,
+        device=device,
+        reading=reading,
+        gate=gate,
+        known_share=known_share,
+    )
     dataset = read_data(data, domain, outside=outside)
     train = dataset.of_split("train").without_classes(without)
     train.require_two_classes()
@@ -81,26 +94,7 @@ def train_model(
         remark(notice)
     with progress() as bars:
         drawing = bars.add_task("drawing pictures", total=None, visible=False)
-        at_first = {TOGETHER} if domain.networks.together else set(domain.features)
-        if agent.reading == "with_class":
-            at_first.add(CLASS)
-        tasks = {
-            key: bars.add_task(key, total=None, visible=key in at_first)
-            for key in (*domain.features, CLASS, TOGETHER)
-        }
-
-        def on_progress(event: TrainingEvent) -> None:
-            bars.update(
-                tasks[event.feature],
-                description=f"{event.feature}, {event.depth} convolutions, "
-                f"validation {percent(event.validation_accuracy)}",
-                completed=event.epoch,
-                total=event.epochs,
-                visible=True,
-            )
-            if event.kind in ("grown", "done"):
-                remark(event.message)
-
+        shown = eyes_progress(bars) if agent.eyes != NONE else networks_progress(bars, agent)
         agent.fit(
             dataset,
             without=without,
@@ -108,8 +102,50 @@ def train_model(
             drawn=drawn,
             on_picture=lambda done: bars.update(drawing, completed=done, visible=True),
             checkpoints=checkpoints,
-            on_progress=on_progress,
+            on_progress=shown,
         )
     agent.save(out)
     shutil.rmtree(checkpoints, ignore_errors=True)
     return agent
+
+
+def networks_progress(bars: Progress, agent: Agent) -> Callable[[TrainingEvent], None]:
+    """Show a bar for every network that grows."""
+    from seewhy.domain_tables import CLASS, TOGETHER
+
+    domain = agent.domain
+    at_first = {TOGETHER} if domain.networks.together else set(domain.features)
+    if agent.reading == "with_class":
+        at_first.add(CLASS)
+    tasks = {
+        key: bars.add_task(key, total=None, visible=key in at_first)
+        for key in (*domain.features, CLASS, TOGETHER)
+    }
+
+    def on_progress(event: TrainingEvent) -> None:
+        bars.update(
+            tasks[event.feature],
+            description=f"{event.feature}, {event.depth} convolutions, "
+            f"validation {percent(event.validation_accuracy)}",
+            completed=event.epoch,
+            total=event.epochs,
+            visible=True,
+        )
+        if event.kind in ("grown", "done"):
+            remark(event.message)
+
+    return on_progress
+
+
+def eyes_progress(bars: Progress) -> Callable[[EyesEvent], None]:
+    """Show a bar for every stage in which eyes are taught."""
+    tasks: dict[str, TaskID] = {}
+
+    def on_progress(event: EyesEvent) -> None:
+        if event.stage not in tasks:
+            tasks[event.stage] = bars.add_task(event.stage, total=event.total)
+        bars.update(tasks[event.stage], completed=event.done, total=event.total)
+        if event.message is not None:
+            remark(event.message)
+
+    return on_progress

@@ -152,7 +152,7 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
         values=seen_values(domain),
         options=training_options(domain, seed=trial.seed),
         groups=train.groups,
-        start_from=first.extractor if first else None,
+        start_from=first.networks if first else None,
         rehearsal=first.rehearsal if first else None,
         together=trained_together(domain),
         workers=1,
@@ -161,7 +161,7 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
     classes = class_network(
         train,
         class_options(domain, seed=trial.seed),
-        start_from=first_class.extractor if first_class else None,
+        start_from=first_class.networks if first_class else None,
         rehearsal=first_class.rehearsal if first_class else None,
     )
     ended = time.process_time()
@@ -248,7 +248,7 @@ def _pretrain(setting: Setting, folder: Path) -> None:
             workers=1,
             checkpoints=folder,
         )
-        _save(first.extractor, folder / _FEATURES)
+        _save(first.networks, folder / _FEATURES)
     scenes = Dataset.load(folder / "drawn", domain)
     _save(class_network(scenes, class_options(domain, seed=0)), folder / CLASS)
 

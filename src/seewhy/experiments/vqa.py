@@ -19,6 +19,7 @@ from seewhy.experiments.questioning import Asked, answer_scores, draw_questions
 from seewhy.experiments.seeing import Remembered, Seen, pretrain, see
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import Withdrawn
+from seewhy.perception.backbones import NONE
 
 __all__ = [
     "MEASURES",
@@ -45,7 +46,7 @@ def annotator(scenes: Dataset) -> ReferenceAnswers:
 
     The same answers train all systems and judge them.
     """
-    agent = Agent(scenes.domain)
+    agent = Agent(scenes.domain, eyes=NONE)
     experience = experience_of(scenes.vectors, scenes.classes)
     return ReferenceAnswers(scenes.domain, agent.reasoned, experience)
 
@@ -109,6 +110,7 @@ def agent_of(
     agent = Agent(
         domain or setting.domain,
         seed=seed,
+        eyes=NONE,
         known_share=1.0,
         gate=gate,
         learned=learned,

@@ -15,8 +15,10 @@ __all__ = ["augment"]
 Uniform = Callable[..., torch.Tensor]  # of a shape, from -1 to 1
 
 
-def augment(pictures: torch.Tensor, options: TrainingOptions) -> torch.Tensor:
-    """Vary a batch as ``options`` say; randomness comes from PyTorch's CPU generator.
+def augment(
+    pictures: torch.Tensor, options: TrainingOptions, *, generator: torch.Generator | None = None
+) -> torch.Tensor:
+    """Vary a batch as ``options`` say; randomness comes from a generator on the CPU.
 
     Parameters
     ----------
@@ -24,6 +26,8 @@ def augment(pictures: torch.Tensor, options: TrainingOptions) -> torch.Tensor:
         Left as it is.
     options : TrainingOptions
         See there.
+    generator : torch.Generator, optional
+        PyTorch's own where left out.
 
     Returns
     -------
@@ -34,7 +38,7 @@ def augment(pictures: torch.Tensor, options: TrainingOptions) -> torch.Tensor:
 
     def uniform(*shape: int) -> torch.Tensor:
         # Drawn on the CPU always, so that runs with and without a GPU see the same pictures.
-        return (torch.rand(shape) * 2 - 1).to(device)
+        return (torch.rand(shape, generator=generator) * 2 - 1).to(device)
 
     if options.rotate or options.scale or options.shear:
         varied = _tilted(pictures, options, uniform)
@@ -51,7 +55,7 @@ def augment(pictures: torch.Tensor, options: TrainingOptions) -> torch.Tensor:
     if options.noise > 0:
         # One field for the batch, another for each step: drawing one a picture would take
         # longer than all else here.
-        varied += options.noise * torch.randn(1, size, size, 3).to(device)
+        varied += options.noise * torch.randn(1, size, size, 3, generator=generator).to(device)
     return varied
 
 
@@ -63,7 +67,8 @@ def _moved(pictures: torch.Tensor, options: TrainingOptions, uniform: Uniform) -
     places = torch.arange(size, device=device).expand(n, size)
     columns = places
     if options.flip:
-        mirrored = torch.rand(n, 1).to(device) < 0.5
+        # Below 0 of -1 to 1: half of them.
+        mirrored = uniform(n, 1) < 0
         columns = torch.where(mirrored, size - 1 - places, places)
     # Clamped indices repeat the border where the picture has moved away from it.
     rows = (places + offsets[0]).clamp(0, size - 1)

@@ -4,13 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 from seewhy.domain import Domain
 from seewhy.domain_tables import CLASS
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception.options import TrainingOptions
 
-__all__ = ["class_options", "seen_labels", "seen_values", "trained_together", "training_options"]
+__all__ = [
+    "class_options",
+    "given_variations",
+    "seen_labels",
+    "seen_values",
+    "trained_together",
+    "training_options",
+]
 
 
 def seen_values(domain: Domain, *, with_class: bool = False) -> dict[str, tuple[str, ...]]:
@@ -59,7 +67,7 @@ def training_options(
     >>> options["num_blocks"].threshold, options["lean"].flip, options["lean"].seed
     (0.98, True, 3)
     """
-    variations = domain.pictures.model_dump(exclude={"size", "fit", "drawn"})
+    variations = given_variations(domain)
     networks = domain.networks
     found = {
         key: TrainingOptions(
@@ -71,11 +79,25 @@ def training_options(
             channels=feature.channels or networks.channels,
             dense=feature.dense or networks.dense,
             seed=seed,
+            standard=domain.pictures.standard,
             **variations,
         )
         for key, feature in domain.features.items()
     }
     return {**found, CLASS: class_options(domain, seed=seed)} if with_class else found
+
+
+def given_variations(domain: Domain) -> dict[str, Any]:
+    """The variations of pictures that ``[pictures]`` settles; the others are left open.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> given_variations(load_domain("structure_stability"))
+    {'flip': True, 'shift': 0.06}
+    """
+    stated = domain.pictures.model_dump(exclude={"size", "fit", "standard", "drawn"})
+    return {name: value for name, value in stated.items() if value is not None}
 
 
 def class_options(domain: Domain, *, seed: int = 0) -> TrainingOptions:

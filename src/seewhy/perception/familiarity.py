@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict
 from seewhy.errors import ModelError
 from seewhy.weights import REMEDY, Described, read_weights, write_weights
 
-__all__ = ["FAMILIARITY", "Familiarity", "Known", "fit_familiarity"]
+__all__ = ["FAMILIARITY", "MOST", "Familiarity", "Known", "fit_familiarity"]
 
 FAMILIARITY = "familiarity.json"
 WEIGHTS = "familiarity.safetensors"

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["clearly_better", "split"]
+__all__ = ["clearly_better", "folds", "split"]
 
 
 def split(
@@ -70,6 +70,59 @@ def split(
     inside = np.zeros(len(labels), dtype=bool)
     inside[validation] = True
     return np.flatnonzero(~inside), np.flatnonzero(inside)
+
+
+def folds(
+    labels: Sequence[object],
+    *,
+    count: int,
+    seed: int,
+    groups: Sequence[object] | None = None,
+) -> list[npt.NDArray[np.int64]]:
+    """Divide pictures into ``count`` parts, each with its share of every label, groups whole.
+
+    Parameters
+    ----------
+    labels : sequence, length n
+        What to stratify by.
+    count : int
+        Parts; fewer come back where there are fewer groups.
+    seed : int
+        Another seed, other parts.
+    groups : sequence, length n, optional
+        Group of each picture; without it every picture is a group.
+
+    Returns
+    -------
+    list of ndarray of int64
+        Indices, ascending; every picture is in one part.
+
+    Examples
+    --------
+    >>> [len(part) for part in folds(["a"] * 6 + ["b"] * 3, count=3, seed=0)]
+    [3, 3, 3]
+    """
+    members: dict[object, list[int]] = {}
+    for i, group in enumerate(range(len(labels)) if groups is None else groups):
+        members.setdefault(group, []).append(i)
+    generator = np.random.default_rng(seed)
+    names = list(members)
+    order = [names[n] for n in generator.permutation(len(names))]
+    # The largest groups first: what comes later evens out what they left uneven.
+    order.sort(key=lambda group: -len(members[group]))
+    parts: list[list[int]] = [[] for _ in range(min(count, len(order)))]
+    of_label: list[dict[object, int]] = [{} for _ in parts]
+    for group in order:
+        shown = [labels[i] for i in members[group]]
+
+        def filled(n: int, shown: list[object] = shown) -> tuple[int, int]:
+            return sum(of_label[n].get(label, 0) for label in shown), len(parts[n])
+
+        part = min(range(len(parts)), key=filled)
+        parts[part] += members[group]
+        for label in shown:
+            of_label[part][label] = of_label[part].get(label, 0) + 1
+    return [np.array(sorted(part), dtype=np.int64) for part in parts]
 
 
 def clearly_better(accuracy: float, *, than: float, pictures: int) -> bool:

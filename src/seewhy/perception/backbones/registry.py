@@ -1,0 +1,70 @@
+"""Which backbones there are: a name, or a family's name and what follows its colon."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from seewhy.domain_tables import EMBEDDED
+from seewhy.errors import DomainError
+from seewhy.nearest import did_you_mean
+
+if TYPE_CHECKING:
+    from seewhy.perception.backbones.backbone import Backbone
+
+__all__ = ["EMBEDDED", "NONE", "load_backbone", "require_backbone"]
+
+NONE = "none"
+"""No backbone: networks grow on the domain's pictures alone, as in the paper."""
+
+
+def _embedded(_: str) -> Backbone:
+    from seewhy.perception.backbones.embedded import embedded_backbone
+
+    return embedded_backbone()
+
+
+FAMILIES: dict[str, Callable[[str], Backbone]] = {EMBEDDED: _embedded}
+"""Family → what makes a backbone of what follows the colon."""
+
+
+def require_backbone(name: str) -> None:
+    """Raise a DomainError where ``name`` is neither a backbone nor "none"; nothing is loaded.
+
+    Examples
+    --------
+    >>> require_backbone("efficientnet-lite")
+    Traceback (most recent call last):
+    seewhy.errors.DomainError: eyes 'efficientnet-lite' are not known; did you mean ...
+    """
+    family, _, _ = name.partition(":")
+    if family not in FAMILIES and name != NONE:
+        raise DomainError(f"eyes '{name}' are not known; {did_you_mean(name, (*FAMILIES, NONE))}")
+
+
+def load_backbone(name: str, *, device: str = "auto") -> Backbone:
+    """Return the backbone of a name.
+
+    Parameters
+    ----------
+    name : str
+        ``efficientnet-lite0``.
+    device : {"auto", "cpu", "cuda", "mps"}
+
+    Raises
+    ------
+    DomainError
+        There is no such backbone, or no such device.
+    ModelError
+        Its weights are missing, damaged or others.
+
+    Examples
+    --------
+    >>> load_backbone("efficientnet-lite0").side
+    112
+    """
+    from seewhy.perception.device import device_of
+
+    require_backbone(name)
+    family, _, rest = name.partition(":")
+    return FAMILIES[family](rest).to(device_of(device))

