@@ -198,14 +198,14 @@ def test_a_file_that_is_not_text(tmp_path: Path) -> None:
 # domain.toml
 
 NOT_TOML = {
-    "no value": ("size = 16", "size =", 8, ":7: not valid TOML: invalid value"),
+    "no value": ("size = 16", "size =", 9, ":7: not valid TOML: invalid value"),
     "open text": (
         'name = "tiles"',
         'name = "tiles',
         2,
         ":14: not valid TOML: illegal character '\\n'",
     ),
-    "no sign": ("shift = 0.05", "shift 0.05", 9, ":7: not valid TOML: expected '=' after a key "
+    "no sign": ("shift = 0.05", "shift 0.05", 10, ":7: not valid TOML: expected '=' after a key "
                 "in a key/value pair"),
 }  # fmt: skip
 
@@ -247,7 +247,7 @@ WRONG = {
         'subject = "the tile"',
         'subject = "the tile"\nzzz = 1',
         "{+1}: 'domain.zzz' is not known here; it must be one of: name, title, scene, subject, "
-        "source, reading, known_share",
+        "source, eyes, reading, known_share",
     ),
     "missing key": ('title = "Tiles"\n', "", "1: 'domain.title' is missing; add it"),
     "missing words of a value": (
