@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -10,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from conftest import draw_tile, seen
+from conftest import TRUTH, draw_tile, seen
 from knowledge_builders import VALUES, World, worlds
 from seewhy.agent import Agent
 from seewhy.class_shares import with_class_shares
@@ -25,7 +26,7 @@ from seewhy.evaluation import evaluate
 from seewhy.knowledge.candidates import decided_vectors
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.reading import ConsistentReading, read_separately
+from seewhy.reading import ConsistentReading, open_vectors, read_separately
 from seewhy.reply import Classification, FeatureReading
 from test_reading import SPACE, distributions, logarithm
 
@@ -324,15 +325,16 @@ class Seeing:
 
     size = 56
 
-    def __init__(self, tables: dict[str, np.ndarray[Any, Any]]) -> None:
+    def __init__(self, tables: dict[str, np.ndarray[Any, Any]], classes: Iterable[str]) -> None:
         self.tables = tables
+        self.classes = frozenset(classes)
 
     def probabilities(self, pictures: np.ndarray[Any, Any]) -> dict[str, np.ndarray[Any, Any]]:
         return {key: np.repeat(table, len(pictures), axis=0) for key, table in self.tables.items()}
 
     def shown(self, feature: str) -> frozenset[str]:
         assert feature == CLASS
-        return frozenset(("stable", "unstable"))
+        return self.classes
 
 
 @st.composite
@@ -358,27 +360,42 @@ def sights(draw: st.DrawFn, domain: Domain) -> dict[str, np.ndarray[Any, Any]]:
 def class_probabilities(
     agent: Agent, sight: dict[str, np.ndarray[Any, Any]], rule: str
 ) -> dict[str, float]:
-    """By going through all feature vectors; nothing here is shared with what is tested."""
+    """By going through all feature vectors."""
     found = dict.fromkeys(agent.domain.classes, 0.0)
     total = 0.0
     features = agent.domain.features
+    opened = open_vectors(agent.reasoner, agent.experience)
+    witness = sight[CLASS][0] / sight[CLASS].max()
     for places in np.ndindex(*(len(feature.values) for feature in features.values())):
         vector = tuple(
             feature.values[n] for feature, n in zip(features.values(), places, strict=True)
         )
+        decided = agent.reasoner.decide(vector).label is not None
+        if rule != "argmax" and not decided and vector not in opened:
+            continue
         probability = float(
             np.prod([sight[key][0, n] for key, n in zip(features, places, strict=True)])
         )
-        label = agent.decide(dict(zip(features, vector, strict=True)))
-        if label is None and rule != "argmax":
-            continue  # nothing annotated is left open here, so that it is no candidate
-        if label is not None and rule == "with_class":
-            seen_class = sight[CLASS][0]
-            probability *= float(seen_class[list(found).index(label)] / seen_class.max())
-        total += probability
-        if label is not None:
-            found[label] += probability
+        shares = agent._class_shares(vector)
+        for n, label in enumerate(found):
+            weight = witness[n] if rule == "with_class" else 1.0
+            found[label] += probability * shares.get(label, 0.0) * weight
+            total += probability * shares.get(label, 0.0) * weight
+        total += 0.0 if shares else probability
     return {label: own / total for label, own in found.items()}
+
+
+@pytest.fixture(scope="module")
+def learned(tiles: Domain) -> Agent:
+    """An agent that learned answers about green tiles, of which some are otherwise than most."""
+    agent = Agent(tiles, seed=3)
+    vectors = [*TRUTH] * 6
+    labels = [TRUTH[vector] for vector in vectors]
+    green = [n for n, vector in enumerate(vectors) if vector == ("green", "yes")]
+    for n in green[:2]:
+        labels[n] = "bad"
+    agent.fit_induction(vectors, labels)
+    return agent
 
 
 @settings(
@@ -394,7 +411,7 @@ def test_nothing_is_supposed_silently_however_pictures_are_read(
 ) -> None:
     agent = Agent(structures, reading=rule, known_share=1.0, trust=trust)
     sight = data.draw(sights(structures))
-    agent.extractor = Seeing(sight)  # type: ignore[assignment]
+    agent.extractor = Seeing(sight, structures.classes)  # type: ignore[assignment]
     (scene,) = agent.classify_all(np.zeros((1, 56, 56, 3), dtype=np.uint8))
     probable = class_probabilities(agent, sight, rule)
     question = data.draw(st.sampled_from(agent.questions.one_of_each()))
@@ -432,6 +449,37 @@ def test_nothing_is_supposed_silently_however_pictures_are_read(
             assert reply.certainty is not Certainty.SURE
             assert reply.certainty is not None
             assert reply.certainty.adverb in reply.text.casefold()
+
+
+@settings(
+    max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
+)
+@given(data=st.data(), rule=st.sampled_from(["argmax", "consistent", "with_class"]))
+def test_what_a_tree_is_in_doubt_about_is_not_supposed_silently_either(
+    learned: Agent, data: st.DataObject, rule: str
+) -> None:
+    agent = Agent(learned.given, seed=3, reading=rule, known_share=1.0)
+    agent.tree, agent.answerer = learned.tree, learned.answerer
+    agent.experience = learned.experience
+    sight = data.draw(sights(agent.domain))
+    agent.extractor = Seeing(sight, agent.domain.classes)  # type: ignore[assignment]
+    (scene,) = agent.classify_all(np.zeros((1, 56, 56, 3), dtype=np.uint8))
+    assert scene.label is not None
+    probable = class_probabilities(agent, sight, rule)
+    assert scene.probability == pytest.approx(probable[scene.label], abs=2e-3)
+    (other,) = set(agent.domain.classes) - {scene.label}
+    for words in (f"why is it {other}?", f"why is it not {scene.label}?"):
+        reply = agent.answer(scene, agent.questions.understand(words))
+        assert (reply.supposed is not None) == reply.text.startswith("I took the tile to be ")
+        if probable[other] > agent._believed_from + 3e-3:
+            assert reply.supposed is not None
+        if reply.supposed is not None:
+            assert (reply.supposed.probability or 0.0) >= agent._believed_from
+        elif probable[scene.label] < SURE_FROM - 2e-3:
+            assert reply.certainty is not Certainty.SURE
+    plain = agent.answer(scene, agent.questions.understand(f"is it {other}?"))
+    assert plain.supposed is None
+    assert (plain.certainty is Certainty.SURE) <= (probable[scene.label] >= SURE_FROM - 2e-3)
 
 
 @settings(
