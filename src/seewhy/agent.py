@@ -19,22 +19,12 @@ from seewhy.dialogue.reference import Experience, ReferenceAnswers, experience_o
 from seewhy.domain import Domain
 from seewhy.domain_tables import CLASS
 from seewhy.errors import DatasetError, DomainError, KnowledgeError, ModelError, NotFittedError
-from seewhy.induction.learning import DEFAULTS, LearningOptions
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import Withdrawn, learned_text, parse_learned
 from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.reasoner import Minimality, Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.learning import (
-    AnnotatedScenes,
-    Learning,
-    axioms_of,
-    contradicted,
-    learn_for_domain,
-    scenes_of,
-    superseded,
-)
 from seewhy.nearest import did_you_mean
 from seewhy.perception.backbones import NONE, require_backbone
 from seewhy.reading import (
@@ -50,7 +40,6 @@ from seewhy.reading import (
     reading_rule,
 )
 from seewhy.refusal import KNOWN_SHARE, refusal_threshold
-from seewhy.refutation import refuted
 from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
 
 if TYPE_CHECKING:
@@ -58,6 +47,8 @@ if TYPE_CHECKING:
 
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
     from seewhy.fitting import Taught
+    from seewhy.induction.learning import LearningOptions
+    from seewhy.learning import Learning
     from seewhy.perception.extractor import FeatureExtractor, Seen
     from seewhy.perception.eyes import Eyes
     from seewhy.perception.familiarity import Familiarity
@@ -418,7 +409,7 @@ class Agent:
         self,
         dataset: Dataset,
         *,
-        options: LearningOptions = DEFAULTS,
+        options: LearningOptions | None = None,
         accept: Callable[[Sequence[Axiom]], Sequence[Axiom]] | None = None,
         set_aside: Callable[[Sequence[Withdrawn]], Sequence[Withdrawn]] | None = None,
         answers: bool = True,
@@ -434,8 +425,8 @@ class Agent:
         ----------
         dataset : Dataset
             Of its splits, "train" is used.
-        options : LearningOptions
-            How much evidence an axiom needs.
+        options : LearningOptions, optional
+            How much evidence an axiom needs; the defaults where left out.
         accept : callable, optional
             Called with the axioms found; returns those to add. All are added without it.
         set_aside : callable, optional
@@ -455,6 +446,18 @@ class Agent:
         DatasetError
             If the dataset is of another domain, or there is one class only.
         """
+        from seewhy.induction.learning import DEFAULTS
+        from seewhy.learning import (
+            Learning,
+            axioms_of,
+            contradicted,
+            learn_for_domain,
+            scenes_of,
+            superseded,
+        )
+        from seewhy.refutation import refuted
+
+        options = DEFAULTS if options is None else options
         self._require_own(dataset)
         train = dataset.of_split("train")
         counted = self.trained_on - self.without_class
@@ -513,6 +516,8 @@ class Agent:
         gone = Withdrawn(str(axiom), reason)
         self.withdrawn = (*self.withdrawn, gone)
         self._know([own for own in self.learned if own is not axiom])
+        from seewhy.learning import AnnotatedScenes
+
         scenes = AnnotatedScenes.of_experience(self.experience)
         self.fit_induction(scenes.vectors, scenes.labels, answers=self.answerer is not None)
         return gone
@@ -540,6 +545,8 @@ class Agent:
             own for own in self.withdrawn if not (own.given and own.statement == str(axiom))
         )
         self._know(self.learned)
+        from seewhy.learning import AnnotatedScenes
+
         scenes = AnnotatedScenes.of_experience(self.experience)
         self.fit_induction(scenes.vectors, scenes.labels, answers=self.answerer is not None)
         return axiom
