@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -141,6 +141,12 @@ def _curve(agent: Agent, dataset: Dataset, model: Path) -> LearningCurve:
         def on_part(pictures: int) -> None:
             bars.reset(task, description=f"training on {pictures:,} pictures", total=None)
 
+        def on_progress(event: Any) -> None:
+            # Networks that grow tell of passes, eyes of pictures gone over.
+            passes = not hasattr(event, "done")
+            done, total = (event.epoch, event.epochs) if passes else (event.done, event.total)
+            bars.update(task, completed=done, total=total)
+
         def on_point(point: CurvePoint) -> None:
             share = point.class_recognition.confusion.share
             remark(f"trained on {point.pictures:,} pictures: {percent(share.value)} right")
@@ -150,9 +156,7 @@ def _curve(agent: Agent, dataset: Dataset, model: Path) -> LearningCurve:
             dataset,
             folder.with_name(f"{folder.name}.curve"),
             on_part=on_part,
-            on_progress=lambda event: bars.update(
-                task, completed=event.epoch, total=event.epochs, visible=True
-            ),
+            on_progress=on_progress,
             on_point=on_point,
         )
 

@@ -149,13 +149,19 @@ def _held_back(evaluation: Evaluation) -> Iterator[str]:
     # Of scenes that are annotated alike and have several classes, all but one class are wrong.
     left_open = round((1.0 - evaluation.determined) * evaluation.scenes)
     if rest:
-        fault = (
-            "the features do not tell: pictures that are annotated alike have several classes, "
-            "which one more feature or better annotation would have to tell apart"
-            if rest <= left_open
-            else "the knowledge, the tree or the annotation is at fault, not what is seen; "
-            "'seewhy learn' looks for axioms that are missing"
-        )
+        alike = "pictures that are annotated alike have several classes"
+        if rest <= left_open:
+            fault = (
+                f"the features do not tell: {alike}, which one more feature or better annotation "
+                "would have to tell apart"
+            )
+        else:
+            fault = (
+                "the knowledge, the tree or the annotation is at fault, not what is seen; 'seewhy "
+                "learn' looks for axioms that are missing"
+            )
+            if left_open:
+                fault += f", but {left_open} of {evaluation.scenes} no axiom tells: {alike}"
         yield (
             f"{rest} of {found.wrong} wrong classes would stay wrong with every annotated feature "
             f"read rightly. There {fault}."

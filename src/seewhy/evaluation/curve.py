@@ -23,7 +23,6 @@ from seewhy.evaluation.recognition import (
 if TYPE_CHECKING:
     from seewhy.agent import Agent
     from seewhy.data.dataset import Dataset
-    from seewhy.perception.events import TrainingEvent
 
 __all__ = ["CurvePoint", "LearningCurve", "growing_parts", "learning_curve", "require_splits"]
 
@@ -132,14 +131,14 @@ def learning_curve(
     folder: Path | str,
     *,
     on_part: Callable[[int], None] | None = None,
-    on_progress: Callable[[TrainingEvent], None] | None = None,
+    on_progress: Callable[[Any], None] | None = None,
     on_point: Callable[[CurvePoint], None] | None = None,
 ) -> LearningCurve:
     """Train as an agent was trained on growing parts of a dataset, and evaluate each.
 
-    The networks begin anew for every part. Models that were trained are kept in ``folder`` and
-    found there again, as long as the pictures, their annotation, the domain and the options are
-    the same; a training that was interrupted goes on where it was.
+    The networks begin anew for every part, and every picture is answered. Models that were trained
+    are kept in ``folder`` and found there again, as long as the pictures, their annotation, the
+    domain and the options are the same; a training that was interrupted goes on where it was.
 
     Parameters
     ----------
@@ -152,7 +151,7 @@ def learning_curve(
     on_part : callable, optional
         Called with the number of pictures before a model is trained on them.
     on_progress : callable, optional
-        Called with a :class:`~seewhy.perception.events.TrainingEvent` after every epoch.
+        As of :meth:`seewhy.Agent.fit`.
     on_point : callable, optional
         Called with every finished point.
 
@@ -200,17 +199,19 @@ def _trained(
     part: Dataset,
     folder: Path,
     *,
-    on_progress: Callable[[TrainingEvent], None] | None,
+    on_progress: Callable[[Any], None] | None,
 ) -> Agent:
     """The model in ``folder`` that was trained on these pictures, or else a new one."""
     from seewhy.agent import Agent
 
-    place = folder / f"{len(part)}-{_identity(like, part)}"
+    model = with_axioms(like, (), ())
+    # Of few pictures no model knows when to say that it does not know: more would seem worse.
+    model.known_share = 1.0
+    place = folder / f"{len(part)}-{_identity(model, part)}"
     try:
         return Agent.load(place)
     except ModelError:
         pass  # not trained yet, or not by this version
-    model = with_axioms(like, (), ())
     checkpoints = folder / f"{place.name}.training"
     # Answers would be learned as well, but nobody asks questions here.
     model.fit(part, answers=False, checkpoints=checkpoints, on_progress=on_progress)
