@@ -15,7 +15,6 @@ from seewhy.domain import load_domain
 from seewhy.domain_tables import (
     DomainFile,
     DomainTable,
-    NetworkTable,
     PictureTable,
     QuestionsFile,
     QuestionTable,
@@ -158,15 +157,15 @@ def test_the_commented_keys_of_a_new_domain_work(source: str, run: Run, tmp_path
         run("new", folder)
     text = (folder / "domain.toml").read_text(encoding="utf-8")
     examples = re.findall(r"^# (\w+) = \S+$", text, re.MULTILINE)
-    assert {"reading", "known_share", "rotate", "size", "epochs"} <= set(examples)
+    assert {"eyes", "reading", "known_share", "rotate", "size"} <= set(examples)
     sentences = " ".join(re.sub(r"^# ", "", line) for line in text.splitlines())
-    for table in (DomainTable, PictureTable, NetworkTable):
+    for table in (DomainTable, PictureTable):
         for name, field in table.model_fields.items():
             assert (name in examples) <= (str(field.description) in sentences), name
     used = re.sub(r"^# (\w+ = \S+|\[\w+\])$", r"\1", text, flags=re.MULTILINE)
     (folder / "domain.toml").write_text(used, encoding="utf-8")
     domain = load_domain(folder)
-    assert (domain.known_share, domain.pictures.rotate, domain.networks.epochs) == (0.95, 15, 30)
+    assert (domain.eyes, domain.known_share, domain.pictures.rotate) == ("none", 0.95, 15)
     assert run("check", folder).code == 0
 
 

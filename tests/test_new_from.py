@@ -83,7 +83,7 @@ of_kind(S, 2) if -thumb(S), middle(S).
 of_kind(S, 3) if thumb(S).
 """
     )
-    assert "\n[networks]" not in (folder / "domain.toml").read_text()
+    assert "[networks]" not in (folder / "domain.toml").read_text()
     checked = run("check", folder)
     assert (checked.code, checked.err) == (0, "")
     assert checked.out.endswith("nothing is wrong\n")

@@ -348,7 +348,8 @@ class DomainFile(_Table):
     )
     networks: NetworkTable = Field(
         default=NetworkTable(),
-        description="How large the networks become and how they are trained.",
+        description="How large the networks become that grow on the domain's pictures alone "
+        '(`eyes = "none"`), and how they are trained.',
     )
     features: dict[str, FeatureTable] = Field(
         min_length=1,

@@ -13,9 +13,8 @@ from seewhy.key_reference import table_references
 __all__ = ["common_keys", "with_common_keys"]
 
 _EXAMPLES: Mapping[str, Mapping[str, object]] = {
-    "domain": {"reading": "consistent", "known_share": 0.95},
+    "domain": {"eyes": "none", "reading": "consistent", "known_share": 0.95},
     "pictures": {"flip": True, "rotate": 15, "scale": 0.1, "fit": "stretch", "size": 96},
-    "networks": {"epochs": 30},
 }
 _MARK = re.compile(r"^#:(\w+)((?: \w+)*)$", re.MULTILINE)
 _WIDTH = 96
@@ -29,7 +28,7 @@ def common_keys(table: str, *, without: Collection[str] = ()) -> list[str]:
 
     Parameters
     ----------
-    table : {"domain", "pictures", "networks"}
+    table : {"domain", "pictures"}
     without : collection of str
         Keys that the file has already.
 

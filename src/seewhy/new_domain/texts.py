@@ -78,9 +78,6 @@ def domain_text(sketch: Sketch) -> str:
         "",
         "# [pictures]",
         *common_keys("pictures"),
-        "",
-        "# [networks]",
-        *common_keys("networks"),
     ]
     if sketch.has_look:
         lines += [
