@@ -20,6 +20,10 @@ FEW = 10
 
 _MOST = 20.0  # a weight
 
+_EVIDENCE = 5.0
+"""Nats by which others must explain unseen pictures better than the preferred way of seeing: the
+few that are held out favour one way or the other by as much as three, by chance."""
+
 
 @dataclass(frozen=True)
 class Stack:
@@ -87,9 +91,10 @@ def fit_stack(
 ) -> Stack:
     """Weigh ways of seeing so that the values of unseen pictures are most likely.
 
-    All together are asked where that makes the values more likely by more than the further
-    weights would by chance (Akaike's criterion); else the best one alone. Its weight calibrates
-    it, as a temperature does. Targets are softened by one supposed mistake (Platt 1999).
+    The preferred way alone is asked, unless another, or all together, makes the values clearly
+    more likely, by more than :data:`_EVIDENCE` and what the further weights would by chance
+    (Akaike's criterion). Its weight calibrates it, as a temperature does. Targets are softened by
+    one supposed mistake (Platt 1999).
 
     Parameters
     ----------
@@ -98,7 +103,7 @@ def fit_stack(
     targets : ndarray of int, shape (n,)
         The index of each picture's value.
     preferred : str
-        The way of seeing that is asked where there are too few pictures to tell.
+        The way of seeing that is asked where pictures do not clearly tell.
 
     Examples
     --------
@@ -135,7 +140,8 @@ def fit_stack(
         bounds = [(0.0, _MOST)] * len(names)
         result = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds)
         chosen = {name: float(x) for name, x in zip(names, result.x, strict=True)}
-        return float(result.fun) + len(names), chosen
+        evidence = 0.0 if names == (preferred,) else _EVIDENCE
+        return float(result.fun) + len(names) + evidence, chosen
 
     ranked = sorted(
         (fitted(names) for names in [*((name,) for name in tables), tuple(tables)]),

@@ -15,7 +15,7 @@ from torch import nn
 
 from seewhy.one_thread import one_thread
 
-__all__ = ["Backbone", "Embedded", "Tap", "Trunk", "pool"]
+__all__ = ["Backbone", "Embedded", "Tap", "Trunk", "halved", "pool"]
 
 Pictures = npt.NDArray[np.uint8]
 Maps = npt.NDArray[np.float16]
@@ -138,7 +138,7 @@ class Backbone:
         pictures : tensor of float, shape (n, side, side, 3), in 0..255
         """
         *_, (_, maps) = self._run(pictures, until=self.trunk.tuned_from)
-        return _halved(maps)
+        return halved(maps)
 
     def to(self, device: torch.device) -> Backbone:
         """Move the weights to a device."""
@@ -146,6 +146,12 @@ class Backbone:
         self.trunk.stages.to(device)
         self._mean, self._scale = self._mean.to(device), self._scale.to(device)
         return self
+
+    def shown(self, pictures: torch.Tensor) -> torch.Tensor:
+        """Pictures of shape (n, side, side, 3) as the network takes them: (n, 3, side, side)."""
+        levels = (pictures.to(self.device).float() - self._mean) / self._scale
+        # Rows × columns × channels in memory is what PyTorch calls channels last: no copy.
+        return levels.permute(0, 3, 1, 2)
 
     def _in_chunks(
         self, pictures: Pictures, look: Callable[[Pictures], Embedded]
@@ -169,14 +175,12 @@ class Backbone:
             if number in sides:
                 pooled.append(pool(maps, sides[number]))
             if number == self.trunk.tuned_from - 1 and self.tunable:
-                middle = _halved(maps)
-        return Embedded(_halved(torch.cat(pooled, dim=1)), middle)
+                middle = halved(maps)
+        return Embedded(halved(torch.cat(pooled, dim=1)), middle)
 
     def _run(self, pictures: torch.Tensor, *, until: int) -> Iterator[tuple[int, torch.Tensor]]:
         with torch.inference_mode():
-            shown = (pictures.to(self.device).float() - self._mean) / self._scale
-            # Rows × columns × channels in memory is what PyTorch calls channels last: no copy.
-            maps = shown.permute(0, 3, 1, 2)
+            maps = self.shown(pictures)
             for number, stage in enumerate(list(self.trunk.stages)[:until]):
                 maps = stage(maps)
                 yield number, maps
@@ -188,7 +192,8 @@ def pool(maps: torch.Tensor, side: int) -> torch.Tensor:
     return functional.adaptive_avg_pool2d(maps, smaller).flatten(1)
 
 
-def _halved(values: torch.Tensor) -> npt.NDArray[np.float16]:
+def halved(values: torch.Tensor) -> npt.NDArray[np.float16]:
+    """Numbers in half precision, those too large for it as large as can be."""
     limit = float(np.finfo(np.float16).max)
     halves: npt.NDArray[np.float16] = values.clamp(-limit, limit).half().cpu().numpy()
     return halves

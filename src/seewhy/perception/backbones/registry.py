@@ -24,7 +24,30 @@ def _embedded(_: str) -> Backbone:
     return embedded_backbone()
 
 
-FAMILIES: dict[str, Callable[[str], Backbone]] = {EMBEDDED: _embedded}
+def _timm(name: str) -> Backbone:
+    from seewhy.perception.backbones.libraries import timm_backbone
+
+    return timm_backbone(name)
+
+
+def _torchvision(name: str) -> Backbone:
+    from seewhy.perception.backbones.libraries import torchvision_backbone
+
+    return torchvision_backbone(name)
+
+
+def _onnx(path: str) -> Backbone:
+    from seewhy.perception.backbones.onnx_file import onnx_backbone
+
+    return onnx_backbone(path)
+
+
+FAMILIES: dict[str, Callable[[str], Backbone]] = {
+    EMBEDDED: _embedded,
+    "timm": _timm,
+    "torchvision": _torchvision,
+    "onnx": _onnx,
+}
 """Family → what makes a backbone of what follows the colon."""
 
 
@@ -48,7 +71,8 @@ def load_backbone(name: str, *, device: str = "auto") -> Backbone:
     Parameters
     ----------
     name : str
-        ``efficientnet-lite0``.
+        ``efficientnet-lite0``, whose last layers are tuned; or, with heads alone, ``timm:NAME``,
+        ``torchvision:NAME`` or ``onnx:FILE``.
     device : {"auto", "cpu", "cuda", "mps"}
 
     Raises
