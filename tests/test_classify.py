@@ -349,6 +349,19 @@ def test_one_sentence(
     assert (result.code, result.out, result.err) == (2, "", f"seewhy: {said}\n")
 
 
+def test_the_table_of_the_pictures_is_not_overwritten(
+    run: Run, model_folder: Path, photos: Path
+) -> None:
+    (photos / "scenes.csv").write_text(TABLE)
+    result = run("classify", model_folder, photos, "--out", photos / "more/../scenes.csv")
+    assert (result.code, result.err) == (
+        2,
+        "seewhy: photos/more/../scenes.csv: is the table that names the pictures; name another for "
+        "--out\n",
+    )
+    assert (photos / "scenes.csv").read_text() == TABLE
+
+
 def test_parquet_without_its_library(
     run: Run, model_folder: Path, photos: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

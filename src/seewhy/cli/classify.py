@@ -51,10 +51,13 @@ def classify(
     from seewhy.classifying.running import classify_to_table
     from seewhy.data.digest import digest_of
     from seewhy.data.picture_listing import list_pictures
+    from seewhy.errors import DatasetError
     from seewhy.model import MANIFEST
 
     agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
     listing = list_pictures(pictures, agent.domain, with_class=all_, outside=outside)
+    if any(out.exists() and out.samefile(table) for table in listing.tables):
+        raise DatasetError(f"{out}: is the table that names the pictures; name another for --out")
     if listing.with_class:
         remark(
             f"rows that have a class are left out ({listing.with_class:,}); --all classifies them, "

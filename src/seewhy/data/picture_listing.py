@@ -37,10 +37,13 @@ class PictureListing:
         Each once, in the order in which they were named; those of a folder sorted.
     with_class : int
         Rows of tables that were left out because they have a class.
+    tables : tuple of Path
+        The tables that were read.
     """
 
     pictures: tuple[Path, ...]
     with_class: int = 0
+    tables: tuple[Path, ...] = ()
 
 
 def list_pictures(
@@ -83,6 +86,7 @@ def list_pictures(
     """
     pictures: dict[Path, None] = {}
     left_out = 0
+    tables: list[Path] = []
     for name in named:
         for place in _places(Path(name)):
             table = _table_of(place)
@@ -92,9 +96,10 @@ def list_pictures(
             meant, labelled = _of_table(table, domain, with_class=with_class, outside=outside)
             pictures.update(dict.fromkeys(meant))
             left_out += labelled
+            tables.append(table)
     if not pictures:
         raise DatasetError(_nothing(named, left_out))
-    return PictureListing(tuple(pictures), left_out)
+    return PictureListing(tuple(pictures), left_out, tuple(tables))
 
 
 def _places(named: Path) -> list[Path]:
