@@ -267,7 +267,12 @@ def test_argmax_reads_what_the_paper_reads(certain_reds: Domain) -> None:
     assert scene.vector == ("blue", "yes")
     assert [own.overruled for own in scene.features.values()] == [None, None]
     assert (scene.method, scene.verdict) == ("tree", "silent")
-    assert scene.probability == pytest.approx(0.55 * 0.6)
+    # By hand: red, and by the tree green and round, blue and round.
+    assert scene.probability == pytest.approx(0.3 + 0.15 * 0.6 + 0.55 * 0.6)
+    # Bad are blue with corners, by the knowledge, and green with corners, by the tree.
+    (other,) = scene.otherwise
+    assert (other.label, other.vector, other.method) == ("bad", ("blue", "no"), "knowledge")
+    assert other.probability == pytest.approx(0.55 * 0.4 + 0.15 * 0.4)
     assert scene.score == pytest.approx(np.log(0.55 * 0.6))
 
 
@@ -279,11 +284,12 @@ def test_a_reply_says_what_was_overruled(
     reply = agent.ask(picture, "why is it bad?")
     print_reply(reply)
     assert capsys.readouterr().out == (
-        "The tile is blue, and it has corners.\n"
+        "Perhaps because the tile is blue, and it has corners.\n"
         "\n"
         "asked: why is the tile bad?\n"
         "seen: colour blue (0.55), round no (0.40)\n"
         "the knowledge overruled: round read as yes (p = 0.60), no (0.40) is what fits\n"
+        "not sure: round no (0.40)\n"
         "by: knowledge\n"
         "because:\n"
         '  the tile is bad: "a blue tile with corners is bad" (knowledge.al:11)\n'
@@ -431,12 +437,13 @@ def test_a_reply_says_what_the_witness_saw(
     reply = agent.ask(picture, "why is it good?")
     print_reply(reply)
     assert capsys.readouterr().out == (
-        "The tile is red.\n"
+        "Perhaps because the tile is red.\n"
         "\n"
         "asked: why is the tile good?\n"
         "seen: colour red (0.30), round yes (0.60), class good (0.99)\n"
         "the knowledge and the class seen overruled: colour read as blue (p = 0.60), "
         "red (0.30) is what fits\n"
+        "not sure: colour red (0.30)\n"
         "by: knowledge\n"
         "because:\n"
         '  the tile is good: "a red tile is good" (knowledge.al:8)\n'

@@ -216,7 +216,7 @@ def test_every_question_about_an_unknown_picture_has_one_answer(tiles: Domain) -
             ]
     explained = agent.ask(picture, "please explain this answer")
     assert explained.text == (
-        "I see that the tile is red and round (each with a probability of at least 0.40). "
+        "Perhaps the tile is red and round (each with a probability of at least 0.40). "
         "What is seen is like nothing that is known: its likeness to pictures of training is "
         "0.400, and 90.0% of the pictures like those of training have at least 0.760."
     )
