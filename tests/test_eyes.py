@@ -352,3 +352,49 @@ def test_six_pictures_one_class_no_class(tmp_path: Path, domain: Domain, run: Ru
         result = run("train", domain.folder, "--data", data, "--out", tmp_path / "none")
         assert result.code == 2
         assert str(table) in "".join(result.err.split())
+
+
+# The pictures of training that are most like one ----------------------------------------------
+
+
+def test_a_training_picture_is_most_like_itself(
+    taught: Agent, saved: Path, tiles_data: Path, scenes: Dataset
+) -> None:
+    picture = tiles_data / "images" / "000.png"
+    near = taught.nearest(picture)
+    assert len(near) == 3
+    assert near[0].picture.name == "images/000.png"
+    assert near[0].likeness == pytest.approx(1.0, abs=1e-3)
+    assert [own.likeness for own in near] == sorted((own.likeness for own in near), reverse=True)
+    # All that is kept was trained on, and is named as it was annotated.
+    known = {scenes.name_of(scene): scene for scene in scenes.of_split("train").scenes}
+    every = taught.nearest(picture, count=1000)
+    assert {own.picture.name for own in every} == set(known)
+    for own in every:
+        scene = known[own.picture.name]
+        assert own.picture.label == scene.label
+        assert tuple(own.picture.features.values()) == scene.vector
+    assert Agent.load(saved).nearest(picture) == near
+
+
+def test_an_answer_names_the_pictures_of_training(run: Run, saved: Path, tiles_data: Path) -> None:
+    picture = tiles_data / "images" / "000.png"
+    told = json.loads(run("ask", saved, picture, "is it good?", "--json").out)["nearest"]
+    assert len(told) == 3
+    assert told[0] == {
+        "picture": "images/000.png",
+        "likeness": 1.0,
+        "class": "good",
+        "features": {"colour": "red", "round": "yes"},
+    }
+    said = run("ask", saved, picture, "is it good?", "--nearest").out
+    assert (
+        "\nmost like it in training:\n  images/000.png (1.00): good; colour red, round yes\n"
+        in said
+    )
+    assert "most like it" not in run("ask", saved, picture, "is it good?").out
+
+
+def test_fewer_than_one_picture_is_not_asked_for(taught: Agent, tiles_data: Path) -> None:
+    with pytest.raises(DatasetError, match="count: at least 1 picture has to be asked for, got 0"):
+        taught.nearest(tiles_data / "images" / "000.png", count=0)

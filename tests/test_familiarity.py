@@ -13,7 +13,12 @@ from hypothesis import strategies as st
 from seewhy.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.errors import ModelError
-from seewhy.perception.familiarity import Familiarity, fit_familiarity
+from seewhy.perception.familiarity import (
+    Familiarity,
+    NearPicture,
+    TrainingPicture,
+    fit_familiarity,
+)
 
 COLOURS = ["red", "green", "blue", "red", None, "green", "red", "blue"]
 SHAPES = ["yes", "no", "yes", "yes", "no", "no", None, "no"]
@@ -176,3 +181,77 @@ def test_a_description_of_other_pictures_is_refused(folder: Path, counts: list[i
         f"{folder}/familiarity.safetensors does not hold the pictures that {path} describes: "
         "train the model again, or copy its folder again from where it is whole"
     )
+
+
+# Which pictures they are --------------------------------------------------------------------
+
+
+def pictures_of(labels: list[str | None]) -> list[TrainingPicture]:
+    return [
+        TrainingPicture(f"images/{n}.png", "good", {"colour": value} if value else {})
+        for n, value in enumerate(labels)
+    ]
+
+
+@settings(deadline=None)
+@given(seed=st.integers(0, 10_000), count=st.integers(1, 9))
+def test_the_nearest_are_those_with_the_greatest_cosine(seed: int, count: int) -> None:
+    trained, shown = embeddings(8, seed=seed)["colour"], embeddings(1, seed=seed + 1)["colour"][0]
+    familiarity = fit_familiarity(
+        {"colour": trained}, {"colour": COLOURS}, pictures=pictures_of(COLOURS)
+    )
+    found = familiarity.known["colour"].nearest(shown, count=count)
+    # Each picture is compared by itself: that nothing is known of it keeps the fifth away.
+    alone = {
+        f"images/{n}.png": by_hand(trained[n : n + 1], ["any"], shown, "any")
+        for n in range(8)
+        if COLOURS[n] is not None
+    }
+    best = sorted(alone.values(), reverse=True)[:count]
+    np.testing.assert_allclose([own.likeness for own in found], best, atol=2e-3)
+    for own in found:
+        assert own.likeness == pytest.approx(alone[own.picture.name], abs=2e-3)
+        number = int(own.picture.name[len("images/") : -len(".png")])
+        assert own.picture.features == {"colour": COLOURS[number]}
+
+
+def test_which_pictures_they_are_is_kept_on_disk(tmp_path: Path) -> None:
+    mine = fit_familiarity(
+        {"colour": embeddings(8, seed=0)["colour"]},
+        {"colour": COLOURS},
+        pictures=pictures_of(COLOURS),
+    )
+    mine.save(tmp_path)
+    again = Familiarity.load(tmp_path)
+    assert again.known["colour"].pictures == mine.known["colour"].pictures
+    shown = embeddings(1, seed=1)["colour"][0]
+    assert again.known["colour"].nearest(shown, count=3) == mine.known["colour"].nearest(
+        shown, count=3
+    )
+
+
+def test_nothing_is_named_where_names_are_not_kept() -> None:
+    known = fit_familiarity(embeddings(8, seed=0), {"colour": COLOURS, "round": SHAPES}).known
+    assert known["colour"].nearest(embeddings(1, seed=1)["colour"][0], count=3) == ()
+
+
+def test_names_that_are_not_those_of_the_pictures_are_no_names(folder: Path) -> None:
+    path = folder / "familiarity.json"
+    described = json.loads(path.read_text())
+    described["features"]["colour"]["pictures"] = [{"name": "a.png", "label": None, "features": {}}]
+    path.write_text(json.dumps(described))
+    with pytest.raises(ModelError, match="does not hold the pictures that"):
+        Familiarity.load(folder)
+
+
+def test_a_near_picture_as_text_and_json() -> None:
+    own = NearPicture(TrainingPicture("images/7.png", None, {"colour": "blue"}), 0.91236)
+    assert own.to_text() == "images/7.png (0.91): colour blue"
+    assert own.to_dict() == {
+        "picture": "images/7.png",
+        "likeness": 0.9124,
+        "class": None,
+        "features": {"colour": "blue"},
+    }
+    bare = NearPicture(TrainingPicture("images/8.png", None, {}), 0.5)
+    assert bare.to_text() == "images/8.png (0.50): nothing annotated"

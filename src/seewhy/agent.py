@@ -51,7 +51,8 @@ if TYPE_CHECKING:
     from seewhy.learning import Learning
     from seewhy.perception.extractor import FeatureExtractor, Seen
     from seewhy.perception.eyes import Eyes
-    from seewhy.perception.familiarity import Familiarity
+    from seewhy.perception.familiarity import Familiarity, NearPicture
+    from seewhy.perception.where import Where
     from seewhy.pretraining import Pretrained
 
     Picture = Path | str | Image.Image | np.ndarray[Any, Any]
@@ -712,6 +713,73 @@ class Agent:
             )
             found.append(replace(scene, otherwise=self._otherwise(scene, own.others)))
         return found
+
+    def nearest(self, image: Picture, *, count: int = 3) -> tuple[NearPicture, ...]:
+        """Return the pictures of training that are most like one, the most alike first.
+
+        Parameters
+        ----------
+        image : path, Pillow image or array
+        count : int, default 3
+            At most so many.
+
+        Returns
+        -------
+        tuple of NearPicture
+            Each with its likeness, 0 to 1, and what was annotated of it. None where networks grew
+            on the domain's pictures alone: each makes something of its own of a picture.
+
+        Raises
+        ------
+        NotFittedError, PictureError, DatasetError
+            If the agent is not trained; if the image is no picture; if ``count`` is below 1.
+        """
+        from seewhy.perception.eyes import SCENE
+
+        if count < 1:
+            raise DatasetError(f"count: at least 1 picture has to be asked for, got {count}")
+        extractor, pixels = self._looks_at(image)
+        known = self.familiarity.known.get(SCENE) if self.familiarity else None
+        if known is None or not known.pictures:
+            return ()
+        return known.nearest(extractor.see(pixels).embeddings[SCENE][0], count=count)
+
+    def where(self, image: Picture, *, scene: Classification | None = None) -> dict[str, Where]:
+        """Return where in a picture each feature is seen, and the class where that has a say.
+
+        Parameters
+        ----------
+        image : path, Pillow image or array
+        scene : Classification, optional
+            What the picture is taken to be, as an answer has it; it is classified where left out.
+
+        Returns
+        -------
+        dict of str to Where
+            By feature, and "class"; see :func:`seewhy.perception.where.find_where`.
+
+        Raises
+        ------
+        NotFittedError, PictureError
+            If the agent is not trained; if the image is no picture.
+        """
+        from seewhy.perception.where import find_where
+
+        extractor, pixels = self._looks_at(image)
+        scene = self.classify_all(pixels[None])[0] if scene is None else scene
+        values = {name: reading.value for name, reading in scene.features.items()}
+        if scene.class_seen is not None:
+            values[CLASS] = scene.class_seen[0]
+        return find_where(extractor, pixels, values)
+
+    def _looks_at(self, image: Picture) -> tuple[FeatureExtractor | Eyes, np.ndarray[Any, Any]]:
+        """What sees, and an image as it sees it."""
+        from seewhy.perception.picture import as_picture
+
+        if self.extractor is None:
+            raise NotFittedError("the agent is not trained yet; call fit, or load a model")
+        fit = self.domain.pictures.fit
+        return self.extractor, as_picture(image, size=self.picture_size, fit=fit)
 
     @property
     def _believed_from(self) -> float:

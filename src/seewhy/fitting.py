@@ -11,7 +11,7 @@ import numpy as np
 
 from seewhy.perception.extractor import FeatureExtractor, Seen, fit_extractor
 from seewhy.perception.eyes import Eyes
-from seewhy.perception.familiarity import Familiarity, fit_familiarity
+from seewhy.perception.familiarity import Familiarity, TrainingPicture, fit_familiarity
 from seewhy.perception.fitting_eyes import HeldOut
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.validation import split
@@ -76,7 +76,10 @@ def taught_eyes(
         on_progress=on_progress,
     )
     familiarity, scores = familiar_scores(
-        fitted.eyes.familiar_by(fitted.embedded), scenes.groups, seed=seed
+        fitted.eyes.familiar_by(fitted.embedded),
+        scenes.groups,
+        pictures=_named(scenes),
+        seed=seed,
     )
     return Taught(
         fitted.eyes,
@@ -85,6 +88,22 @@ def taught_eyes(
         familiarity=familiarity,
         scores=scores,
     )
+
+
+def _named(scenes: Dataset) -> list[TrainingPicture]:
+    """The pictures by which answers name what is like a picture."""
+    return [
+        TrainingPicture(
+            scenes.name_of(scene),
+            scene.label,
+            {
+                key: value
+                for key, value in zip(scenes.domain.features, scene.vector, strict=True)
+                if value is not None
+            },
+        )
+        for scene in scenes.scenes
+    ]
 
 
 def grown_networks(

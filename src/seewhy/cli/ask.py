@@ -23,6 +23,10 @@ def ask(
         Path | None,
         typer.Option("--picture", help="Also draw the answer with its reasons to this .svg file."),
     ] = None,
+    nearest: Annotated[
+        bool,
+        typer.Option("--nearest", help="Also name the pictures of training that are most like it."),
+    ] = False,
     reading: Reading = None,
     gate: Gate = None,
     known_share: KnownShare = None,
@@ -39,10 +43,15 @@ def ask(
 
         draw_card(reply, image).save(picture)
         remark(f"picture: {picture}")
+    near = agent.nearest(image) if nearest or json else ()
     if json:
-        print_json(reply.to_dict())
-    else:
-        print_reply(reply)
+        print_json({**reply.to_dict(), "nearest": [own.to_dict() for own in near]})
+        return
+    print_reply(reply)
+    if nearest:
+        say("most like it in training:" if near else "most like it in training: not kept")
+        for own in near:
+            say(f"  {own.to_text()}")
 
 
 def print_reply(reply: Reply) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +15,15 @@ from pydantic import BaseModel, ConfigDict
 from seewhy.errors import ModelError
 from seewhy.weights import REMEDY, Described, read_weights, write_weights
 
-__all__ = ["FAMILIARITY", "MOST", "Familiarity", "Known", "fit_familiarity"]
+__all__ = [
+    "FAMILIARITY",
+    "MOST",
+    "Familiarity",
+    "Known",
+    "NearPicture",
+    "TrainingPicture",
+    "fit_familiarity",
+]
 
 FAMILIARITY = "familiarity.json"
 WEIGHTS = "familiarity.safetensors"
@@ -25,6 +34,63 @@ MOST = 4000  # of all together, so that a picture is compared in a fraction of a
 _AT_ONCE = 256  # pictures compared in one matrix product
 
 Embeddings = npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class TrainingPicture:
+    """A picture of training, to be named where another is like it.
+
+    Attributes
+    ----------
+    name : str
+        Its path from the dataset's folder.
+    label : str or None
+        The annotated class.
+    features : dict of str to str
+        Feature → annotated value, of the features that were annotated.
+    """
+
+    name: str
+    label: str | None
+    features: dict[str, str]
+
+
+@dataclass(frozen=True)
+class NearPicture:
+    """A picture of training, and how like it another is.
+
+    Attributes
+    ----------
+    picture : TrainingPicture
+    likeness : float
+        Cosine between what is made of the two, 0 (nothing in common) to 1.
+    """
+
+    picture: TrainingPicture
+    likeness: float
+
+    def to_text(self) -> str:
+        """Return it as a line: the picture, its likeness, and what is annotated of it.
+
+        Examples
+        --------
+        >>> own = TrainingPicture("images/7.png", "bad", {"colour": "blue", "round": "no"})
+        >>> NearPicture(own, 0.925).to_text()
+        'images/7.png (0.93): bad; colour blue, round no'
+        """
+        own = self.picture
+        told = ", ".join(f"{name} {value}" for name, value in own.features.items())
+        annotated = "; ".join(part for part in (own.label, told) if part) or "nothing annotated"
+        return f"{own.name} ({self.likeness:.2f}): {annotated}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as values that JSON can hold."""
+        return {
+            "picture": self.picture.name,
+            "likeness": round(self.likeness, 4),
+            "class": self.picture.label,
+            "features": dict(self.picture.features),
+        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,11 +105,14 @@ class Known:
         The values that the pictures show, in the order of ``directions``.
     counts : tuple of int
         How many of the pictures show each.
+    pictures : tuple of TrainingPicture
+        Which pictures they are, in the order of ``directions``; none where that is not kept.
     """
 
     directions: npt.NDArray[np.float16]
     values: tuple[str, ...]
     counts: tuple[int, ...]
+    pictures: tuple[TrainingPicture, ...] = ()
 
     @property
     def weight(self) -> int:
@@ -79,6 +148,21 @@ class Known:
             cosines = _directions(embeddings[part]) @ self._exact.T
             nearest[part, :-1] = np.maximum.reduceat(cosines, starts, axis=1).clip(max=1)
         return nearest[np.arange(len(values)), chosen].astype(np.float64)
+
+    def nearest(self, embedding: Embeddings, *, count: int) -> tuple[NearPicture, ...]:
+        """Return the pictures of training that are most like one, the most alike first.
+
+        Parameters
+        ----------
+        embedding : ndarray of float, shape (width of the dense layer,)
+        count : int
+            At most so many; none where it is not kept which pictures they are.
+        """
+        if not self.pictures:
+            return ()
+        cosines = (_directions(embedding[None]) @ self._exact.T)[0].clip(0, 1)
+        order = np.argsort(-cosines, kind="stable")[:count]
+        return tuple(NearPicture(self.pictures[n], float(cosines[n])) for n in order)
 
 
 class Familiarity:
@@ -132,7 +216,7 @@ class Familiarity:
             format=FORMAT,
             digest="",
             features={
-                name: _Feature(values=known.values, counts=known.counts)
+                name: _Feature(values=known.values, counts=known.counts, pictures=known.pictures)
                 for name, known in self.known.items()
             },
         )
@@ -166,11 +250,14 @@ class Familiarity:
                 or len(directions) != sum(feature.counts)
                 or len(feature.counts) != len(feature.values)
                 or min(feature.counts, default=0) < 1
+                or len(feature.pictures) not in (0, len(directions))
             ):
                 raise ModelError(
                     f"{weights} does not hold the pictures that {described} describes: {REMEDY}"
                 )
-            known[name] = Known(directions.numpy(), feature.values, feature.counts)
+            known[name] = Known(
+                directions.numpy(), feature.values, feature.counts, feature.pictures
+            )
         return cls(known)
 
 
@@ -181,6 +268,7 @@ def fit_familiarity(
     seed: int = 0,
     kept: int = KEPT,
     most: int = MOST,
+    pictures: Sequence[TrainingPicture] = (),
 ) -> Familiarity:
     """Keep what the networks make of training pictures.
 
@@ -194,6 +282,8 @@ def fit_familiarity(
         Draws the pictures that are kept.
     kept, most : int, default 25 and 4000
         At most so many pictures of each distinct combination of labels, and in all.
+    pictures : sequence of TrainingPicture, length n, optional
+        Which pictures they are, to be kept with them.
 
     Examples
     --------
@@ -219,6 +309,7 @@ def fit_familiarity(
             _directions(embeddings[name][rows]).astype(np.float16),
             tuple(order),
             tuple(len(by_value[own]) for own in order),
+            tuple(pictures[n] for n in rows) if pictures else (),
         )
     # A network with nothing to tell apart has learned to see nothing.
     told = {name: own for name, own in known.items() if len(own.values) > 1}
@@ -249,6 +340,7 @@ class _Feature(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
     values: tuple[str, ...]
     counts: tuple[int, ...]
+    pictures: tuple[TrainingPicture, ...] = ()
 
 
 class _Description(Described):

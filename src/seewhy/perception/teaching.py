@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from seewhy.perception.backbones import load_backbone
 from seewhy.perception.domain_options import given_variations, seen_labels, seen_values
 from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
 from seewhy.perception.eyes import SCENE, Eyes
-from seewhy.perception.familiarity import MOST, Familiarity, fit_familiarity
+from seewhy.perception.familiarity import MOST, Familiarity, TrainingPicture, fit_familiarity
 from seewhy.perception.fitting_eyes import FittedEyes, Lesson, fit_eyes
 
 if TYPE_CHECKING:
@@ -75,7 +75,11 @@ def teach_eyes(
 
 
 def familiar_scores(
-    embeddings: npt.NDArray[np.float32], groups: list[str], *, seed: int = 0
+    embeddings: npt.NDArray[np.float32],
+    groups: list[str],
+    *,
+    pictures: Sequence[TrainingPicture] = (),
+    seed: int = 0,
 ) -> tuple[Familiarity, list[float]]:
     """What is known of training pictures, and how like each is to those of other groups.
 
@@ -85,6 +89,8 @@ def familiar_scores(
     ----------
     embeddings : ndarray of float, shape (n, width)
     groups : list of str, length n
+    pictures : sequence of TrainingPicture, length n, optional
+        Which pictures they are, to be named where another is like them.
     seed : int, default 0
 
     Returns
@@ -93,7 +99,11 @@ def familiar_scores(
     scores : list of float
     """
     familiarity = fit_familiarity(
-        {SCENE: embeddings}, {SCENE: [SCENE] * len(embeddings)}, seed=seed, kept=MOST
+        {SCENE: embeddings},
+        {SCENE: [SCENE] * len(embeddings)},
+        seed=seed,
+        kept=MOST,
+        pictures=pictures,
     )
     chosen = np.random.default_rng(seed).permutation(len(embeddings))[:_MOST]
     lengths = np.maximum(np.linalg.norm(embeddings[chosen], axis=1, keepdims=True), 1e-9)
