@@ -64,7 +64,7 @@ def demo(
         shares = ", ".join(f"{n} {100 * s:.0f} %" for n, s in made.classes.items())
         said = shares if len(made.classes) <= FEW_CLASSES else f"{len(made.classes)} classes"
         say(f"{said}; the features determine {100 * made.determined:.1f} % of the outcomes")
-    heading("Training one network per feature")
+    heading("Training what sees, the tree and the answers")
     dataset = Dataset.load(out / "pictures", own)
     agent = trained_already(out / "model", dataset, seed=seed)
     if agent is None:

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 
 import numpy as np
 import numpy.typing as npt
 import torch
 
-from seewhy.one_thread import one_thread
 from seewhy.perception.augmentation import augment
 from seewhy.perception.backbones.backbone import Backbone, Embedded, Maps
 from seewhy.perception.embedding_cache import EmbeddingCache, key_of
 from seewhy.perception.options import TrainingOptions
+from seewhy.perception.side_by_side import side_by_side
 
 __all__ = ["embed_pictures", "embed_variations"]
 
@@ -114,7 +113,7 @@ def embed_variations(
         def look(n: int, pictures: Pictures = pictures, keys: Sequence[bytes] = keys) -> Maps:
             return _varied(backbone, pictures[n], options, views=views, seed=keys[n])
 
-        made = dict(zip([keys[n] for n in new], _in_threads(look, new), strict=True))
+        made = dict(zip([keys[n] for n in new], side_by_side(look, new), strict=True))
         cache.keep(made)
         known |= made
         for key in keys:
@@ -135,12 +134,6 @@ def _varied(
     )
     same = torch.from_numpy(picture)[None].expand(views, -1, -1, -1)
     return backbone.middle(augment(same, options, generator=generator).clamp(0, 255))
-
-
-def _in_threads(look: Callable[[int], Maps], numbers: Sequence[int]) -> list[Maps]:
-    threads = torch.get_num_threads()
-    with one_thread(), ThreadPoolExecutor(threads) as workers:
-        return list(workers.map(look, numbers))
 
 
 def _variations(options: TrainingOptions) -> dict[str, object]:

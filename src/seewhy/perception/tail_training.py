@@ -12,7 +12,8 @@ import torch
 import torch.nn.functional as functional
 
 from seewhy.perception.backbones.backbone import Maps
-from seewhy.perception.randomness import seeded
+from seewhy.perception.randomness import seed_of, seeded
+from seewhy.perception.side_by_side import side_by_side
 from seewhy.perception.stacking import Table, log_probabilities
 from seewhy.perception.tail import Tail
 
@@ -97,7 +98,7 @@ def train_tail(
     total = max(1, round(len(rows) * schedule.passes / _BATCH))
     tail.train()
     order: list[int] = []
-    generator = np.random.default_rng(_number(seed))
+    generator = np.random.default_rng(seed_of(*seed, "order"))
     with seeded(device, *seed):
         for step in range(total):
             if len(order) < _BATCH:
@@ -138,19 +139,17 @@ def see_with_tail(tail: Tail, plain: Maps) -> dict[str, Table]:
     plain : ndarray of float16, shape (n, channels, rows, columns)
     """
     device = next(tail.parameters()).device
-    found: dict[str, list[Table]] = {}
     tail.eval()
-    with torch.inference_mode():
-        # No picture at all is one empty batch.
-        for start in range(0, max(1, len(plain)), _SEEN):
-            maps = torch.from_numpy(plain[start : start + _SEEN]).float().to(device)
-            for name, logits in tail(maps).items():
-                table = logits.float().cpu().numpy()
-                found.setdefault(name, []).append(log_probabilities(table))
-    return {name: np.concatenate(parts) for name, parts in found.items()}
 
+    def see(maps: Maps) -> dict[str, Table]:
+        with torch.inference_mode():
+            logits = tail(torch.from_numpy(maps).float().to(device))
+            return {
+                name: log_probabilities(table.float().cpu().numpy())
+                for name, table in logits.items()
+            }
 
-def _number(seed: tuple[object, ...]) -> int:
-    from seewhy.perception.randomness import seed_of
-
-    return seed_of(*seed, "order")
+    # No picture at all is one empty piece.
+    pieces = [plain[start : start + _SEEN] for start in range(0, max(1, len(plain)), _SEEN)]
+    parts = side_by_side(see, pieces)
+    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -13,7 +12,7 @@ import torch
 import torch.nn.functional as functional
 from torch import nn
 
-from seewhy.one_thread import one_thread
+from seewhy.perception.side_by_side import side_by_side
 
 __all__ = ["Backbone", "Embedded", "Tap", "Trunk", "halved", "pool"]
 
@@ -158,13 +157,9 @@ class Backbone:
     ) -> list[Embedded]:
         size = CHUNK if self.device.type == "cpu" else ON_DEVICE
         chunks = [pictures[start : start + size] for start in range(0, len(pictures), size)]
-        if len(chunks) < 2 or self.device.type != "cpu":
-            with one_thread():
-                return [look(chunk) for chunk in chunks]
-        threads = torch.get_num_threads()
-        # A thread for each chunk waits for no other: half the time of threads in every operation.
-        with one_thread(), ThreadPoolExecutor(threads) as workers:
-            return list(workers.map(look, chunks))
+        if self.device.type != "cpu":
+            return [look(chunk) for chunk in chunks]
+        return side_by_side(look, chunks)
 
     def _embed(self, pictures: Pictures) -> Embedded:
         sides = {tap.stage: tap.side for tap in self.taps}

@@ -131,16 +131,16 @@ def efficientnet_lite0() -> nn.Sequential:
         The weights are missing, damaged or others.
     """
     weights = dict(_weights())
-    stages = _untrained()
+    with torch.device("meta"):  # nothing is drawn at random that is read right after
+        stages = _untrained()
     for name, convolution, source, norm in _names(stages):
         kernel = weights[f"{source}.weight"]
         gain = weights[f"{norm}.weight"] / torch.sqrt(weights[f"{norm}.running_var"] + _EPSILON)
         if kernel.shape != convolution.weight.shape:
             raise ModelError(f"{weights_file()}: holds another network at {name}; {REMEDY}")
-        with torch.no_grad():
-            convolution.weight.copy_(kernel * gain[:, None, None, None])
-            shift = weights[f"{norm}.bias"] - weights[f"{norm}.running_mean"] * gain
-            convolution.bias.copy_(shift)
+        shift = weights[f"{norm}.bias"] - weights[f"{norm}.running_mean"] * gain
+        convolution.weight = nn.Parameter(kernel * gain[:, None, None, None])
+        convolution.bias = nn.Parameter(shift)
     return stages.eval().requires_grad_(False)
 
 
