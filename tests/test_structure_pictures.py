@@ -19,6 +19,7 @@ from seewhy.domains import structure_stability
 from seewhy.domains.structure_stability.annotation import GAPS, annotate, is_clear, measure
 from seewhy.domains.structure_stability.generation import random_structure
 from seewhy.domains.structure_stability.physics import build_model, release
+from seewhy.domains.structure_stability.places import places
 from seewhy.domains.structure_stability.rendering import render
 from seewhy.domains.structure_stability.source import draw, draw_structure
 from seewhy.domains.structure_stability.structure import Block, Structure
@@ -378,3 +379,40 @@ def test_blocks_that_touch_have_unlike_colours() -> None:
         blocks = random_structure(np.random.default_rng(index)).blocks
         for lower, upper in pairwise(blocks):
             assert math.dist(lower.colour, upper.colour) > 0.3
+
+
+# Where the blocks are -------------------------------------------------------------------------
+
+
+def test_blocks_are_where_new_paint_shows() -> None:
+    checked = 0
+    for index in range(6):
+        rng = np.random.default_rng([5, index])
+        structure = random_structure(rng)
+        release(structure, rng)
+        view = random_view(structure, rng)
+        before = render(structure, view, size=64).astype(int)
+        found = places(seed=5, index=index, size=64)
+        assert found.blocks.shape == (64, 64)
+        for number, block in enumerate(structure.blocks):
+            paint = tuple(0.9 - 0.8 * shade for shade in block.colour)
+            blocks = list(structure.blocks)
+            blocks[number] = replace(block, colour=paint)
+            after = render(Structure(tuple(blocks)), view, size=64).astype(int)
+            painted = np.abs(after - before).max(axis=2) > 25
+            here = found.blocks == number
+            assert (painted & here).sum() > 0.8 * (painted | here).sum()
+            checked += 1
+    assert checked > 10
+
+
+def test_a_block_is_displaced_where_the_annotation_says_so() -> None:
+    said = {"yes": 0, "no": 0}
+    for index in range(30):
+        _, features, _ = draw(seed=5, index=index, size=16)
+        found = places(seed=5, index=index, size=16)
+        displaced = features["block_displaced"]
+        assert bool(found.displaced) == (displaced == "yes")
+        assert all(1 <= number < int(features["num_blocks"]) for number in found.displaced)
+        said[displaced] += 1
+    assert min(said.values()) > 3

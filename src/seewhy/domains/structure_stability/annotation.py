@@ -15,7 +15,7 @@ import numpy as np
 
 from seewhy.domains.structure_stability.structure import Block, Structure
 
-__all__ = ["GAPS", "THRESHOLDS", "Measures", "annotate", "is_clear", "measure"]
+__all__ = ["GAPS", "THRESHOLDS", "Measures", "annotate", "displaced_blocks", "is_clear", "measure"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +55,11 @@ def _overhang(upper: Block, lower: Block) -> float:
     return max(abs(along) / (lower.width / 2.0), abs(across) / (lower.depth / 2.0))
 
 
+def _overhangs(structure: Structure) -> list[float]:
+    """Those of all blocks but the lowest, upwards."""
+    return [_overhang(upper, lower) for lower, upper in pairwise(structure.blocks)]
+
+
 def measure(structure: Structure) -> Measures:
     """The measures of a structure."""
     blocks = structure.blocks
@@ -65,11 +70,20 @@ def measure(structure: Structure) -> Measures:
         centres = structure.centres
         dx, dy, dz = centres[-1] - centres[0]
         inclination = math.atan2(math.hypot(dx, dy), dz)
-    overhangs = [_overhang(upper, lower) for lower, upper in pairwise(blocks)]
+    overhangs = _overhangs(structure)
     return Measures(
         inclination=math.degrees(inclination),
         base_width=blocks[0].width,
         overhang=max(overhangs, default=0.0),
+    )
+
+
+def displaced_blocks(structure: Structure) -> tuple[int, ...]:
+    """The numbers, 0 for the lowest, of the blocks that lie beyond the edge of the one below."""
+    return tuple(
+        number
+        for number, overhang in enumerate(_overhangs(structure), start=1)
+        if overhang >= THRESHOLDS.overhang
     )
 
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from seewhy.domains.structure_stability.physics import build_model
 from seewhy.domains.structure_stability.structure import Structure
 from seewhy.domains.structure_stability.surfaces import background, shade
-from seewhy.domains.structure_stability.view import View
-from seewhy.rendering.camera import Camera, develop
+from seewhy.domains.structure_stability.view import View, camera_of
+from seewhy.rendering.camera import develop
 from seewhy.rendering.lighting import disc_points, sky_points
 from seewhy.rendering.rays import Hits, Scene
 from seewhy.rendering.tracing import trace
@@ -30,14 +30,7 @@ def render(structure: Structure, view: View, *, size: int = 112) -> NDArray[np.u
     A larger `size` shows the same scene in more detail.
     """
     scene = Scene(*build_model(structure))
-    camera = Camera(
-        view.aim,
-        view.frame / 2.0 / math.tan(view.lens / 2.0),
-        azimuth=view.azimuth,
-        elevation=view.elevation,
-        lens=view.lens,
-        size=size,
-    )
+    camera = camera_of(view, size=size)
     rng = np.random.default_rng([view.texture, 1])
     lamp = disc_points(view.lamp, view.lamp_size, rng.uniform(0.0, 2.0 * math.pi))
     sky = sky_points(rng.uniform(0.0, 2.0 * math.pi))

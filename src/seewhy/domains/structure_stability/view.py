@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from seewhy.domains.structure_stability.structure import Structure
+from seewhy.rendering.camera import Camera
 
-__all__ = ["View", "random_view"]
+__all__ = ["View", "camera_of", "random_view"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,4 +107,16 @@ def random_view(structure: Structure, rng: np.random.Generator) -> View:
         exposure=float(rng.uniform(0.92, 1.15)),
         vignette=float(rng.uniform(0.10, 0.28)),
         noise=float(rng.uniform(0.006, 0.014)),
+    )
+
+
+def camera_of(view: View, *, size: int) -> Camera:
+    """The camera of a view, for pictures of `size` by `size` pixels."""
+    return Camera(
+        view.aim,
+        view.frame / 2.0 / math.tan(view.lens / 2.0),
+        azimuth=view.azimuth,
+        elevation=view.elevation,
+        lens=view.lens,
+        size=size,
     )
