@@ -132,7 +132,7 @@ def _say_difference(by_system: Sequence[Shares], systems: Sequence[System], seed
     if not found:
         return NONE
     mean, letter, apart = min(found, key=lambda row: row[0])
-    text = f"{100 * mean:+.1f}"
+    text = f"{100 * mean:+.1f}".replace("-", "−")
     if len(apart) > 1:
         text += f" ± {_percent(_error(apart))}"
     return f"{text} over ({letter})" + _say_seeds(len(apart), seeds)
