@@ -184,9 +184,9 @@ def test_nobody_reads_the_output() -> None:
             "domain.toml",
             'red = { say = "{it} is red"',
             'read = { say = "{it} is red"',
-            "domain.toml:16: 'read' is no value of 'colour' in knowledge.al; did you mean 'red'?",
+            "domain.toml:17: 'read' is no value of 'colour' in knowledge.al; did you mean 'red'?",
         ),
-        ("domain.toml", "size = 16", "size = 8", "domain.toml:8: 'pictures.size': input should be"),
+        ("domain.toml", "size = 16", "size = 8", "domain.toml:9: 'pictures.size': input should be"),
         ("domain.toml", "[domain]", "[domain", "domain.toml:1:"),
         (
             "questions.toml",

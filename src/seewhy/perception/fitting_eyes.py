@@ -362,13 +362,12 @@ def _head_logits(
 
 def _record(stack: Stack, column: npt.NDArray[np.int64], passes: float) -> EyesRecord:
     asked = stack.asked
-    figures = {way: share for way, share in stack.accuracies.items() if way != "together"}
-    compared = ", ".join(f"{way} {share:.1%}" for way, share in figures.items())
+    others = [way for way in stack.accuracies if way not in (*asked, "together")]
+    beside = asked if len(asked) > 1 else others
+    compared = ", ".join(f"{way} {stack.accuracies[way]:.1%}" for way in beside)
     layers = " and ".join(asked)
-    if len(asked) > 1:
-        layers += " together"
     return EyesRecord(
-        layers=layers + (f" ({compared})" if len(figures) > 1 else ""),
+        layers=f"{layers} ({compared})" if compared else layers,
         validation_accuracy=stack.accuracy if stack.accuracy is not None else 1.0,
         accuracies=stack.accuracies,
         epochs=round(passes),
