@@ -98,6 +98,7 @@ def test_the_command_runs_goes_on_and_reports(archives: Path, tmp_path: Path) ->
     assert (kept["trained_on"], kept["tested"]) == (COUNT, 30)
     assert set(kept["options"]) == {"backbone", "strength", "held_out_right"}
     first.write_text(json.dumps({**kept, "accuracy": 0.25}))
+    first.with_name(".being-written.json").write_text("{")
     report = compare_here(
         *("--out", tmp_path / "out", "--sets", "hands", "--systems", "frozen_features"),
         *("--counts", COUNT, "--seeds", 2, "--report"),
@@ -288,7 +289,7 @@ Tested on 459 or 460 pictures. **Trials were not tested on the same.**
 |---|---|---|---|---|
 | 100 | 90.0 (1 seed) | **91.0 (1 seed)** | – | −1.0 over (b) (1 seed) |
 
-Made by commit 123456789 (12 trials), commit 987654321 (1 trial); on a machine, 2 cores, Linux.
+Made by commit 123456789 (13 trials), commit 987654321 (1 trial); on a machine, 2 cores, Linux.
 """
 
 

@@ -227,4 +227,5 @@ def kept_results(out: Path) -> Iterator[Result]:
         A file is damaged.
     """
     for file in sorted((out / TRIALS).glob("*/*.json")):
-        yield read_result(file)
+        if not file.name.startswith("."):  # another process is writing that
+            yield read_result(file)
