@@ -16,7 +16,6 @@ from seewhy.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError, ModelError
-from seewhy.perception import fitting_eyes
 from seewhy.perception.backbones import efficientnet_lite, load_backbone
 from seewhy.perception.backbones.backbone import Backbone
 from seewhy.perception.embedding import embed_pictures, embed_variations
@@ -29,15 +28,6 @@ from seewhy.perception.picture import as_picture
 EYES_DOMAIN = DOMAIN.replace(
     'eyes = "none"  # tiles are so plain that networks grow in a second\n', ""
 )
-
-
-@pytest.fixture(scope="module", autouse=True)
-def short() -> Iterator[None]:
-    """Few passes: tiles are plain."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(fitting_eyes, "_PASSES", (3, 3))
-        patch.setattr(fitting_eyes, "_VIEWS", (2, 2))
-        yield
 
 
 @pytest.fixture(scope="module")
