@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from seewhy.cli.cores import share_cores
-from seewhy.cli.options import Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
+from seewhy.cli.options import Device, Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ def ask(
         bool,
         typer.Option("--nearest", help="Also name the pictures of training that are most like it."),
     ] = False,
+    device: Device = "auto",
     reading: Reading = None,
     gate: Gate = None,
     known_share: KnownShare = None,
@@ -36,12 +37,13 @@ def ask(
     share_cores()
     from seewhy.agent import Agent
 
-    agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
+    agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     reply = agent.ask(image, question)
     if picture is not None:
         from seewhy.report.card import draw_card
 
-        draw_card(reply, image).save(picture)
+        where = agent.where(image, scene=reply.scene)
+        draw_card(reply, image, where=where, fit=agent.domain.pictures.fit).save(picture)
         remark(f"picture: {picture}")
     near = agent.nearest(image) if nearest or json else ()
     if json:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from seewhy.cli.conversation import converse
 from seewhy.cli.cores import share_cores
-from seewhy.cli.options import Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
+from seewhy.cli.options import Device, Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
 
 if TYPE_CHECKING:
     from seewhy.reply import Reply
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 def chat(
     model: ModelFolder,
     image: ImageFile,
+    device: Device = "auto",
     reading: Reading = None,
     gate: Gate = None,
     known_share: KnownShare = None,
@@ -27,7 +28,7 @@ def chat(
     share_cores()
     from seewhy.agent import Agent
 
-    agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
+    agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     scene = agent.classify(image)
     previous: Reply | None = None
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from seewhy.cli.cores import share_cores
-from seewhy.cli.options import Gate, Json, KnownShare, ModelFolder, Outside, Reading
+from seewhy.cli.options import Device, Gate, Json, KnownShare, ModelFolder, Outside, Reading
 from seewhy.cli.screen import print_json, progress, remark, say
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ def classify(
         typer.Option("--all", help="Of tables, classify rows that have a class, too."),
     ] = False,
     outside: Outside = False,
+    device: Device = "auto",
     reading: Reading = None,
     gate: Gate = None,
     known_share: KnownShare = None,
@@ -54,7 +55,7 @@ def classify(
     from seewhy.errors import DatasetError
     from seewhy.model import MANIFEST
 
-    agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
+    agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     listing = list_pictures(pictures, agent.domain, with_class=all_, outside=outside)
     if any(out.exists() and out.samefile(table) for table in listing.tables):
         raise DatasetError(f"{out}: is the table that names the pictures; name another for --out")

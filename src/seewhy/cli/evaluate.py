@@ -9,6 +9,7 @@ import typer
 
 from seewhy.cli.options import (
     DataFolder,
+    Device,
     Gate,
     Json,
     KnownShare,
@@ -54,6 +55,7 @@ def evaluate(
         ),
     ] = False,
     seed: Seed = 0,
+    device: Device = "auto",
     reading: Reading = None,
     gate: Gate = None,
     known_share: KnownShare = None,
@@ -70,7 +72,7 @@ def evaluate(
 
     if most is not None and page is None:
         raise SeeWhyError("--most goes with --page; --json lists all wrong pictures")
-    agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
+    agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     dataset = read_data(
         data,
         agent.domain,

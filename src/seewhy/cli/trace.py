@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from seewhy.cli.cores import share_cores
-from seewhy.cli.options import Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
+from seewhy.cli.options import Device, Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
 from seewhy.cli.screen import print_json, say
 
 
@@ -18,6 +18,7 @@ def trace(
         str | None,
         typer.Option("--question", "-q", help="In plain words; without it, only the class."),
     ] = None,
+    device: Device = "auto",
     reading: Reading = None,
     gate: Gate = None,
     known_share: KnownShare = None,
@@ -28,7 +29,7 @@ def trace(
     from seewhy.agent import Agent
     from seewhy.trace import trace as traced
 
-    agent = Agent.load(model, reading=reading, gate=gate, known_share=known_share)
+    agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     found = traced(agent, image, question)
     if json:
         print_json({"image": str(image), **found.to_dict()})
