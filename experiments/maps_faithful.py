@@ -1,0 +1,237 @@
+"""Is what a map marks what is seen by? Hide it, hide as much elsewhere, and compare.
+
+For pictures that the model was not trained on, a tenth of the picture is hidden that the map of a
+feature marks most, and for comparison the same shape at random other places. What was filled with
+its surroundings to make the map is hidden in other ways here: blurred, and in one colour.
+
+    python experiments/maps_faithful.py DOMAIN PICTURES MODEL
+
+trains a model on --train pictures where there is none yet at MODEL. For structures that
+`seewhy data make` drew, it also says how often the map of block_displaced lies on the block that
+the simulator displaced.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from seewhy.agent import Agent
+from seewhy.data.dataset import Dataset
+from seewhy.domain import load_domain
+from seewhy.perception.where import MATTERS, Where
+
+HIDDEN = 0.1
+"""The share of the picture that is hidden."""
+
+OVERLAP = 0.25
+"""At most so much of another place may be of the marked one."""
+
+PLACES = 4
+"""Other places for each marked one."""
+
+Floats = npt.NDArray[np.float32]
+Bytes = npt.NDArray[np.uint8]
+
+
+def in_one_colour(picture: Bytes, masks: Floats) -> Bytes:
+    """Hide places behind the mean colour of the whole picture."""
+    return behind(np.broadcast_to(picture.mean(axis=(0, 1)), picture.shape), picture, masks)
+
+
+def blurred(picture: Bytes, masks: Floats) -> Bytes:
+    """Hide places behind the picture blurred by a Gaussian of an eighth of its side."""
+    at = np.arange(len(picture))
+    spread = np.exp(-0.5 * ((at[:, None] - at[None, :]) / (len(picture) / 8)) ** 2)
+    spread /= spread.sum(axis=1, keepdims=True)
+    return behind(np.einsum("yi,xj,ijc->yxc", spread, spread, picture), picture, masks)
+
+
+def behind(other: npt.NDArray[np.float64], picture: Bytes, masks: Floats) -> Bytes:
+    """Copies of a picture that show another where their mask is 1."""
+    share = masks[..., None]
+    return ((1 - share) * picture + share * other).round().astype(np.uint8)
+
+
+WAYS: Mapping[str, Callable[[Bytes, Floats], Bytes]] = {
+    "blurred": blurred,
+    "in one colour": in_one_colour,
+}
+
+
+def marked_and_elsewhere(found: Floats, rng: np.random.Generator) -> Floats:
+    """The tenth that a map marks most, then the same shape moved round the picture at random."""
+    count = round(HIDDEN * found.size)
+    marked = np.zeros(found.size, dtype=np.float32)
+    marked[np.argsort(-found.ravel(), kind="stable")[:count]] = 1
+    masks = [marked.reshape(found.shape)]
+    allowed = OVERLAP
+    while len(masks) <= PLACES:
+        down, right = rng.integers(0, len(found), 2)
+        other = np.roll(masks[0], (int(down), int(right)), (0, 1))
+        if (other * masks[0]).sum() <= allowed * count:
+            masks.append(other)
+        else:
+            allowed += 0.001  # a shape all over the picture overlaps wherever it is
+    return np.array(masks)
+
+
+def changes(agent: Agent, picture: Bytes, own: Where, rng: np.random.Generator) -> list[Floats]:
+    """For each way: how far the probability moves, hidden where marked and then elsewhere."""
+    assert agent.extractor is not None
+    masks = marked_and_elsewhere(own.map, rng)
+    copies = np.concatenate([hide(picture, masks) for hide in WAYS.values()])
+    column = list(agent.extractor.values[own.feature]).index(own.value)
+    seen = agent.extractor.see(copies).probabilities[own.feature][:, column]
+    return list(np.abs(seen - own.probability).reshape(len(WAYS), len(masks)))
+
+
+def held_out(agent: Agent, scenes: Dataset, *, count: int, seed: int) -> Dataset:
+    """Pictures of groups that the agent saw none of."""
+    digests = scenes.picture_digests()
+    known = {
+        group
+        for group, digest in zip(scenes.groups, digests, strict=True)
+        if digest in agent.trained_on
+    }
+    order = by_group(scenes, seed=seed)
+    return scenes.take([n for n in order if scenes.groups[n] not in known][:count])
+
+
+def by_group(scenes: Dataset, *, seed: int) -> list[int]:
+    """Positions of scenes in random order, those of one group one after the other."""
+    names = sorted(set(scenes.groups))
+    shuffled = np.random.default_rng(seed).permutation(len(names)).tolist()
+    place = dict(zip(names, shuffled, strict=True))
+    groups = scenes.groups
+    return sorted(range(len(scenes)), key=lambda n: (place[groups[n]], n))
+
+
+def trained(domain: str, scenes: Dataset, *, train: int, count: int, seed: int) -> Agent:
+    """An agent trained on pictures of other groups than the ``count`` that are held out."""
+    order = by_group(scenes, seed=seed)
+    held = {scenes.groups[n] for n in order[:count]}
+    rows = [n for n in order[count:] if scenes.groups[n] not in held][:train]
+    return Agent(load_domain(domain), seed=seed).fit(scenes.take(sorted(rows)), answers=False)
+
+
+def mean_and_error(by_picture: list[list[float]]) -> str:
+    """Mean over pictures of each one's mean, in hundredths, with its standard error."""
+    means = 100 * np.array([np.mean(row) for row in by_picture if row])
+    return f"{means.mean():.1f} ± {means.std(ddof=1) / np.sqrt(len(means)):.1f}"
+
+
+def main() -> None:
+    """Compare on pictures that the model was not trained on."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("domain", help="a bundled domain's name or a domain folder")
+    parser.add_argument("pictures", type=Path)
+    parser.add_argument("model", type=Path)
+    parser.add_argument("--train", type=int, default=300)
+    parser.add_argument("--count", type=int, default=60)
+    parser.add_argument("--seed", type=int, default=0)
+    options = parser.parse_args()
+    scenes = Dataset.load(options.pictures, load_domain(options.domain))
+    if not options.model.exists():
+        new = trained(
+            options.domain,
+            scenes,
+            train=options.train,
+            count=options.count,
+            seed=options.seed,
+        )
+        new.save(options.model)
+    agent = Agent.load(options.model)
+    assert agent.extractor is not None
+    held = held_out(agent, scenes, count=options.count, seed=options.seed)
+    pictures = held.pictures(agent.picture_size)
+    found = agent.classify_all(pictures)
+    right = np.mean([own.label == label for own, label in zip(found, held.labels, strict=True)])
+    rng = np.random.default_rng(options.seed)
+    began, maps = time.process_time(), []
+    for picture, scene in zip(pictures, found, strict=True):
+        maps.append(agent.where(picture, scene=scene))
+    spent = (time.process_time() - began) / len(maps)
+    every = [own for row in maps for own in row.values()]
+    marking = np.mean([own.matters for own in every])
+    print(f"{len(held)} pictures, {100 * right:.1f} % classified rightly, {len(every)} maps")
+    print(f"{spent:.2f} s of processor time a picture, all features together")
+    print(f"{100 * marking:.0f} % of the maps mark a place (some window takes {MATTERS} or more)")
+    moved = {
+        (number, name): changes(agent, pictures[number], own, rng)
+        for number, row in enumerate(maps)
+        for name, own in row.items()
+        if own.matters
+    }
+    print("hundredths of the probability; in how many comparisons what is marked changes more")
+    for feature in (None, *agent.extractor.values):
+        for way, title in enumerate(WAYS):
+            rows: dict[str, list[list[float]]] = {"marked": [], "elsewhere": [], "more": []}
+            for number in range(len(held)):
+                chosen = [
+                    change[way]
+                    for (picture, name), change in moved.items()
+                    if picture == number and feature in (None, name)
+                ]
+                rows["marked"].append([float(own[0]) for own in chosen])
+                rows["elsewhere"].append([float(own[1:].mean()) for own in chosen])
+                rows["more"].append([float((own[0] > own[1:]).mean()) for own in chosen])
+            if sum(map(bool, rows["marked"])) < 2:
+                continue
+            told = {name: mean_and_error(values) for name, values in rows.items()}
+            print(
+                f"{feature or 'all'}, {title}: marked {told['marked']}, elsewhere "
+                f"{told['elsewhere']}; more in {told['more']} % "
+                f"(maps: {sum(map(len, rows['marked']))})"
+            )
+    made = options.pictures / "made.json"
+    if made.is_file() and agent.domain.name == "structure_stability":
+        say_displaced(held, maps, drawn=json.loads(made.read_text()))
+
+
+def say_displaced(held: Dataset, maps: list[dict[str, Where]], *, drawn: Mapping[str, int]) -> None:
+    """Print how often the map of block_displaced is highest on the block that is displaced."""
+    from seewhy.domains.structure_stability.places import places
+
+    names = ("on the displaced block", "on it or the one below")
+    hits: list[tuple[list[bool], list[float], list[float]]] = []
+    for scene, row in zip(held.scenes, maps, strict=True):
+        own = row["block_displaced"]
+        truth = places(seed=drawn["seed"], index=int(scene.picture.stem), size=drawn["size"])
+        if not truth.displaced or own.value != "yes" or not own.matters:
+            continue
+        assert truth.blocks.shape == own.map.shape
+        upper = np.isin(truth.blocks, truth.displaced)
+        pair = upper | np.isin(truth.blocks, [number - 1 for number in truth.displaced])
+        best = np.unravel_index(own.map.argmax(), own.map.shape)
+        some = truth.blocks >= 0
+        hits.append(
+            (
+                [bool(region[best]) for region in (upper, pair)],
+                [float(own.map[region].sum() / own.map.sum()) for region in (upper, pair)],
+                [float(region.sum() / region.size) for region in (upper, pair)]
+                + [float(region.sum() / some.sum()) for region in (upper, pair)],
+            )
+        )
+    print(f"block_displaced: {len(hits)} maps of a block that is displaced, and seen to be")
+    if not hits:
+        return
+    best_share, mass, chance = (np.mean([own[part] for own in hits], axis=0) for part in range(3))
+    for number, name in enumerate(names):
+        print(
+            f"  {name}: the highest place in {100 * best_share[number]:.0f} %, of the map "
+            f"{100 * mass[number]:.0f} % (it takes {100 * chance[number]:.0f} % of the picture, "
+            f"{100 * chance[2 + number]:.0f} % of the structure)"
+        )
+
+
+if __name__ == "__main__":
+    main()
