@@ -808,7 +808,10 @@ def test_learn_and_axioms(run: Run, model_folder: Path, tiles_data: Path, tmp_pa
     assert "stroke='#1c7a3d'" in drawn.read_text(encoding="utf-8")
     assert result.code == 0
     assert "added l1:" in result.out
-    assert "annotated features classified rightly, of 8 held back: 87.5 % before, 87.5 % now" in result.out
+    assert (
+        "annotated features classified rightly, of 8 held back: 87.5 % before, 87.5 % now"
+        in result.out
+    )
     listed = run("axioms", model)
     assert "learned from" in listed.out
     found = json.loads(run("axioms", model, "--json").out)

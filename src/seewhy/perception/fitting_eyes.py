@@ -28,13 +28,14 @@ Pictures = npt.NDArray[np.uint8]
 Rows = npt.NDArray[np.int64]
 Told = Callable[["EyesEvent"], None]
 
-FEW = 200
+FEW = 120
 """With fewer pictures than this, each is held out once; with more, a fifth of them once."""
 
 _FOLDS, _HELD_OUT = 3, 5
-_GONE_OVER = 9000  # picture passes that a minute has room for
-_PASSES = (5, 30)
-_VARIATIONS, _VIEWS = 6400, (2, 16)
+# Pictures gone over: as many as a minute has room for on two cores, within bounds for each picture.
+_GONE_OVER, _PASSES = 8000, (5, 40)
+_AGAIN, _PASSES_AGAIN = 6000, (3, 60)
+_VARIATIONS, _VIEWS = 9600, (2, 64)
 _JUDGED_FROM = 2000  # pictures kept in the memory to choose variations by
 
 
@@ -207,6 +208,7 @@ def fit_eyes(
     tail: Tail | None = None
     work = _Work(backbone, embedded, varied, targets, sizes, start_from, seed, told)
     passes = float(np.clip(_GONE_OVER / count, *_PASSES))
+    again = float(np.clip(_AGAIN / count, *_PASSES_AGAIN))
     for number, part in enumerate(held):
         rest = np.setdiff1d(np.arange(count), part)
         for name, column in targets.items():
@@ -217,13 +219,14 @@ def fit_eyes(
             for name, table in see_with_tail(tail, embedded.middle[part]).items():
                 tables[TUNED][name].append(table)
     everything = np.arange(count)
+    gone_over = passes + again if len(held) == 1 else again
     if varied is not None:
         if len(held) == 1 and tail is not None:
             # What a fifth was kept from knows most already.
-            again = Schedule(max(2.0, 0.5 * passes), rate=5e-4, new_rate=1.5e-3)
-            tail = work.tuned(everything, again, place=("all",), tail=tail)
+            gently = Schedule(again, rate=5e-4, new_rate=1.5e-3)
+            tail = work.tuned(everything, gently, place=("all",), tail=tail)
         else:
-            tail = work.tuned(everything, Schedule(passes), place=("all",))
+            tail = work.tuned(everything, Schedule(again), place=("all",))
     rows = np.concatenate(held) if held else np.zeros(0, dtype=np.int64)
     stacks, probabilities = {}, {}
     for name, column in targets.items():
@@ -256,7 +259,7 @@ def fit_eyes(
             for name, column in lesson.labels.items()
         },
         records={
-            name: _record(stacks[name], targets[name], passes if tuning else 0.0)
+            name: _record(stacks[name], targets[name], gone_over if tuning else 0.0)
             for name in targets
         },
     )
