@@ -88,8 +88,8 @@ class Where:
         --------
         >>> Where("lean", "yes", 0.98, 0.61, np.ones((8, 8), dtype=np.float32)).to_text()
         'hiding the marked place takes 0.61 of p = 0.98'
-        >>> Where("lean", "yes", 0.98, 0.01, np.zeros((8, 8), dtype=np.float32)).to_text()
-        'no single place matters: hiding one takes at most 0.01 of p = 0.98'
+        >>> Where("lean", "yes", 0.98, 0.002, np.zeros((8, 8), dtype=np.float32)).to_text()
+        'no single place matters: hiding one takes at most 0.00 of p = 0.98'
         """
         whole = f"p = {self.probability:.2f}"
         if self.matters:
