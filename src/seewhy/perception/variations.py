@@ -19,7 +19,6 @@ from seewhy.perception.stacking import log_probabilities
 __all__ = ["VARIED", "Judged", "chosen_variations"]
 
 VARIED = TrainingOptions(
-    flip=True,
     shift=0.06,
     rotate=12.0,
     scale=0.15,
@@ -29,12 +28,16 @@ VARIED = TrainingOptions(
     colour=0.1,
     noise=0.0,
 )
-"""How pictures are varied where nothing speaks against it."""
+"""How pictures are varied where nothing speaks against it.
 
-JUDGED = ("flip", "rotate", "scale")
-"""Variations that change what is to be seen in some domains: an arrow, a lean, a width."""
+They are mirrored only where the domain says so: what a few labelled pictures show of arrows and of
+left hands is too little to find it out, and a mirror spoils them altogether.
+"""
 
-NAMES = {"flip": "mirrored", "rotate": "turned", "scale": "stretched"}
+JUDGED = ("rotate", "scale")
+"""Variations that change what is to be seen in some domains: a lean, a width."""
+
+NAMES = {"rotate": "turned", "scale": "stretched"}
 
 _MOST = 240  # pictures by which a variation is judged
 _FEWEST = 24
@@ -86,7 +89,7 @@ def chosen_variations(
     For each variation that ``given`` does not settle, heads are fitted to pictures as they are,
     and to these with varied ones beside them, labelled alike. Where the second see some feature
     clearly worse in pictures that they were not fitted to, the variation changes that feature:
-    a mirrored arrow points the other way.
+    what leans, once turned, stands upright.
 
     Parameters
     ----------
@@ -129,14 +132,12 @@ def chosen_variations(
         worse = _worst(before, _losses(plain, varied, some, where))
         judged.append(Judged(name, *worse))
         if worse[0] is not None:
-            options = replace(options, **{name: False if name == "flip" else 0.0})  # type: ignore[arg-type]
+            options = replace(options, **{name: 0.0})  # type: ignore[arg-type]
     return options, tuple(judged)
 
 
 def _varied(pictures: Pictures, name: str, *, seed: int) -> Pictures:
     """Pictures with one variation alone."""
-    if name == "flip":
-        return np.ascontiguousarray(pictures[:, :, ::-1])
     alone = replace(
         TrainingOptions(shift=0.0, brightness=0.0, contrast=0.0, colour=0.0, noise=0.0),
         **{name: getattr(VARIED, name)},
