@@ -388,3 +388,21 @@ def test_an_answer_names_the_pictures_of_training(run: Run, saved: Path, tiles_d
 def test_fewer_than_one_picture_is_not_asked_for(taught: Agent, tiles_data: Path) -> None:
     with pytest.raises(DatasetError, match="count: at least 1 picture has to be asked for, got 0"):
         taught.nearest(tiles_data / "images" / "000.png", count=0)
+
+
+def test_what_shows_no_tile_is_less_like_training_than_any_tile(
+    taught: Agent, scenes: Dataset
+) -> None:
+    assert taught.extractor is not None
+    assert taught.familiarity is not None
+    noise = np.random.default_rng(1).integers(0, 256, (2, 112, 112, 3), dtype=np.uint8)
+    blank = np.stack([np.full((112, 112, 3), level, np.uint8) for level in (0, 128, 255)])
+    stripes = blank.copy()
+    stripes[:, ::9] = 255 - stripes[:, ::9]
+    strangers = taught.extractor.see(np.concatenate([noise, blank, stripes]))
+    tiles = taught.extractor.see(scenes.of_split("test").pictures(112))
+    values = {"scene": ["scene"] * 20}
+    least = taught.familiarity.likeness(tiles.embeddings, values).min()
+    found = taught.familiarity.likeness(strangers.embeddings, {"scene": ["scene"] * 8})
+    assert found.max() < least
+    assert min(taught.validation_scores["with_class"]) > found.max()

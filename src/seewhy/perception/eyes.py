@@ -24,10 +24,12 @@ __all__ = ["EYES", "HEADS", "SCENE", "TUNED", "Eyes", "EyesRecord"]
 
 EYES = "eyes.json"
 WEIGHTS = "eyes.safetensors"
-FORMAT = 1
+FORMAT = 2
 
 HEADS, TUNED = "heads", "tuned layers"
 """The ways of seeing: heads on the backbone as it is, and its last layers tuned."""
+
+_CONSTANT = 3.0  # in the length that a picture's embedding has on average
 
 SCENE = "scene"
 """What the whole picture's embedding is called among those of features."""
@@ -162,10 +164,17 @@ class Eyes:
         return tables
 
     def familiar_by(self, embedded: Embedded) -> npt.NDArray[np.float32]:
-        """What pictures are compared by, to tell what is like those of training."""
+        """What pictures are compared by, to tell what is like those of training.
+
+        Embeddings in standard deviations, with a large constant beside them: so the angle between
+        two grows with their distance. The angle between embeddings alone forgets how far from
+        all of training a picture lies, and a stranger's lies far.
+        """
         mean, scale = self.projection.mean, self.projection.scale
-        found: npt.NDArray[np.float32] = (embedded.pooled.astype(np.float32) - mean) / scale
-        return found
+        standardised = (embedded.pooled.astype(np.float32) - mean) / scale
+        constant = np.float32(_CONSTANT * np.sqrt(standardised.shape[1]))
+        beside = np.full((len(standardised), 1), constant, dtype=np.float32)
+        return np.concatenate([standardised, beside], axis=1)
 
     def probabilities(self, pictures: Pictures) -> dict[str, npt.NDArray[np.float64]]:
         """Probabilities of each feature's values, shape (n, values); as for :meth:`see`."""

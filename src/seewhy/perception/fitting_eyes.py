@@ -294,7 +294,9 @@ class _Work:
             rows,
             schedule,
             seed=(self.seed, *place),
-            on_step=lambda done: self.told(EyesEvent(f"tuning layers {again}", done, total)),
+            on_step=lambda done: self.told(
+                EyesEvent(f"tuning layers {again}", min(done, total), total)
+            ),
         )
         return train
 
