@@ -168,6 +168,17 @@ def test_features_follow_from_the_class(tmp_path: Path) -> None:
     assert words["features"]["coat_colour"]["values"] == {"blue": "blue", "dark_red": "Dark Red"}
 
 
+def test_a_value_that_is_perhaps_spelt_wrongly_is_named(tmp_path: Path) -> None:
+    source = draw_all(tmp_path / "s", ["cat/1.jpg", "dog/1.jpg", "cow/1.jpg"])
+    table = write(
+        tmp_path / "t.csv", "class,coat,legs\ncat,striped,4\ndog,striped,4\ncow,stripd,5\n"
+    )
+    dataset, _ = imported(source, "folder", tmp_path / "data", features=table)
+    assert notes_of(dataset) == {
+        f"{table}: 'stripd' of 'coat' is the value of cow alone; is 'striped' meant?": ()
+    }
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -143,7 +143,8 @@ def _write_from(
         remark(
             "no feature is said, so the domain has one, what a picture looks like as a whole; "
             "features of your own make reasons: --features TABLE has a row a class and a column a "
-            "feature, or add columns to scenes.csv"
+            "feature, --class-parts says what names such as 2-red-oval are made of; or add columns "
+            "to scenes.csv"
         )
     if made.written.alike:
         remark(f"classes that have the same features: {', '.join(made.written.alike)}")

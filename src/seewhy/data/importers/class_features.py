@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,10 +14,13 @@ from seewhy.data.importers.source_files import FolderFiles
 from seewhy.data.importers.tables import Row, open_table
 from seewhy.data.importers.yes_or_no import yes_or_no
 from seewhy.errors import DatasetError
-from seewhy.nearest import did_you_mean
+from seewhy.nearest import did_you_mean, nearest
 
 _SURE_WORDS = 7
 """So many of the words for a class mean nothing else; later ones may name a feature."""
+
+_ALIKE = 85.0  # of 100, see rapidfuzz's ratio
+_LONG = 4
 
 _CROSSES = frozenset({"x", "yes", "y", "1", "true", "✓", "✔", "*"})
 
@@ -128,6 +132,31 @@ def read_class_features(path: Path | str, classes: Collection[str] = ()) -> Clas
             if row.cells[feature] or feature in crossed
         }
     return ClassFeatures(features, values, str(path))
+
+
+def doubtful_values(said: ClassFeatures) -> list[str]:
+    """Say which values are perhaps another one, spelt wrongly: in one row alone, and nearly alike.
+
+    Examples
+    --------
+    >>> rows = {str(n): {"index": "stretched"} for n in range(3)} | {"8": {"index": "streched"}}
+    >>> doubtful_values(ClassFeatures(("index",), rows, "fingers.csv"))
+    ["fingers.csv: 'streched' of 'index' is the value of 8 alone; is 'stretched' meant?"]
+    """
+    found = []
+    for feature in said.features:
+        rows = {name: row[feature] for name, row in said.values.items() if feature in row}
+        counts = Counter(rows.values())
+        usual = [value for value, count in counts.items() if count > 1]
+        for name, value in rows.items():
+            meant = nearest(value, usual, at_least=_ALIKE) if counts[value] == 1 else None
+            # Numbers, and words of two or three letters, are alike by chance.
+            if meant is not None and len(value) >= _LONG and value.isalpha():
+                found.append(
+                    f"{said.said}: '{value}' of '{feature}' is the value of {name} alone; is "
+                    f"'{meant}' meant?"
+                )
+    return found
 
 
 def _label_column(columns: Sequence[str], rows: Sequence[Row], classes: Collection[str]) -> str:

@@ -14,6 +14,7 @@ from seewhy.data.importers.annotation import AnnotatedPicture, Notes
 from seewhy.data.importers.boxes import CLASS_RULES, ClassRule, class_of_boxes
 from seewhy.data.importers.class_features import (
     ClassFeatures,
+    doubtful_values,
     features_of_parts,
     read_class_features,
 )
@@ -244,6 +245,8 @@ def _with_class_features(
     pictures: Sequence[AnnotatedPicture], said: ClassFeatures, notes: Notes
 ) -> tuple[ClassFeatures, list[AnnotatedPicture]]:
     """Fill the features that follow from the class; what a source says itself is kept."""
+    for doubt in doubtful_values(said):
+        notes.add(doubt)
     classes = sorted({picture.class_name for picture in pictures} - {""})
     ours = said.for_classes(classes)
     shown = {tuple(sorted(values.items())) for values in ours.values.values()}
