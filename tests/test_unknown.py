@@ -259,8 +259,8 @@ def test_what_training_says_of_refusal(
     assert capsys.readouterr().out == ""
     print_refusal(wary_agent)
     assert capsys.readouterr().out == (
-        "pictures that fit less than 90.0 % of those like the 18 kept for validation are said "
-        "not to be known\n"
+        'a picture that shows something else is answered with "I don\'t know", as are 10.0 % of '
+        "pictures like the 18 that were compared\n"
     )
     wary_agent.known_share = 0.99
     try:
@@ -268,8 +268,8 @@ def test_what_training_says_of_refusal(
     finally:
         wary_agent.known_share = 0.9
     assert capsys.readouterr().out == (
-        "every picture is answered: 18 pictures kept for validation are too few to refuse at most "
-        "1.0 %\n"
+        "every picture is answered: 18 pictures are too few to know which are strange and refuse "
+        "at most 1.0 % of the others\n"
     )
 
 

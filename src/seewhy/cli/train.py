@@ -148,10 +148,10 @@ def print_refusal(agent: Agent) -> None:
         return
     number = len(agent.validation_scores.get(agent.reading, []))
     output().print(
-        f"every picture is answered: {number} pictures kept for validation are too few to refuse "
-        f"at most {percent(1.0 - agent.known_share)}"
+        f"every picture is answered: {number} pictures are too few to know which are strange and "
+        f"refuse at most {percent(1.0 - agent.known_share)} of the others"
         if agent.unknown_below is None
-        else f"pictures that fit less than {percent(agent.known_share)} of those like the "
-        f"{number} kept for validation are said not to be known",
+        else 'a picture that shows something else is answered with "I don\'t know", as are '
+        f"{percent(1.0 - agent.known_share)} of pictures like the {number} that were compared",
         markup=False,
     )
