@@ -289,7 +289,7 @@ def test_learning_from_runs_asks(run: Run, runs: Path, tmp_path: Path) -> None:
     assert (done.code, done.err) == (
         2,
         "seewhy: no answer to 'add this axiom?', nothing is written; answer y or n, or give --yes "
-        "to agree to everything\n",
+        "to agree without being asked\n",
     )
     done = run(*learn, "--out", str(out), "--json")
     found = json.loads(done.out)

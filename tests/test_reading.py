@@ -25,9 +25,10 @@ from seewhy.knowledge.candidates import decided_vectors, most_probable_decided
 from seewhy.knowledge.justification import Basis
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.reading import ConsistentReading, open_vectors, read_separately
+from seewhy.reading import ConsistentReading, ReadingWeights, open_vectors, read_separately
 from seewhy.reply import FeatureReading
 from seewhy.report.card import draw_card
+from seewhy.trace import trace_of
 
 SPACE: list[FeatureVector] = list(product(*VALUES.values()))
 many = settings(
@@ -606,3 +607,49 @@ def test_the_model_remembers_how_it_reads(agent: Agent, tmp_path: Path) -> None:
     assert (loaded.reading, loaded.gate, loaded.known_share) == ("argmax", None, 1.0)
     with pytest.raises(DomainError, match="gate must be 0 to 1, got 2"):
         Agent.load(tmp_path / "model", gate=2)
+
+
+# What the knowledge leaves open, and the tree doubts ---------------------------------------------
+
+GREEN_AND_ROUND = ([0.05, 0.9, 0.05], [0.9, 0.1])
+
+
+def agent_in_doubt(domain: Domain, classes: list[float], weights: ReadingWeights | None) -> Agent:
+    """Two of three green disks were good, which is all that the tree knows of them."""
+    agent = agent_seeing(domain, *GREEN_AND_ROUND, classes, reading="with_class")
+    vectors: list[FeatureVector] = [("green", "yes")] * 9
+    agent.fit_induction([*vectors, ("red", "yes")], ["good", "good", "bad"] * 3 + ["good"])
+    agent.reading_weights = {} if weights is None else {"with_class": weights}
+    return agent
+
+
+@pytest.mark.parametrize(
+    ("classes", "weights", "label"),
+    [
+        ([0.3, 0.7], ReadingWeights(1.0, 1.0), "bad"),  # 0.67 · 0.3 against 0.33 · 0.7
+        ([0.4, 0.6], ReadingWeights(1.0, 1.0), "good"),  # 0.67 · 0.4 against 0.33 · 0.6
+        ([0.3, 0.7], ReadingWeights(1.0, 0.5), "good"),  # the witness counts half
+        ([0.3, 0.7], ReadingWeights(1.0, 0.0), "good"),
+        ([0.3, 0.7], None, "good"),  # nobody weighed the witness
+    ],
+)
+def test_a_weighed_witness_may_outweigh_the_tree(
+    certain_reds: Domain, classes: list[float], weights: ReadingWeights | None, label: str
+) -> None:
+    agent = agent_in_doubt(certain_reds, classes, weights)
+    scene = agent.classify(draw_tile("green", "yes", 0))
+    assert (scene.vector, scene.label, scene.method) == (("green", "yes"), label, "tree")
+
+
+def test_an_answer_says_that_the_witness_outweighs_the_tree(certain_reds: Domain) -> None:
+    agent = agent_in_doubt(certain_reds, [0.1, 0.9], ReadingWeights(1.0, 1.0))
+    picture = draw_tile("green", "yes", 0)
+    reply = agent.ask(picture, "why is it bad?")
+    assert "the class seen by itself, bad (p = 0.90), outweighs the tree" in (
+        reply.justification.to_text()
+    )
+    scene = agent.classify(picture)
+    assert scene.probability == pytest.approx(0.9 / 3 / (0.9 / 3 + 0.1 * 2 / 3), abs=0.02)
+    assert "outweighed by the class seen by itself: bad (p = 0.90)" in (
+        trace_of(agent, scene).to_text()
+    )

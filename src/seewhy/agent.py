@@ -605,6 +605,7 @@ class Agent:
                 other_from=self._believed_from,
                 witnessed=self._witnessed() if rule == "with_class" else (),
                 weights=self.reading_weights.get(rule, ReadingWeights()),
+                outweighs=rule == "with_class" and rule in self.reading_weights,
             )
         return self._readers[rule]
 
@@ -701,6 +702,8 @@ class Agent:
                 label, method, said, probability = None, "none", UNKNOWN, None
             elif by_tree and self._below_gate(own):
                 label, method, said, probability = by_tree[own.vector], "tree", UNCERTAIN, None
+            elif method == "tree" and own.leaning is not None:
+                label = own.leaning
             scene = Classification(
                 label,
                 method,

@@ -90,6 +90,9 @@ class Reading:
         network has a say in the reading.
     others : tuple of Other
         What the picture may be as well, the most probable class first.
+    leaning : str or None
+        Where the knowledge leaves the vector open: the class that is most probable by the tree's
+        leaf and by the witness together. None where no witness may outweigh the tree.
     """
 
     vector: FeatureVector
@@ -98,6 +101,7 @@ class Reading:
     probability: float
     class_seen: tuple[str, float] | None = None
     others: tuple[Other, ...] = ()
+    leaning: str | None = None
 
 
 @dataclass(frozen=True)
@@ -192,6 +196,9 @@ class ConsistentReading:
         The classes that the network of the class was shown; none where there is no such network.
     weights : ReadingWeights
         See :func:`fit_reading_weights`.
+    outweighs : bool, default False
+        Whether the witness, weighed beside the tree's leaf, may decide what the knowledge leaves
+        open (:attr:`Reading.leaning`).
     listed : int
         With more vectors that the knowledge decides than this, the best one is searched for every
         picture: the reading is the same, but the class's probability is then that of the one
@@ -224,6 +231,7 @@ class ConsistentReading:
         other_from: float = 1.0,
         witnessed: Collection[str] = (),
         weights: ReadingWeights = ReadingWeights(),  # noqa: B008: a frozen value
+        outweighs: bool = False,
         listed: int = LISTED,
         tried: int = TRIED,
     ) -> None:
@@ -234,6 +242,7 @@ class ConsistentReading:
         self.other_from = other_from
         self.witnessed = frozenset(witnessed)
         self.weights = weights
+        self.outweighs = outweighs
         self.listed = listed
         self.tried = tried
         self._open = [v for v in dict.fromkeys(open_vectors) if None not in v]
@@ -307,10 +316,11 @@ class ConsistentReading:
             shown = [own[start : start + step] for own in tables]
             scored = classes[start : start + step]
             others: list[tuple[Other, ...]] = [()] * len(part[0])
+            leaning: list[str | None] = [None] * len(part[0])
             if searched:
                 best, scores, shares = self._search(part, scored)
             else:
-                best, scores, shares, others = self._choose(part, scored, shown)
+                best, scores, shares, others, leaning = self._choose(part, scored, shown)
             features = _features(self.schema, shown, best)
             found += [
                 Reading(_vector(self.schema, columns), *own)
@@ -321,6 +331,7 @@ class ConsistentReading:
                     shares.tolist(),
                     seen[start : start + step],
                     others,
+                    leaning,
                     strict=True,
                 )
             ]
@@ -349,20 +360,52 @@ class ConsistentReading:
         logarithms: Sequence[NDArray[np.float64]],
         class_scores: NDArray[np.float64],
         tables: Sequence[NDArray[np.float64]],
-    ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64], list[tuple[Other, ...]]]:
-        """The best candidate of every picture, its score, its class's probability, and others."""
+    ) -> tuple[
+        NDArray[np.intp],
+        NDArray[np.float64],
+        NDArray[np.float64],
+        list[tuple[Other, ...]],
+        list[str | None],
+    ]:
+        """The best candidate of every picture, its score, its class's probability, and others.
+
+        Last, the class to which it leans, where the knowledge leaves the candidate open.
+        """
         alone = self._joint(logarithms)
         weighted = self.weights.features * alone
-        best = (weighted + class_scores[:, self._classes]).argmax(axis=1)
+        agreeing = class_scores[:, self._classes]
+        if self.outweighs and len(self._doubtful):
+            agreeing[:, self._doubtful] = self._leaf_scores(class_scores, self._doubtful).max(
+                axis=2
+            )
+        best = (weighted + agreeing).argmax(axis=1)
         relative = np.exp(weighted - weighted.max(axis=1, keepdims=True))
         probable = self._probable(relative, class_scores)
         rows, read = np.arange(len(best)), self._classes[best]
+        leaning: list[str | None] = [None] * len(best)
+        doubted = np.flatnonzero(np.isin(best, self._doubtful)) if self.outweighs else rows[:0]
+        for row in doubted.tolist():
+            scores = self._leaf_scores(class_scores[row : row + 1], best[row : row + 1])[0, 0]
+            read[row] = int(scores.argmax())
+            leaning[row] = tuple(self.schema.classes)[read[row]]
         shares = probable[rows, read]
         probable[rows, read] = 0.0
         others: list[tuple[Other, ...]] = [()] * len(best)
         if self.other_from < 1.0:
             others = self._others(probable, relative, tables)
-        return self._candidates[best], alone[rows, best], shares, others
+        return self._candidates[best], alone[rows, best], shares, others, leaning
+
+    @cached_property
+    def _doubtful(self) -> NDArray[np.intp]:
+        """The candidates that may be of several classes, by the tree's leaf."""
+        return np.flatnonzero((self._shares[:, :-1] > 0).sum(axis=1) > 1)
+
+    def _leaf_scores(
+        self, class_scores: NDArray[np.float64], candidates: NDArray[np.intp]
+    ) -> NDArray[np.float64]:
+        """Leaf and witness together: (pictures, candidates, classes), in logarithms."""
+        leaves = _logarithms(self._shares[candidates, :-1])
+        return class_scores[:, None, :-1] + leaves[None]
 
     def _probable(
         self, relative: NDArray[np.float64], class_scores: NDArray[np.float64]

@@ -195,6 +195,9 @@ class Trace:
             yield f"not asked: {self.no_tree}"
             return
         yield say_path(self.domain, self.path)
+        seen = self.scene.class_seen
+        if seen is not None and seen[0] == self.scene.label != self.path.label:
+            yield f"outweighed by the class seen by itself: {seen[0]} (p = {seen[1]:.2f})"
 
     def _say_class(self) -> str:
         scene = self.scene

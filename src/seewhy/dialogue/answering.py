@@ -12,6 +12,7 @@ from seewhy.dialogue.narration import narrate
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.domain import Domain
+from seewhy.domain_tables import CLASS
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree, TreePath
 from seewhy.knowledge.justification import Basis, Node
@@ -160,17 +161,30 @@ class Answering:
         seen = tuple(self.reasoned.seen(scene.vector, c.feature) for c in path.conditions)
         sentence = say_path(self.domain, path)
         literal = self.domain.classes[label].literal
+        outweighs = scene.label == label != path.label and scene.class_seen is not None
         return Node(
             literal=str(literal),
             text=say_literal(self.domain, literal),
             basis=Basis.TREE,
             children=(
                 Node(str(literal), sentence, Basis.PATH, children=seen),
+                *([self._witness(scene)] if outweighs else []),
                 *learned,
                 self._not_asked(scene)
                 if scene.verdict == UNCERTAIN
                 else self.reasoned.undecided(scene.vector),
             ),
+        )
+
+    def _witness(self, scene: Classification) -> Node:
+        """That the class, seen by itself, outweighs what the tree makes of the features."""
+        assert scene.class_seen is not None
+        label, probability = scene.class_seen
+        return Node(
+            literal=CLASS,
+            text=f"the class seen by itself, {self.domain.classes[label].say} (p = "
+            f"{probability:.2f}), outweighs the tree",
+            basis=Basis.CLASS_SEEN,
         )
 
     def _not_asked(self, scene: Classification) -> Node:

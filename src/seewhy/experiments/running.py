@@ -126,7 +126,8 @@ def prepare(
         raise ExperimentError(
             "--reading goes with the other experiments; reading compares all ways to read"
         )
-    if rule == loaded.reading:
+    # Trials are of networks that grow, which read each feature alone where nothing else is said.
+    if rule == (loaded.reading or "argmax"):
         rule = None
     count = plan.trials if trials is None else trials
     chosen = tuple(dict.fromkeys(plan.sizes if sizes is None else sizes))

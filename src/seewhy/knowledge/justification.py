@@ -26,6 +26,7 @@ class Basis(StrEnum):
     TREE = "decision tree"
     PATH = "path of the tree"
     RECURRENT = "recurrent network"
+    CLASS_SEEN = "class seen by itself"
 
 
 @dataclass(frozen=True)

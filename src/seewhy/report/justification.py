@@ -20,6 +20,7 @@ _COLOURS = {
     Basis.TREE: ("#f3ecfa", "#7a4fb0"),
     Basis.PATH: ("#f3ecfa", "#7a4fb0"),
     Basis.RECURRENT: ("#f3ecfa", "#7a4fb0"),
+    Basis.CLASS_SEEN: ("#e8f1fb", "#2f6fb3"),
 }
 _PLAIN = ("#f4f4f4", "#777777")
 _FAILED = ("#fdf3f3", "#c05050")
