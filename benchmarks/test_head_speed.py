@@ -13,7 +13,8 @@ import pytest
 
 from seewhy.perception.backbones import load_backbone
 from seewhy.perception.embedding_cache import EmbeddingCache
-from seewhy.perception.fitting_eyes import Lesson, fit_eyes
+from seewhy.perception.fitting_eyes import fit_eyes
+from seewhy.perception.lesson import Lesson
 
 COUNT, FEATURES, CLASSES = 300, 7, 10
 

@@ -10,20 +10,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 import torch
+from PIL import Image, ImageDraw
 
 from conftest import DOMAIN, Run, draw_tile, write_domain, write_tiles
 from seewhy.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError, ModelError
+from seewhy.perception import tail_training
 from seewhy.perception.backbones import efficientnet_lite, load_backbone
 from seewhy.perception.backbones.backbone import Backbone
 from seewhy.perception.embedding import embed_pictures, embed_variations
 from seewhy.perception.embedding_cache import EmbeddingCache
+from seewhy.perception.events import EyesEvent
 from seewhy.perception.eyes import Eyes
-from seewhy.perception.fitting_eyes import EyesEvent, FittedEyes, Lesson, fit_eyes
+from seewhy.perception.fitting_eyes import FittedEyes, fit_eyes
+from seewhy.perception.lesson import Lesson
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.picture import as_picture
+from seewhy.perception.variations import chosen_variations
 
 EYES_DOMAIN = DOMAIN.replace(
     'eyes = "none"  # tiles are so plain that networks grow in a second\n', ""
@@ -176,6 +181,91 @@ def test_a_feature_without_a_label_is_refused(backbone: Backbone, lesson: Lesson
         fit_eyes(backbone, empty)
     with pytest.raises(DatasetError, match="there is no picture to learn from"):
         fit_eyes(backbone, replace(lesson, strata=[]))
+
+
+def test_an_interrupted_tuning_goes_on_with_the_same_weights(
+    backbone: Backbone, lesson: Lesson, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tail_training, "SAVED_EVERY", 0.0)
+    # Twelve pictures are one batch; each stage is to have several steps.
+    monkeypatch.setattr(tail_training, "_BATCH", 2)
+    whole = fit_eyes(backbone, lesson, seed=2).eyes.tail
+
+    def until(stage: str, pictures: int) -> None:
+        def told(event: EyesEvent) -> None:
+            if (event.stage, event.done) == (stage, pictures):
+                raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            fit_eyes(backbone, lesson, seed=2, checkpoints=tmp_path, on_progress=told)
+
+    until("tuning layers by most", 6)
+    until("tuning layers once more, by all", 8)
+    last: list[EyesEvent] = []
+    again = fit_eyes(backbone, lesson, seed=2, checkpoints=tmp_path, on_progress=last.append)
+    steps = [event.done for event in last if event.stage.startswith("tuning")]
+    assert steps[0] == 10  # nothing finished is done again
+    assert whole is not None
+    assert again.eyes.tail is not None
+    weights = again.eyes.tail.state_dict()
+    for name, weight in whole.state_dict().items():
+        assert torch.equal(weights[name], weight)
+    # Another seed is another training, and what lies there is not its own.
+    events: list[EyesEvent] = []
+    fit_eyes(backbone, lesson, seed=3, checkpoints=tmp_path, on_progress=events.append)
+    tuned = [event.done for event in events if event.stage == "tuning layers by most"]
+    assert tuned[0] == 2
+
+
+# Which pictures are varied how ------------------------------------------------------------------
+
+
+def bars(*, turned: bool) -> Lesson:
+    """Bars that stand upright or lean, if ``turned``; else short and long ones, sorted by class."""
+    generator = np.random.default_rng(0)
+    pictures, labels = [], []
+    for number in range(96):
+        first = number < 48
+        image = Image.new("RGB", (112, 112), (200, 205, 210))
+        length = 36 if turned or first else 24
+        box = (50, 56 - length, 62, 56 + length)
+        ImageDraw.Draw(image).rectangle(box, fill=(60, 40, 30))
+        lean = 2.0 * (1 if first else -1) if turned else float(generator.uniform(-9, 9))
+        shift = tuple(int(offset) for offset in generator.integers(-8, 8, 2))
+        pictures.append(np.asarray(image.rotate(lean, translate=shift, fillcolor=(200, 205, 210))))
+        labels.append("a" if first else "b")
+    stacked = np.stack(pictures)
+    return Lesson(
+        batches=lambda: iter(np.array_split(stacked, 5)),
+        labels={"kind": labels},
+        values={"kind": ("a", "b")},
+        strata=labels,
+        groups=[str(number) for number in range(96)],
+    )
+
+
+@pytest.mark.parametrize(("turned", "against"), [(True, "kind"), (False, None)])
+def test_what_a_turn_changes_is_not_turned(
+    backbone: Backbone, turned: bool, against: str | None
+) -> None:
+    lesson = bars(turned=turned)
+    cache = EmbeddingCache(None)
+    pooled = embed_pictures(backbone, lesson.batches(), cache=cache).pooled
+    options, judged = chosen_variations(backbone, lesson, pooled, given={}, seed=0)
+    assert {verdict.variation: verdict.against for verdict in judged}["rotate"] == against
+    assert (options.rotate == 0.0) == turned
+    assert options.flip is False
+    given, judged = chosen_variations(
+        backbone, lesson, pooled, given={"rotate": 30.0, "scale": 0.0, "flip": True}, seed=0
+    )
+    assert (given.rotate, given.scale, given.flip, judged) == (30.0, 0.0, True, ())
+
+
+def test_pictures_at_some_places_come_in_their_order() -> None:
+    lesson = bars(turned=False)
+    whole = np.concatenate(list(lesson.batches()))
+    rows = np.array([95, 3, 40, 0])
+    np.testing.assert_array_equal(lesson.pictures(rows), whole[rows])
 
 
 # What is kept on the disk --------------------------------------------------------------------

@@ -13,8 +13,10 @@ from torch import nn
 
 from seewhy.errors import DomainError, ModelError
 from seewhy.perception.backbones import load_backbone, require_backbone
-from seewhy.perception.backbones.libraries import observed
-from seewhy.perception.fitting_eyes import Lesson, fit_eyes
+from seewhy.perception.backbones.frozen import FrozenBackbone
+from seewhy.perception.backbones.libraries import Observed, observed
+from seewhy.perception.fitting_eyes import fit_eyes
+from seewhy.perception.lesson import Lesson
 
 PICTURES = np.random.default_rng(0).integers(0, 256, (3, 160, 160, 3), dtype=np.uint8)
 
@@ -31,6 +33,25 @@ def test_of_each_of_the_last_resolutions_the_last_map_is_looked_at() -> None:
         nn.Flatten(),
     ).eval()
     assert observed(model, side=32) == ["2", "3", "5"]
+
+
+def test_threads_that_look_at_once_see_their_own_pictures() -> None:
+    torch.manual_seed(0)
+    model = nn.Sequential(
+        nn.Conv2d(3, 6, 3, stride=4, padding=1), nn.Conv2d(6, 8, 3, stride=2, padding=1)
+    ).eval()
+    backbone = FrozenBackbone(
+        name="two layers", digest="", side=64, look=Observed(model, observed(model, side=64))
+    )
+    pictures = np.random.default_rng(0).integers(0, 256, (200, 64, 64, 3), dtype=np.uint8)
+    alone = np.concatenate([backbone.embed(pictures[n : n + 8]).pooled for n in range(0, 200, 8)])
+    before = torch.get_num_threads()
+    torch.set_num_threads(4)
+    try:
+        for _ in range(3):
+            np.testing.assert_array_equal(backbone.embed(pictures).pooled, alone)
+    finally:
+        torch.set_num_threads(before)
 
 
 def test_timm_names_a_backbone(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,6 +15,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import torch
+from hypothesis import given
+from hypothesis import strategies as st
 
 from seewhy.errors import DatasetError, DomainError, ModelError, SeeWhyError
 from seewhy.perception import extractor as perception_extractor
@@ -25,7 +27,7 @@ from seewhy.perception.extractor import FeatureExtractor, fit_extractor
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.training import train_network
-from seewhy.perception.validation import split
+from seewhy.perception.validation import folds, split
 
 VALUES = {"side": ["left", "right"], "count": ["1", "2", "3"]}
 SHORT = TrainingOptions(max_epochs=4, growing_epochs=1, batch_size=32)
@@ -870,3 +872,25 @@ def test_damaged_description(trained: FeatureExtractor, tmp_path: Path) -> None:
     file.write_text(json.dumps({**whole, "format": 99}))
     with pytest.raises(ModelError, match="has format 99, this version of SeeWhy reads 3"):
         FeatureExtractor.load(tmp_path)
+
+
+@given(
+    groups=st.lists(st.integers(0, 9), min_size=1, max_size=60),
+    count=st.integers(2, 6),
+    seed=st.integers(0, 3),
+)
+def test_folds_divide_pictures_and_no_group(groups: list[int], count: int, seed: int) -> None:
+    labels = ["even" if group % 2 == 0 else "odd" for group in groups]
+    parts = folds(labels, count=count, seed=seed, groups=groups)
+    assert len(parts) == min(count, len(set(groups)))
+    assert sorted(place for part in parts for place in part.tolist()) == list(range(len(groups)))
+    shown = [{groups[place] for place in part.tolist()} for part in parts]
+    assert sum(len(own_groups) for own_groups in shown) == len(set(groups))
+    again = folds(labels, count=count, seed=seed, groups=groups)
+    assert all((one == other).all() for one, other in zip(parts, again, strict=True))
+
+
+def test_folds_give_every_part_its_share_of_each_label() -> None:
+    labels = ["a"] * 40 + ["b"] * 20 + ["c"] * 5
+    for part in folds(labels, count=5, seed=1):
+        assert sorted(labels[place] for place in part) == ["a"] * 8 + ["b"] * 4 + ["c"]

@@ -25,7 +25,13 @@ from seewhy.knowledge.candidates import decided_vectors, most_probable_decided
 from seewhy.knowledge.justification import Basis
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.reading import ConsistentReading, ReadingWeights, open_vectors, read_separately
+from seewhy.reading import (
+    ConsistentReading,
+    ReadingWeights,
+    fit_reading_weights,
+    open_vectors,
+    read_separately,
+)
 from seewhy.reply import FeatureReading
 from seewhy.report.card import draw_card
 from seewhy.trace import trace_of
@@ -653,3 +659,60 @@ def test_an_answer_says_that_the_witness_outweighs_the_tree(certain_reds: Domain
     assert "outweighed by the class seen by itself: bad (p = 0.90)" in (
         trace_of(agent, scene).to_text()
     )
+
+
+# How much the witness counts, found out by pictures that taught nobody ---------------------------
+
+
+def kept_out(*, witness_right: float, features_right: float) -> tuple[dict[str, Any], list[str]]:
+    """Two hundred red or blue tiles with corners, as seen by features and by a witness."""
+    generator = np.random.default_rng(3)
+    labels = ["good" if number % 2 else "bad" for number in range(200)]
+    good = np.array([label == "good" for label in labels])
+
+    def told(right: float) -> np.ndarray[Any, Any]:
+        said = np.where(generator.random(200) < right, good, ~good)
+        return np.where(said, 0.95, 0.05)
+
+    red, witness = told(features_right), told(witness_right)
+    return {
+        "colour": np.stack([red, np.full(200, 0.0), 1.0 - red], axis=1),
+        "round": np.tile([0.02, 0.98], (200, 1)),
+        CLASS: np.stack([witness, 1.0 - witness], axis=1),
+    }, labels
+
+
+@pytest.mark.parametrize(
+    ("witness_right", "features_right", "asked"),
+    [(0.5, 0.95, False), (0.95, 0.5, True), (0.95, 0.95, True)],
+)
+def test_a_witness_counts_as_much_as_it_is_right(
+    certain_reds: Domain, witness_right: float, features_right: float, asked: bool
+) -> None:
+    reasoner = Reasoner(certain_reds.knowledge, certain_reds.schema)
+    reader = ConsistentReading(
+        reasoner,
+        (),
+        label_of=lambda vector: reasoner.decide(vector).label,
+        witnessed=("good", "bad"),
+    )
+    probabilities, labels = kept_out(witness_right=witness_right, features_right=features_right)
+    weights = fit_reading_weights(reader, probabilities, labels)
+    assert (weights.witness > 0.2) == asked
+
+    def loss(weighed: ReadingWeights) -> float:
+        classes = reader.weighing(weighed).class_probabilities(probabilities)
+        assert classes is not None
+        true = [("good", "bad").index(label) for label in labels]
+        return float(-np.log(np.maximum(classes[np.arange(200), true], 1e-3)).mean())
+
+    assert loss(weights) <= loss(ReadingWeights()) + 1e-9
+    assert loss(weights) <= loss(ReadingWeights(1.0, 0.0)) + 1e-9
+
+
+def test_too_few_pictures_weigh_nothing(certain_reds: Domain) -> None:
+    reasoner = Reasoner(certain_reds.knowledge, certain_reds.schema)
+    reader = ConsistentReading(reasoner, (), label_of=lambda _: None)
+    probabilities, labels = kept_out(witness_right=0.5, features_right=0.5)
+    unknown = [None] * 195 + labels[:5]
+    assert fit_reading_weights(reader, probabilities, unknown) == ReadingWeights()

@@ -10,7 +10,8 @@ from comparison.system import Drawings, Fitted
 from comparison.variations import same_variations
 from seewhy.data.dataset import Dataset
 from seewhy.domain_tables import CLASS
-from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.experiments.seeing import class_network
+from seewhy.perception.extractor import FeatureExtractor
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.training import planned_epochs
@@ -32,7 +33,7 @@ def fit_small_network(train: Dataset, seed: int, drawings: Drawings | None) -> F
     """
     first, rehearsal = _knowing_drawings(drawings) if drawings else (None, None)
     options = _options(train, seed=seed, fine_tune=drawings is not None)
-    network = _trained(train, options, start_from=first, rehearsal=rehearsal)
+    network = class_network(train, options, start_from=first, rehearsal=rehearsal)
     classes, size = tuple(train.domain.classes), train.domain.pictures.size
 
     def classify(pictures: Dataset) -> Sequence[str | None]:
@@ -50,26 +51,7 @@ def _knowing_drawings(drawings: Drawings) -> tuple[FeatureExtractor, Rehearsal]:
     fewer = max(1, options.max_epochs * _DRAWN_GONE_OVER // (PASSES * len(scenes)))
     options = replace(options, max_epochs=min(options.max_epochs, fewer))
     pictures = scenes.pictures(scenes.domain.pictures.size)
-    return _trained(scenes, options), Rehearsal(pictures, {CLASS: scenes.classes})
-
-
-def _trained(
-    scenes: Dataset,
-    options: TrainingOptions,
-    *,
-    start_from: FeatureExtractor | None = None,
-    rehearsal: Rehearsal | None = None,
-) -> FeatureExtractor:
-    return fit_extractor(
-        scenes.pictures(scenes.domain.pictures.size),
-        {CLASS: scenes.classes},
-        values={CLASS: tuple(scenes.domain.classes)},
-        options=options,
-        groups=scenes.groups,
-        start_from=start_from,
-        rehearsal=rehearsal,
-        workers=1,
-    )
+    return class_network(scenes, options), Rehearsal(pictures, {CLASS: scenes.classes})
 
 
 def _options(train: Dataset, *, seed: int, fine_tune: bool) -> TrainingOptions:

@@ -29,6 +29,7 @@ from seewhy.nearest import did_you_mean
 from seewhy.perception.backbones import NONE, require_backbone
 from seewhy.reading import (
     READINGS,
+    UNWEIGHTED,
     ConsistentReading,
     Other,
     Reading,
@@ -81,7 +82,8 @@ class Agent:
         The backbone that sees, see :mod:`seewhy.perception.backbones`; ``"none"``: networks that
         grow on the domain's pictures alone, as in the paper. What the domain says where left out.
     device : {"auto", "cpu", "cuda", "mps"}, default "auto"
-        Where eyes compute: on a graphics processor where there is one.
+        Where eyes compute: on a graphics processor where there is one. Networks that grow take CUDA
+        where there is one, whatever is said.
     reading : {"argmax", "consistent", "with_class"}, optional
         How the features of a picture are read: each its most probable value, as in the paper,
         together the most probable vector that fits what is known
@@ -259,6 +261,7 @@ class Agent:
             networks to start from and pictures to draw.
         """
         from seewhy.fitting import grown_networks, taught_eyes
+        from seewhy.perception.device import device_of
 
         self._require_own(dataset)
         scenes = dataset.of_split("train").without_classes(without)
@@ -282,6 +285,7 @@ class Agent:
         )
         earlier = first or start_from
         if self.eyes == NONE:
+            device_of(self.device)  # networks take CUDA where there is one; none that is not there
             taught = grown_networks(
                 scenes,
                 with_class=self.reading == "with_class",
@@ -299,6 +303,7 @@ class Agent:
                 device=self.device,
                 start_from=earlier,
                 seed=self.seed,
+                checkpoints=checkpoints,
                 on_progress=on_progress,
             )
         self.extractor = taught.extractor
@@ -604,7 +609,7 @@ class Agent:
                 shares_of=self._class_shares,
                 other_from=self._believed_from,
                 witnessed=self._witnessed() if rule == "with_class" else (),
-                weights=self.reading_weights.get(rule, ReadingWeights()),
+                weights=self.reading_weights.get(rule, UNWEIGHTED),
                 outweighs=rule == "with_class" and rule in self.reading_weights,
             )
         return self._readers[rule]

@@ -61,6 +61,7 @@ def taught_eyes(
     device: str,
     start_from: Agent | Pretrained | None,
     seed: int,
+    checkpoints: Path | None,
     on_progress: Progress | None,
 ) -> Taught:
     """Teach eyes by annotated scenes; see :func:`seewhy.perception.teaching.teach_eyes`."""
@@ -73,6 +74,7 @@ def taught_eyes(
         device=device,
         start_from=earlier if isinstance(earlier, Eyes) else None,
         seed=seed,
+        checkpoints=checkpoints,
         on_progress=on_progress,
     )
     familiarity, scores = familiar_scores(
@@ -83,7 +85,7 @@ def taught_eyes(
     )
     return Taught(
         fitted.eyes,
-        fitted.eyes.see_embedded(fitted.embedded),
+        fitted.seen,
         held_out=fitted.held_out,
         familiarity=familiarity,
         scores=scores,

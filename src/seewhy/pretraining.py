@@ -121,7 +121,12 @@ def pretrained(
             from seewhy.perception.teaching import teach_eyes
 
             taught = teach_eyes(
-                scenes, backbone=eyes, device=device, seed=seed, on_progress=on_progress
+                scenes,
+                backbone=eyes,
+                device=device,
+                seed=seed,
+                checkpoints=folder / "drawn.training",
+                on_progress=on_progress,
             )
             return Pretrained(taught.eyes, None, *shown)
         columns = seen_labels(domain, scenes.vectors, scenes.labels, with_class=with_class)

@@ -121,6 +121,10 @@ class ReadingWeights:
     witness: float = 1.0
 
 
+UNWEIGHTED = ReadingWeights()
+"""What is seen counts as it is."""
+
+
 def reading_rule(name: str) -> ReadingRule:
     """Return the way of reading of a name.
 
@@ -230,7 +234,7 @@ class ConsistentReading:
         shares_of: Callable[[FeatureVector], Mapping[str, float]] | None = None,
         other_from: float = 1.0,
         witnessed: Collection[str] = (),
-        weights: ReadingWeights = ReadingWeights(),  # noqa: B008: a frozen value
+        weights: ReadingWeights = UNWEIGHTED,
         outweighs: bool = False,
         listed: int = LISTED,
         tried: int = TRIED,

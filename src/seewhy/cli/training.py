@@ -15,8 +15,7 @@ if TYPE_CHECKING:
     from seewhy.agent import Agent
     from seewhy.data.dataset import Dataset
     from seewhy.domain import Domain
-    from seewhy.perception.events import TrainingEvent
-    from seewhy.perception.fitting_eyes import EyesEvent
+    from seewhy.perception.events import EyesEvent, TrainingEvent
 
 
 def trained_already(folder: Path, dataset: Dataset, *, seed: int) -> Agent | None:

@@ -13,7 +13,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -95,8 +95,11 @@ def fingerprint(
     return digest.hexdigest()
 
 
-def write(file: Path, fingerprint: str, position: Position, tensors: Mapping[str, Weights]) -> None:
-    """Write a position and its tensors, each under the name of the part it belongs to."""
+Where = TypeVar("Where")  # a dataclass of what JSON can hold
+
+
+def write(file: Path, fingerprint: str, position: Any, tensors: Mapping[str, Weights]) -> None:
+    """Write a position (a dataclass) and its tensors, each under the part it belongs to."""
     flat = {
         f"{part}.{name}": tensor.detach().cpu().contiguous().clone()
         for part, of in tensors.items()
@@ -111,7 +114,9 @@ def write(file: Path, fingerprint: str, position: Position, tensors: Mapping[str
         save_file(flat, temporary, metadata=header)
 
 
-def read(file: Path, fingerprint: str) -> tuple[Position, dict[str, Weights]] | None:
+def read(
+    file: Path, fingerprint: str, kind: type[Where]
+) -> tuple[Where, dict[str, Weights]] | None:
     """What :func:`write` wrote, or None where there is nothing that could be gone on with."""
     # A process killed while it wrote leaves its unfinished file behind.
     for leftover in file.parent.glob(f".{file.stem}-*{file.suffix}"):
@@ -123,7 +128,7 @@ def read(file: Path, fingerprint: str) -> tuple[Position, dict[str, Weights]] | 
             header = opened.metadata() or {}
             if header.get("fingerprint") != fingerprint:
                 return None
-            position = Position(**json.loads(header["position"]))
+            position = kind(**json.loads(header["position"]))
             flat = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
         if _digest(flat) != header["digest"]:
             return None

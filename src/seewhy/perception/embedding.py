@@ -13,7 +13,7 @@ import torch
 from seewhy.perception.augmentation import augment
 from seewhy.perception.backbones.backbone import Backbone, Embedded, Maps
 from seewhy.perception.embedding_cache import EmbeddingCache, key_of
-from seewhy.perception.options import TrainingOptions
+from seewhy.perception.options import VARIATIONS, TrainingOptions
 from seewhy.perception.side_by_side import side_by_side
 
 __all__ = ["embed_pictures", "embed_variations"]
@@ -137,6 +137,5 @@ def _varied(
 
 
 def _variations(options: TrainingOptions) -> dict[str, object]:
-    names = ("flip", "shift", "rotate", "scale", "shear", "brightness", "contrast", "colour")
     described = asdict(options)
-    return {name: described[name] for name in (*names, "noise")}
+    return {name: described[name] for name in VARIATIONS}

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-__all__ = ["FeatureRecord", "Kind", "Progress", "TrainingEvent"]
+__all__ = ["EyesEvent", "FeatureRecord", "Kind", "Progress", "TrainingEvent"]
 
 Kind = Literal["epoch", "grown", "settled", "done"]
 
@@ -41,6 +41,26 @@ class TrainingEvent:
 
 
 Progress = Callable[[TrainingEvent], None]
+
+
+@dataclass(frozen=True)
+class EyesEvent:
+    """Something that happened while eyes were taught, for a progress display.
+
+    Attributes
+    ----------
+    stage : str
+        What is going on, in words.
+    done, total : int
+        Pictures gone over, and how many there will be.
+    message : str or None
+        Something worth a line of its own.
+    """
+
+    stage: str
+    done: int
+    total: int
+    message: str | None = None
 
 
 @dataclass(frozen=True)

@@ -84,7 +84,8 @@ class Eyes:
         The values of each feature, in the order of logits.
     shown : mapping of str to collection of str
         The values that some training picture shows.
-    records : mapping of str to EyesRecord
+    records : mapping of str to EyesRecord, optional
+        What came of training each feature.
 
     Attributes
     ----------
@@ -102,7 +103,7 @@ class Eyes:
         stacks: Mapping[str, Stack],
         values: Mapping[str, Sequence[str]],
         shown: Mapping[str, frozenset[str]],
-        records: Mapping[str, EyesRecord],
+        records: Mapping[str, EyesRecord] | None = None,
     ) -> None:
         self.backbone = backbone
         self.projection = projection
@@ -110,7 +111,7 @@ class Eyes:
         self.tail = tail
         self.stacks = dict(stacks)
         self.values = {name: tuple(row) for name, row in values.items()}
-        self.records = dict(records)
+        self.records = dict(records or {})
         self.size = backbone.side
         self._shown = dict(shown)
 

@@ -174,6 +174,9 @@ class Familiarity:
     shows the value read. The features' mean is weighted by their numbers of values less one: a
     network that tells many values apart looks closer.
 
+    Where eyes see, there is one embedding for the whole picture instead of one for each feature,
+    and the cosine is nearly a distance: see :meth:`seewhy.perception.eyes.Eyes.familiar_by`.
+
     Departure from the paper, which answers every picture. After Sun, Ming, Zhu and Li (2022),
     "Out-of-distribution detection with deep nearest neighbors"; here for several networks, and
     among the pictures of the value that was read.
@@ -181,7 +184,7 @@ class Familiarity:
     Parameters
     ----------
     known : mapping of str to Known
-        By feature.
+        By feature; or, of the whole picture, under :data:`seewhy.perception.eyes.SCENE`.
     """
 
     def __init__(self, known: Mapping[str, Known]) -> None:

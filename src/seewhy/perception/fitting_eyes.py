@@ -2,31 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
+import torch
 
-from seewhy.errors import DatasetError
-from seewhy.perception.backbones.backbone import Backbone, Embedded, Maps
+from seewhy.perception.backbones.backbone import Backbone, Embedded
 from seewhy.perception.embedding import embed_pictures, embed_variations
 from seewhy.perception.embedding_cache import EmbeddingCache
+from seewhy.perception.events import EyesEvent
+from seewhy.perception.extractor import Seen
 from seewhy.perception.eyes import HEADS, TUNED, Eyes, EyesRecord
-from seewhy.perception.heads import Projection, fit_head, fit_projection
-from seewhy.perception.labels import labelled
-from seewhy.perception.randomness import seed_of
+from seewhy.perception.heads import Head, Projection, fit_head, fit_projection
+from seewhy.perception.lesson import Lesson, Targets
+from seewhy.perception.randomness import seed_of, seeded
 from seewhy.perception.stacking import Stack, Table, fit_stack, log_probabilities, stacked
 from seewhy.perception.tail import Tail, new_tail
-from seewhy.perception.tail_training import Schedule, Targets, see_with_tail, train_tail
-from seewhy.perception.validation import folds
+from seewhy.perception.tail_training import (
+    Checkpoint,
+    Schedule,
+    VariedMaps,
+    see_with_tail,
+    train_tail,
+)
 from seewhy.perception.variations import Judged, chosen_variations
 
-__all__ = ["EyesEvent", "FittedEyes", "HeldOut", "Lesson", "fit_eyes"]
+__all__ = ["FittedEyes", "HeldOut", "fit_eyes"]
 
-Pictures = npt.NDArray[np.uint8]
 Rows = npt.NDArray[np.int64]
-Told = Callable[["EyesEvent"], None]
+Told = Callable[[EyesEvent], None]
 
 FEW = 120
 """With fewer pictures than this, each is held out once; with more, a fifth of them once."""
@@ -36,56 +44,6 @@ _FOLDS, _HELD_OUT = 3, 5
 _GONE_OVER, _PASSES = 8000, (5, 40)
 _AGAIN, _PASSES_AGAIN = 6000, (3, 60)
 _VARIATIONS, _VIEWS = 9600, (2, 64)
-_JUDGED_FROM = 2000  # pictures kept in the memory to choose variations by
-
-
-@dataclass(frozen=True)
-class EyesEvent:
-    """Something that happened in training, for a progress display.
-
-    Attributes
-    ----------
-    stage : str
-        What is going on, in words.
-    done, total : int
-        Pictures gone over, and how many there will be.
-    message : str or None
-        Something worth a line of its own.
-    """
-
-    stage: str
-    done: int
-    total: int
-    message: str | None = None
-
-
-@dataclass(frozen=True)
-class Lesson:
-    """What eyes are taught by.
-
-    Attributes
-    ----------
-    batches : callable
-        Yields the pictures from the first on, each time it is called: arrays of uint8, of shape
-        (some, side, side, 3).
-    labels : mapping of str to sequence of str or None, length n
-        Each feature's value in each picture; None where it is unknown.
-    values : mapping of str to sequence of str
-        All values that each feature can have.
-    strata : sequence, length n
-        What pictures kept for validation are to show in the same shares.
-    groups : sequence, length n
-        Pictures of one group are never divided.
-    """
-
-    batches: Callable[[], Iterator[Pictures]]
-    labels: Mapping[str, Sequence[str | None]]
-    values: Mapping[str, Sequence[str]]
-    strata: Sequence[object]
-    groups: Sequence[object]
-
-    def __len__(self) -> int:
-        return len(self.strata)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +71,8 @@ class FittedEyes:
     embedded : Embedded
         What the backbone makes of the pictures.
     held_out : HeldOut
+    seen : Seen
+        What the eyes make of the pictures that taught them.
     judged : tuple of Judged
         The variations that were judged.
     """
@@ -120,6 +80,7 @@ class FittedEyes:
     eyes: Eyes
     embedded: Embedded
     held_out: HeldOut
+    seen: Seen
     judged: tuple[Judged, ...]
 
 
@@ -131,6 +92,7 @@ def fit_eyes(
     tune: bool = True,
     start_from: Eyes | None = None,
     cache: EmbeddingCache | None = None,
+    checkpoints: Path | None = None,
     seed: int = 0,
     on_progress: Told | None = None,
 ) -> FittedEyes:
@@ -151,22 +113,23 @@ def fit_eyes(
     tune : bool, default True
         False leaves the backbone as it is: heads take a second where embeddings are cached.
     start_from : Eyes, optional
-        Earlier eyes, whose tuned stages are tuned further.
+        Earlier eyes, whose tuned stages are tuned further. Where they were taught by the same
+        pictures, none is new to them, and probabilities come out too sure.
     cache : EmbeddingCache, optional
         None keeps nothing.
+    checkpoints : Path, optional
+        A folder in which an interrupted call finds where it was.
     seed : int, default 0
         Two runs with the same seed and data agree on the same kind of machine.
     on_progress : callable, optional
-        Called with an :class:`EyesEvent`.
+        Called with an :class:`~seewhy.perception.events.EyesEvent`.
 
     Raises
     ------
     DatasetError
         There is no picture or no feature, or a feature has no label at all.
     """
-    if not len(lesson):
-        raise DatasetError("there is no picture to learn from: add labelled pictures")
-    targets = _targets(lesson)
+    targets = lesson.targets()
     told = on_progress or (lambda _: None)
     kept = cache or EmbeddingCache(None)
     count = len(lesson)
@@ -176,20 +139,13 @@ def fit_eyes(
         cache=kept,
         on_picture=lambda done: told(EyesEvent("looking at pictures", done, count)),
     )
-    projection = fit_projection(embedded.pooled, seed=seed)
-    tuning = tune and backbone.tunable
-    held = _held_out(lesson, seed=seed)
+    sizes = {name: len(values) for name, values in lesson.values.items()}
+    heads = _Heads(fit_projection(embedded.pooled, seed=seed), embedded, targets, sizes)
+    tuning: _Tuning | None = None
     judged: tuple[Judged, ...] = ()
-    varied: Maps | None = None
-    if tuning:
+    if tune and backbone.tunable:
         options, judged = chosen_variations(
-            backbone,
-            _first(lesson, _JUDGED_FROM),
-            embedded.pooled[:_JUDGED_FROM],
-            {name: column[:_JUDGED_FROM] for name, column in targets.items()},
-            _within(folds(lesson.strata, count=3, seed=seed, groups=lesson.groups), _JUDGED_FROM),
-            given=given or {},
-            seed=seed,
+            backbone, lesson, embedded.pooled, given=given or {}, seed=seed
         )
         for judgement in judged:
             told(EyesEvent("varying pictures", 0, count, judgement.say()))
@@ -202,55 +158,35 @@ def fit_eyes(
             cache=kept,
             on_picture=lambda done: told(EyesEvent("varying pictures", done, count)),
         )
-    sizes = {name: len(row) for name, row in lesson.values.items()}
-    ways = [HEADS, *([TUNED] if tuning else [])]
-    tables: dict[str, dict[str, list[Table]]] = {way: {name: [] for name in sizes} for way in ways}
-    tail: Tail | None = None
-    work = _Work(backbone, embedded, varied, targets, sizes, start_from, seed, told)
-    passes = float(np.clip(_GONE_OVER / count, *_PASSES))
-    again = float(np.clip(_AGAIN / count, *_PASSES_AGAIN))
-    for number, part in enumerate(held):
-        rest = np.setdiff1d(np.arange(count), part)
-        for name, column in targets.items():
-            logits = _head_logits(projection, embedded, column, rest, part, sizes[name])
-            tables[HEADS][name].append(log_probabilities(logits))
-        if varied is not None:
-            tail = work.tuned(rest, Schedule(passes), place=("part", number))
-            for name, table in see_with_tail(tail, embedded.middle[part]).items():
-                tables[TUNED][name].append(table)
+        maps = VariedMaps(embedded.middle, varied, targets)
+        tuning = _Tuning(backbone, maps, sizes, start_from, checkpoints, seed, told)
+    held = _held_out(lesson, seed=seed)
     everything = np.arange(count)
-    gone_over = passes + again if len(held) == 1 else again
-    if varied is not None:
-        if len(held) == 1 and tail is not None:
-            # What a fifth was kept from knows most already.
-            gently = Schedule(again, rate=5e-4, new_rate=1.5e-3)
-            tail = work.tuned(everything, gently, place=("all",), tail=tail)
-        else:
-            tail = work.tuned(everything, Schedule(again), place=("all",))
-    rows = np.concatenate(held) if held else np.zeros(0, dtype=np.int64)
-    stacks, probabilities = {}, {}
-    for name, column in targets.items():
-        own = {
-            way: np.concatenate(tables[way][name]) if held else np.zeros((0, sizes[name]))
-            for way in ways
-        }
-        known = column[rows] >= 0
-        stack = fit_stack(
-            {way: table[known] for way, table in own.items()},
-            column[rows][known],
-            preferred=ways[-1],
+    seen: dict[str, list[dict[str, Table]]] = {HEADS: [], **({TUNED: []} if tuning else {})}
+    tail: Tail | None = None
+    for number, part in enumerate(held):
+        rest = np.setdiff1d(everything, part)
+        seen[HEADS].append(heads.seen(part, taught_by=rest))
+        if tuning:
+            tail = tuning.of_part(rest, number)
+            seen[TUNED].append(see_with_tail(tail, embedded.middle[part]))
+    if tuning:
+        # What one fifth was kept from knows most already.
+        tail = tuning.of_all(tail if len(held) == 1 else None)
+    rows = np.concatenate(held) if held else everything[:0]
+    tables = {way: _joined(parts, sizes) for way, parts in seen.items()}
+    stacks = {
+        name: fit_stack(
+            {way: table[name][column[rows] >= 0] for way, table in tables.items()},
+            column[rows][column[rows] >= 0],
+            preferred=TUNED if tuning else HEADS,
         )
-        stacks[name] = stack
-        probabilities[name] = stacked({way: own[way] for way in stack.asked}, stack.weights)
+        for name, column in targets.items()
+    }
     eyes = Eyes(
         backbone,
-        projection=projection,
-        heads={
-            name: fit_head(
-                projection(embedded.pooled[column >= 0]), column[column >= 0], values=sizes[name]
-            )
-            for name, column in targets.items()
-        },
+        projection=heads.projection,
+        heads={name: heads.fitted(name, everything) for name in targets},
         tail=tail,
         stacks=stacks,
         values=lesson.values,
@@ -258,124 +194,162 @@ def fit_eyes(
             name: frozenset(value for value in column if value is not None)
             for name, column in lesson.labels.items()
         },
-        records={
-            name: _record(stacks[name], targets[name], gone_over if tuning else 0.0)
-            for name in targets
-        },
     )
-    return FittedEyes(eyes, embedded, HeldOut(rows, probabilities), judged)
+    passes = tuning.gone_over(held) if tuning else 0
+    seen_again = eyes.see_embedded(embedded)
+    for name, column in targets.items():
+        right = seen_again.probabilities[name].argmax(axis=1)[column >= 0] == column[column >= 0]
+        eyes.records[name] = _record(
+            stacks[name], passes, pictures=len(right), trained_accuracy=float(right.mean())
+        )
+    probabilities = {
+        name: stacked({way: tables[way][name] for way in stack.asked}, stack.weights)
+        for name, stack in stacks.items()
+    }
+    return FittedEyes(eyes, embedded, HeldOut(rows, probabilities), seen_again, judged)
+
+
+def _joined(parts: Sequence[Mapping[str, Table]], sizes: Mapping[str, int]) -> dict[str, Table]:
+    """What was made of the pictures of each part, one after another."""
+    return {
+        name: np.concatenate([np.zeros((0, size)), *(part[name] for part in parts)])
+        for name, size in sizes.items()
+    }
 
 
 @dataclass(frozen=True, eq=False)
-class _Work:
-    """What every tuning shares."""
+class _Heads:
+    """Heads on the backbone as it is, fitted to some pictures or to all."""
 
-    backbone: Backbone
+    projection: Projection
     embedded: Embedded
-    varied: Maps | None
     targets: Targets
     sizes: Mapping[str, int]
+
+    def fitted(self, name: str, rows: Rows) -> Head:
+        """The head of a feature by the pictures at ``rows`` of which it is annotated."""
+        column = self.targets[name]
+        known = rows[column[rows] >= 0]
+        projected = self.projection(self.embedded.pooled[known])
+        return fit_head(projected, column[known], values=self.sizes[name])
+
+    def seen(self, rows: Rows, *, taught_by: Rows) -> dict[str, Table]:
+        """What heads that some pictures taught make of others, as logarithms of probabilities."""
+        projected = self.projection(self.embedded.pooled[rows])
+        return {
+            name: log_probabilities(self.fitted(name, taught_by)(projected))
+            for name in self.targets
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class _Tuning:
+    """The backbone's last stages, tuned to some pictures or to all."""
+
+    backbone: Backbone
+    maps: VariedMaps
+    sizes: Mapping[str, int]
     start_from: Eyes | None
+    checkpoints: Path | None
     seed: int
     told: Told
 
-    def tuned(
-        self, rows: Rows, schedule: Schedule, *, place: tuple[object, ...], tail: Tail | None = None
+    @property
+    def passes(self) -> float:
+        """Over the pictures that are not kept out."""
+        return float(np.clip(_GONE_OVER / len(self.maps.plain), *_PASSES))
+
+    @property
+    def passes_again(self) -> float:
+        """Over all pictures, in the end."""
+        return float(np.clip(_AGAIN / len(self.maps.plain), *_PASSES_AGAIN))
+
+    def gone_over(self, held: Sequence[Rows]) -> int:
+        """How often the pictures were gone over for the tail that is kept."""
+        return round(self.passes_again + (self.passes if len(held) == 1 else 0.0))
+
+    def of_part(self, rows: Rows, number: int) -> Tail:
+        """A tail that the pictures at ``rows`` taught."""
+        place = ("part", number)
+        return self._tuned(self._new(place), rows, Schedule(self.passes), place, "by most")
+
+    def of_all(self, tail: Tail | None) -> Tail:
+        """A tail that all pictures taught: anew, or further one that most had taught."""
+        place = ("all",)
+        schedule = Schedule(self.passes_again)
+        if tail is not None:
+            schedule = Schedule(self.passes_again, rate=5e-4, new_rate=1.5e-3)
+        rows = np.arange(len(self.maps.plain))
+        return self._tuned(tail or self._new(place), rows, schedule, place, "once more, by all")
+
+    def _tuned(
+        self, tail: Tail, rows: Rows, schedule: Schedule, place: tuple[object, ...], said: str
     ) -> Tail:
-        assert self.varied is not None
         total = round(len(rows) * schedule.passes)
-        again = "once more, by all" if place == ("all",) else "by most"
-        train = tail or self._new(place)
         train_tail(
-            train,
-            self.embedded.middle,
-            self.varied,
-            self.targets,
+            tail,
+            self.maps,
             rows,
             schedule,
             seed=(self.seed, *place),
-            on_step=lambda done: self.told(
-                EyesEvent(f"tuning layers {again}", min(done, total), total)
-            ),
+            kept=self._checkpoint(tail, rows, schedule, place),
+            on_step=lambda done: self.told(EyesEvent(f"tuning layers {said}", done, total)),
         )
-        return train
+        return tail
 
     def _new(self, place: tuple[object, ...]) -> Tail:
-        import torch
-
-        from seewhy.perception.randomness import seeded
-
         with seeded(torch.device("cpu"), self.seed, *place, "first"):
             tail = new_tail(self.backbone, self.sizes)
         if self.start_from is not None and self.start_from.tail is not None:
             known = self.start_from.tail.state_dict()
+            weights = tail.state_dict()
             fitting = {
                 name: weight
-                for name, weight in tail.state_dict().items()
-                if name in known and known[name].shape == weight.shape
+                for name, weight in known.items()
+                if name in weights and weights[name].shape == weight.shape
             }
-            tail.load_state_dict({name: known[name] for name in fitting}, strict=False)
+            tail.load_state_dict(fitting, strict=False)
         return tail
 
-
-def _targets(lesson: Lesson) -> dict[str, npt.NDArray[np.int64]]:
-    if not lesson.labels:
-        raise DatasetError("there is no feature to learn: name at least one in the domain")
-    found = {}
-    for name, column in lesson.labels.items():
-        indices, values = labelled(column, feature=name, values=lesson.values[name])
-        found[name] = np.full(len(lesson), -1, dtype=np.int64)
-        found[name][indices] = values
-    return found
+    def _checkpoint(
+        self, tail: Tail, rows: Rows, schedule: Schedule, place: tuple[object, ...]
+    ) -> Checkpoint | None:
+        """Where an interrupted training was; its own where all that it starts with is the same."""
+        if self.checkpoints is None:
+            return None
+        digest = hashlib.sha256(repr((self.backbone.digest, asdict(schedule), place)).encode())
+        digest.update(repr((self.seed, dict(self.sizes), self.maps.varied.shape)).encode())
+        columns = [self.maps.targets[name] for name in sorted(self.maps.targets)]
+        # The variations follow from the pictures and from what was chosen by them: some tell.
+        for array in (rows, *columns, self.maps.plain, self.maps.varied[:, :1]):
+            digest.update(np.ascontiguousarray(array).data)
+        for name, weight in sorted(tail.state_dict().items()):
+            digest.update(name.encode() + weight.cpu().contiguous().numpy().tobytes())
+        self.checkpoints.mkdir(parents=True, exist_ok=True)
+        name = "-".join(str(part) for part in ("eyes", *place))
+        return Checkpoint(self.checkpoints / f"{name}.checkpoint.safetensors", digest.hexdigest())
 
 
 def _held_out(lesson: Lesson, *, seed: int) -> list[Rows]:
-    count = _FOLDS if len(lesson) <= FEW else _HELD_OUT
-    parts = folds(lesson.strata, count=count, seed=seed_of(seed, "held out"), groups=lesson.groups)
+    """The places of pictures to keep out, a training of all others for each."""
+    few = len(lesson) <= FEW
+    parts = lesson.parts(_FOLDS if few else _HELD_OUT, seed=seed_of(seed, "held out"))
     if len(parts) < 2:
         return []
-    return parts if len(lesson) <= FEW else parts[:1]
+    return parts if few else parts[:1]
 
 
-def _first(lesson: Lesson, count: int) -> Pictures:
-    some: list[Pictures] = []
-    for batch in lesson.batches():
-        some.append(batch)
-        if sum(len(part) for part in some) >= count:
-            break
-    return np.concatenate(some)[:count]
-
-
-def _within(parts: Sequence[Rows], count: int) -> list[Rows]:
-    return [part[part < count] for part in parts]
-
-
-def _head_logits(
-    projection: Projection,
-    embedded: Embedded,
-    column: npt.NDArray[np.int64],
-    rest: Rows,
-    part: Rows,
-    values: int,
-) -> npt.NDArray[np.float32]:
-    known = rest[column[rest] >= 0]
-    if not len(known):
-        return np.zeros((len(part), values), dtype=np.float32)
-    head = fit_head(projection(embedded.pooled[known]), column[known], values=values)
-    return head(projection(embedded.pooled[part]))
-
-
-def _record(stack: Stack, column: npt.NDArray[np.int64], passes: float) -> EyesRecord:
+def _record(stack: Stack, passes: int, *, pictures: int, trained_accuracy: float) -> EyesRecord:
     asked = stack.asked
     others = [way for way in stack.accuracies if way not in (*asked, "together")]
     beside = asked if len(asked) > 1 else others
-    compared = ", ".join(f"{way} {stack.accuracies[way]:.1%}" for way in beside)
+    compared = ", ".join(f"{way} {100 * stack.accuracies[way]:.1f} %" for way in beside)
     layers = " and ".join(asked)
     return EyesRecord(
         layers=f"{layers} ({compared})" if compared else layers,
-        validation_accuracy=stack.accuracy if stack.accuracy is not None else 1.0,
+        validation_accuracy=trained_accuracy if stack.accuracy is None else stack.accuracy,
         accuracies=stack.accuracies,
-        epochs=round(passes),
-        training_pictures=int((column >= 0).sum()),
+        epochs=passes,
+        training_pictures=pictures,
         validation_pictures=stack.pictures,
     )

@@ -117,7 +117,7 @@ def train_jointly(
             validation=validation,
             rehearsal=rehearsal,
         )
-        found = checkpoint.read(file, own)
+        found = checkpoint.read(file, own, Position)
         if found is not None:
             training.resume(*found)
     with _Threads(workers, training.device) as threads:

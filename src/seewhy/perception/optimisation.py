@@ -1,4 +1,4 @@
-"""The optimiser of a growing network, and its learning rate."""
+"""The optimiser of a network in training, and its learning rate."""
 
 from __future__ import annotations
 
@@ -24,17 +24,18 @@ def new_optimizer(network: GrowingNetwork, options: TrainingOptions) -> torch.op
     )
 
 
-def one_cycle(progress: float) -> float:
+def one_cycle(progress: float, *, rising: float = 0.25, least: float = 0.05) -> float:
     """The learning rate at ``progress`` (0..1) of a stage, as a share of the largest.
+
+    It rises from ``least`` for a share ``rising`` of the stage, and falls in a cosine to 0.
 
     Examples
     --------
     >>> [round(one_cycle(progress), 2) for progress in (0, 0.25, 0.625, 1)]
     [0.05, 1.0, 0.5, 0.0]
     """
-    rising = 0.25
     if progress < rising:
-        return 0.05 + 0.95 * progress / rising
+        return least + (1 - least) * progress / rising
     return 0.5 + 0.5 * math.cos(math.pi * (progress - rising) / (1 - rising))
 
 
@@ -52,3 +53,9 @@ def load_optimizer(optimizer: torch.optim.Optimizer, tensors: dict[str, torch.Te
         state.setdefault(int(number), {})[key] = tensor
     groups = optimizer.state_dict()["param_groups"]
     optimizer.load_state_dict({"state": state, "param_groups": groups})
+    for weight, of in optimizer.state.items():
+        for key, tensor in of.items():
+            if tensor.shape == weight.shape:
+                # A fused step takes weights and state in the order of the memory, whatever the
+                # strides: files have them row by row, weights of other libraries may not.
+                of[key] = torch.empty_like(weight, requires_grad=False).copy_(tensor)

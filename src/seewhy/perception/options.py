@@ -7,7 +7,13 @@ from typing import Literal
 
 from seewhy.errors import DomainError
 
-__all__ = ["TrainingOptions"]
+__all__ = ["VARIATIONS", "TrainingOptions"]
+
+VARIATIONS = (
+    *("flip", "shift", "rotate", "scale", "shear"),
+    *("brightness", "contrast", "colour", "noise"),
+)
+"""The options that say how pictures are varied."""
 
 
 @dataclass(frozen=True)

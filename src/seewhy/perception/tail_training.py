@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import torch
 import torch.nn.functional as functional
 
+from seewhy.perception import checkpoint
 from seewhy.perception.backbones.backbone import Maps
+from seewhy.perception.lesson import Targets
+from seewhy.perception.optimisation import load_optimizer, one_cycle, optimizer_tensors
 from seewhy.perception.randomness import seed_of, seeded
 from seewhy.perception.side_by_side import side_by_side
 from seewhy.perception.stacking import Table, log_probabilities
 from seewhy.perception.tail import Tail
 
-__all__ = ["Schedule", "see_with_tail", "train_tail"]
+__all__ = ["Checkpoint", "Schedule", "VariedMaps", "see_with_tail", "train_tail"]
 
-Targets = Mapping[str, npt.NDArray[np.int64]]
-"""Feature → the index of each picture's value, -1 where nobody knows it."""
+SAVED_EVERY = 20.0
+"""Seconds of training that a killed program loses at most."""
 
 _BATCH = 16
 _SEEN = 32  # pictures seen at a time: their maps stay in the processor's cache
@@ -38,7 +43,7 @@ class Schedule:
         The largest learning rate of tuned stages; it rises to it and falls in a cosine to 0.
     new_rate : float, default 3e-3
         The same of heads.
-    rise : float, default 0.15
+    rising : float, default 0.15
         Share of the steps in which the rates rise.
     weight_decay : float, default 0.02
         AdamW's.
@@ -47,25 +52,59 @@ class Schedule:
     passes: float
     rate: float = 1e-3
     new_rate: float = 3e-3
-    rise: float = 0.15
+    rising: float = 0.15
     weight_decay: float = 0.02
 
-    def share(self, done: float) -> float:
-        """The share of the largest rates after a share of the steps."""
-        if done < self.rise:
-            return done / self.rise
-        return 0.5 * (1.0 + math.cos(math.pi * (done - self.rise) / (1.0 - self.rise)))
+
+@dataclass(frozen=True, eq=False)
+class VariedMaps:
+    """What tails are trained by: maps of pictures and of their variations, and what they show.
+
+    Attributes
+    ----------
+    plain : ndarray of float16, shape (n, channels, rows, columns)
+    varied : ndarray of float16, shape (n, views, channels, rows, columns)
+    targets : mapping of str to ndarray of int, shape (n,)
+    """
+
+    plain: Maps
+    varied: Maps
+    targets: Targets
+
+    def some(self, pictures: npt.NDArray[np.int64], views: npt.NDArray[np.int64]) -> torch.Tensor:
+        """The maps of pictures, each in one view; 0 is the picture as it is."""
+        maps = [
+            self.plain[picture] if view == 0 else self.varied[picture, view - 1]
+            for picture, view in zip(pictures, views, strict=True)
+        ]
+        return torch.from_numpy(np.stack(maps)).float()
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """Where an interrupted training finds where it was, and by what it knows that it is its own."""
+
+    file: Path
+    fingerprint: str
+
+
+@dataclass
+class _Position:
+    """Where training stands between two steps: all but the tensors."""
+
+    step: int = 0
+    order: list[int] = field(default_factory=list)
+    generator: dict[str, Any] = field(default_factory=dict)
 
 
 def train_tail(
     tail: Tail,
-    plain: Maps,
-    varied: Maps,
-    targets: Targets,
+    maps: VariedMaps,
     rows: npt.NDArray[np.int64],
     schedule: Schedule,
     *,
     seed: tuple[object, ...],
+    kept: Checkpoint | None = None,
     on_step: Callable[[int], None] | None = None,
 ) -> None:
     """Train a tail, all features at once, on the pictures at ``rows``.
@@ -74,60 +113,105 @@ def train_tail(
     ----------
     tail : Tail
         Changed.
-    plain : ndarray of float16, shape (n, channels, rows, columns)
-    varied : ndarray of float16, shape (n, views, channels, rows, columns)
-    targets : mapping of str to ndarray of int, shape (n,)
+    maps : VariedMaps
     rows : ndarray of int
     schedule : Schedule
     seed : tuple
         Settles the order, the variations and the dropout.
+    kept : Checkpoint, optional
+        Interrupted, training goes on from there and ends with the same weights (on a processor).
     on_step : callable, optional
         Called with the number of pictures gone over so far.
     """
     device = next(tail.parameters()).device
-    answers = {name: torch.from_numpy(column).to(device) for name, column in targets.items()}
+    answers = {name: torch.from_numpy(column).to(device) for name, column in maps.targets.items()}
+    largest = (schedule.rate, schedule.new_rate)
     optimizer = torch.optim.AdamW(
-        [
-            {"params": tail.tuned(), "lr": schedule.rate, "largest": schedule.rate},
-            {"params": tail.new(), "lr": schedule.new_rate, "largest": schedule.new_rate},
-        ],
+        [{"params": tail.tuned()}, {"params": tail.new()}],
         weight_decay=schedule.weight_decay,
         fused=True,
     )
-    views = varied.shape[1] + 1
+    views = maps.varied.shape[1] + 1
     total = max(1, round(len(rows) * schedule.passes / _BATCH))
-    tail.train()
-    order: list[int] = []
     generator = np.random.default_rng(seed_of(*seed, "order"))
+    position = _Position()
+    tail.train()
     with seeded(device, *seed):
-        for step in range(total):
-            if len(order) < _BATCH:
-                order += generator.permutation(rows).tolist()
-            batch = np.array(order[:_BATCH])
-            del order[:_BATCH]
-            chosen = generator.integers(0, views, len(batch))
-            maps = np.stack(
-                [
-                    plain[n] if view == 0 else varied[n, view - 1]
-                    for n, view in zip(batch, chosen, strict=True)
-                ]
-            )
-            for group in optimizer.param_groups:
-                group["lr"] = group["largest"] * schedule.share((step + 0.5) / total)
-            logits = tail(torch.from_numpy(maps).float().to(device))
-            losses = []
-            for name, column in answers.items():
-                target = column[batch]
-                if bool((target >= 0).any()):
-                    losses.append(functional.cross_entropy(logits[name], target, ignore_index=-1))
-            if not losses:
-                continue
-            optimizer.zero_grad(set_to_none=True)
-            torch.stack(losses).mean().backward()  # type: ignore[no-untyped-call]
-            optimizer.step()
+        if kept is not None:
+            position = _resumed(tail, optimizer, generator, kept)
+        saved = time.monotonic()
+        while position.step < total:
+            if len(position.order) < _BATCH:
+                position.order += generator.permutation(rows).tolist()
+            batch = np.array(position.order[:_BATCH])
+            del position.order[:_BATCH]
+            shown = maps.some(batch, generator.integers(0, views, len(batch))).to(device)
+            progress = (position.step + 0.5) / total
+            for group, rate in zip(optimizer.param_groups, largest, strict=True):
+                group["lr"] = rate * one_cycle(progress, rising=schedule.rising, least=0.0)
+            _step(tail, optimizer, shown, {name: own[batch] for name, own in answers.items()})
+            position.step += 1
+            last = position.step == total
+            if kept is not None and (last or time.monotonic() - saved >= SAVED_EVERY):
+                _save(tail, optimizer, generator, position, kept)
+                saved = time.monotonic()
             if on_step is not None:
-                on_step((step + 1) * _BATCH)
+                on_step(min(position.step * _BATCH, round(len(rows) * schedule.passes)))
     tail.eval()
+
+
+def _step(
+    tail: Tail,
+    optimizer: torch.optim.Optimizer,
+    shown: torch.Tensor,
+    answers: dict[str, torch.Tensor],
+) -> None:
+    """One step by the mean loss of the features that somebody annotated in some picture."""
+    logits = tail(shown)
+    losses = [
+        functional.cross_entropy(logits[name], answer, ignore_index=-1)
+        for name, answer in answers.items()
+        if bool((answer >= 0).any())
+    ]
+    if losses:
+        optimizer.zero_grad(set_to_none=True)
+        torch.stack(losses).mean().backward()  # type: ignore[no-untyped-call]
+        optimizer.step()
+
+
+def _save(
+    tail: Tail,
+    optimizer: torch.optim.Optimizer,
+    generator: np.random.Generator,
+    position: _Position,
+    kept: Checkpoint,
+) -> None:
+    state: dict[str, Any] = dict(generator.bit_generator.state)
+    where = _Position(position.step, position.order, state)
+    tensors = {
+        "tail": tail.state_dict(),
+        "optimizer": optimizer_tensors(optimizer),
+        "random": {"state": torch.get_rng_state()},
+    }
+    checkpoint.write(kept.file, kept.fingerprint, where, tensors)
+
+
+def _resumed(
+    tail: Tail,
+    optimizer: torch.optim.Optimizer,
+    generator: np.random.Generator,
+    kept: Checkpoint,
+) -> _Position:
+    """Where an earlier training was, with everything put as it was then; the start where none."""
+    found = checkpoint.read(kept.file, kept.fingerprint, _Position)
+    if found is None:
+        return _Position()
+    position, tensors = found
+    tail.load_state_dict(tensors["tail"])
+    load_optimizer(optimizer, tensors.get("optimizer", {}))
+    generator.bit_generator.state = position.generator
+    torch.set_rng_state(tensors["random"]["state"])
+    return position
 
 
 def see_with_tail(tail: Tail, plain: Maps) -> dict[str, Table]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,17 +14,42 @@ from seewhy.perception.domain_options import given_variations, seen_labels, seen
 from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
 from seewhy.perception.eyes import SCENE, Eyes
 from seewhy.perception.familiarity import MOST, Familiarity, TrainingPicture, fit_familiarity
-from seewhy.perception.fitting_eyes import FittedEyes, Lesson, fit_eyes
+from seewhy.perception.fitting_eyes import FittedEyes, fit_eyes
+from seewhy.perception.lesson import Lesson
 
 if TYPE_CHECKING:
     from seewhy.data.dataset import Dataset
 
-__all__ = ["familiar_scores", "teach_eyes"]
+__all__ = ["familiar_scores", "lesson_of", "teach_eyes"]
 
 _KEPT_IN_MEMORY = 5000
 """Up to so many pictures are read once; of more, those at hand are in the memory alone."""
 
 _MOST = 2000  # training pictures whose likeness to the others is taken
+
+
+def lesson_of(scenes: Dataset, *, side: int) -> Lesson:
+    """The lesson of annotated scenes: every feature, and the class.
+
+    Parameters
+    ----------
+    scenes : Dataset
+        Each with something annotated.
+    side : int
+        Of the pictures, in pixels.
+    """
+    domain = scenes.domain
+    if len(scenes) <= _KEPT_IN_MEMORY:
+        scenes.pictures(side)
+    return Lesson(
+        batches=lambda: scenes.iter_pictures(side),
+        labels=seen_labels(domain, scenes.vectors, scenes.labels, with_class=True),
+        values=seen_values(domain, with_class=True),
+        strata=[
+            label or vector for label, vector in zip(scenes.labels, scenes.vectors, strict=True)
+        ],
+        groups=scenes.groups,
+    )
 
 
 def teach_eyes(
@@ -33,6 +59,7 @@ def teach_eyes(
     device: str = "auto",
     start_from: Eyes | None = None,
     seed: int = 0,
+    checkpoints: Path | None = None,
     on_progress: Callable[[Any], None] | None = None,
 ) -> FittedEyes:
     """Teach eyes the features and the class of annotated scenes.
@@ -46,29 +73,18 @@ def teach_eyes(
     start_from : Eyes, optional
         Earlier ones, whose tuned layers are tuned further.
     seed : int, default 0
-    on_progress : callable, optional
+    checkpoints, on_progress : optional
         See :func:`~seewhy.perception.fitting_eyes.fit_eyes`.
     """
-    domain = scenes.domain
     network = load_backbone(backbone, device=device)
-    if len(scenes) <= _KEPT_IN_MEMORY:
-        scenes.pictures(network.side)
-    lesson = Lesson(
-        batches=lambda: scenes.iter_pictures(network.side),
-        labels=seen_labels(domain, scenes.vectors, scenes.labels, with_class=True),
-        values=seen_values(domain, with_class=True),
-        strata=[
-            label or vector for label, vector in zip(scenes.labels, scenes.vectors, strict=True)
-        ],
-        groups=scenes.groups,
-    )
     same = start_from is not None and start_from.backbone.digest == network.digest
     return fit_eyes(
         network,
-        lesson,
-        given=given_variations(domain),
+        lesson_of(scenes, side=network.side),
+        given=given_variations(scenes.domain),
         start_from=start_from if same else None,
         cache=EmbeddingCache(cache_folder()),
+        checkpoints=checkpoints,
         seed=seed,
         on_progress=on_progress,
     )

@@ -179,7 +179,7 @@ def train_network(
             start_from=start_from,
             rehearsal=rehearsal,
         )
-        found = checkpoint.read(file, own)
+        found = checkpoint.read(file, own, Position)
     if found is None:
         training.begin()
     else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +12,7 @@ import torch
 from seewhy.perception.augmentation import augment
 from seewhy.perception.backbones.backbone import Backbone
 from seewhy.perception.heads import Floats, fit_head, fit_projection
+from seewhy.perception.lesson import Lesson, Targets
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.randomness import seeded
 from seewhy.perception.stacking import log_probabilities
@@ -39,13 +40,13 @@ JUDGED = ("rotate", "scale")
 
 NAMES = {"rotate": "turned", "scale": "stretched"}
 
+_PARTS = 3
 _MOST = 240  # pictures by which a variation is judged
 _FEWEST = 24
 _ERRORS = 3.0  # standard errors of a loss that is clearly worse
 _WORSE = 0.02  # and at least so much, in nats a picture
 
 Pictures = npt.NDArray[np.uint8]
-Targets = Mapping[str, npt.NDArray[np.int64]]
 
 
 @dataclass(frozen=True)
@@ -76,10 +77,8 @@ class Judged:
 
 def chosen_variations(
     backbone: Backbone,
-    pictures: Pictures,
+    lesson: Lesson,
     pooled: npt.NDArray[np.float16],
-    targets: Targets,
-    parts: Sequence[npt.NDArray[np.int64]],
     *,
     given: Mapping[str, float | bool],
     seed: int = 0,
@@ -94,14 +93,9 @@ def chosen_variations(
     Parameters
     ----------
     backbone : Backbone
-    pictures : ndarray of uint8, shape (n, side, side, 3)
+    lesson : Lesson
     pooled : ndarray of float16, shape (n, width)
-        Their embeddings.
-    targets : mapping of str to ndarray of int, shape (n,)
-        Feature → the index of each picture's value, -1 where nobody knows it.
-    parts : sequence of ndarray of int
-        Indices that divide the pictures, groups whole; see
-        :func:`~seewhy.perception.validation.folds`.
+        The embeddings of its pictures.
     given : mapping
         What a domain says itself.
     seed : int, default 0
@@ -113,25 +107,29 @@ def chosen_variations(
     judged : tuple of Judged
     """
     options = replace(VARIED, **given)  # type: ignore[arg-type]
-    open_variations = [name for name in JUDGED if name not in given]
-    if len(pictures) < _FEWEST or len(parts) < 2:
-        cautious = {name: getattr(TrainingOptions(), name) for name in open_variations}
+    unsettled = [name for name in JUDGED if name not in given]
+    parts = lesson.parts(_PARTS, seed=seed)
+    if len(lesson) < _FEWEST or len(parts) < 2:
+        cautious = {name: getattr(TrainingOptions(), name) for name in unsettled}
         return replace(options, **cautious), ()
-    chosen = np.random.default_rng(seed).permutation(len(pictures))[:_MOST]
+    if not unsettled:
+        return options, ()
+    chosen = np.random.default_rng(seed).permutation(len(lesson))[:_MOST]
+    pictures = lesson.pictures(chosen)
     projection = fit_projection(pooled, seed=seed)
     plain = projection(pooled[chosen])
-    some = {name: column[chosen] for name, column in targets.items()}
-    part_of = np.zeros(len(pictures), dtype=np.int64)
+    targets = {name: column[chosen] for name, column in lesson.targets().items()}
+    part_of = np.zeros(len(lesson), dtype=np.int64)
     for number, part in enumerate(parts):
         part_of[part] = number
     where = part_of[chosen]
-    before = _losses(plain, None, some, where)
+    before = _losses(plain, None, targets, where)
     judged = []
-    for name in open_variations:
-        varied = projection(backbone.embed(_varied(pictures[chosen], name, seed=seed)).pooled)
-        worse = _worst(before, _losses(plain, varied, some, where))
-        judged.append(Judged(name, *worse))
-        if worse[0] is not None:
+    for name in unsettled:
+        varied = projection(backbone.embed(_varied(pictures, name, seed=seed)).pooled)
+        against, loss = _worst(before, _losses(plain, varied, targets, where))
+        judged.append(Judged(name, against, loss))
+        if against is not None:
             options = replace(options, **{name: 0.0})  # type: ignore[arg-type]
     return options, tuple(judged)
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+import threading
+from collections.abc import Callable, Sequence
+from importlib import import_module
 from typing import Any
 
 import torch
@@ -13,7 +15,7 @@ from seewhy.errors import DomainError, ModelError
 from seewhy.perception.backbones.backbone import Backbone
 from seewhy.perception.backbones.frozen import IMAGENET_MEAN, IMAGENET_SCALE, FrozenBackbone
 
-__all__ = ["observed", "timm_backbone", "torchvision_backbone"]
+__all__ = ["Observed", "observed", "timm_backbone", "torchvision_backbone"]
 
 SIDE = 160
 """The side of pictures shown to a network that takes any; others have one of their own."""
@@ -31,12 +33,7 @@ def timm_backbone(name: str) -> Backbone:
     ModelError
         The weights cannot be fetched.
     """
-    try:
-        import timm
-    except ImportError:
-        raise _not_installed("timm") from None
-    except Exception as problem:
-        raise _does_not_fit("timm", problem) from None
+    timm = _imported("timm")
     if not timm.is_model(name):
         raise DomainError(f"eyes 'timm:{name}': timm has no network of this name")
     try:
@@ -61,12 +58,7 @@ def torchvision_backbone(name: str) -> Backbone:
     ModelError
         The weights cannot be fetched.
     """
-    try:
-        from torchvision import models
-    except ImportError:
-        raise _not_installed("torchvision") from None
-    except Exception as problem:
-        raise _does_not_fit("torchvision", problem) from None
+    models = _imported("torchvision").models
     if name not in models.list_models(models):
         raise DomainError(f"eyes 'torchvision:{name}': torchvision has no network of this name")
     try:
@@ -87,23 +79,58 @@ def _frozen(
     digest = hashlib.sha256(f"{name} {side} {_LOOKED_AT}".encode())
     for key, weight in sorted(model.state_dict().items()):
         digest.update(key.encode() + weight.cpu().contiguous().numpy().tobytes())
-    names = observed(model, side=side)
-    modules = dict(model.named_modules())
-
-    def look(pictures: torch.Tensor) -> list[torch.Tensor]:
-        return [
-            found[key] for found in [_outputs(model, modules, names, pictures)] for key in names
-        ]
-
     return FrozenBackbone(
         name=name,
         digest=digest.hexdigest(),
         side=side,
-        look=look,
+        look=Observed(model, observed(model, side=side)),
         mean=mean,
         scale=scale,
         module=model,
     )
+
+
+class Observed:
+    """A network that tells what some of its modules give; several threads may look at once.
+
+    Parameters
+    ----------
+    model : nn.Module
+    names : sequence of str
+        Of the modules, as :meth:`nn.Module.named_modules` has them.
+    """
+
+    def __init__(self, model: nn.Module, names: Sequence[str]) -> None:
+        self.model = model
+        self.names = list(names)
+        self._thread = threading.local()
+        modules = dict(model.named_modules())
+        self._hooks = [modules[name].register_forward_hook(self._keeper(name)) for name in names]
+
+    def __call__(self, pictures: torch.Tensor) -> list[torch.Tensor]:
+        """What the modules give, in the order in which they were named."""
+        outputs = self.outputs(pictures)
+        return [outputs[name] for name in self.names]
+
+    def outputs(self, pictures: torch.Tensor) -> dict[str, torch.Tensor]:
+        """Name → tensor, in the order in which modules finish; who gives no tensor is left out."""
+        self._thread.outputs = {}
+        self.model(pictures)
+        found: dict[str, torch.Tensor] = self._thread.outputs
+        return found
+
+    def forget(self) -> None:
+        """Observe no more."""
+        for hook in self._hooks:
+            hook.remove()
+
+    def _keeper(self, name: str) -> Callable[[nn.Module, Any, Any], None]:
+        def keep(_module: nn.Module, _inputs: Any, output: Any) -> None:
+            if isinstance(output, torch.Tensor):
+                self._thread.outputs.pop(name, None)
+                self._thread.outputs[name] = output
+
+        return keep
 
 
 def observed(model: nn.Module, *, side: int) -> list[str]:
@@ -111,10 +138,10 @@ def observed(model: nn.Module, *, side: int) -> list[str]:
 
     Of a transformer, which has one resolution, the last that gives tokens.
     """
-    modules = {name: module for name, module in model.named_modules() if name}
-    blank = torch.zeros((1, 3, side, side))
+    everything = Observed(model, [name for name, _ in model.named_modules() if name])
     with torch.inference_mode():
-        outputs = _outputs(model, modules, list(modules), blank)
+        outputs = everything.outputs(torch.zeros((1, 3, side, side)))
+    everything.forget()
     last: dict[object, str] = {}
     for name, values in outputs.items():
         wide = values.ndim == 4 and 1 < values.shape[-1] == values.shape[-2] <= side // 4
@@ -125,41 +152,19 @@ def observed(model: nn.Module, *, side: int) -> list[str]:
     return list(last.values())[-_LOOKED_AT:]
 
 
-def _outputs(
-    model: nn.Module, modules: dict[str, nn.Module], names: list[str], pictures: torch.Tensor
-) -> dict[str, torch.Tensor]:
-    """What modules give for pictures, in the order in which they finish."""
-    found: dict[str, torch.Tensor] = {}
-
-    def keep(name: str) -> Any:
-        def hook(_module: nn.Module, _inputs: Any, output: Any) -> None:
-            if isinstance(output, torch.Tensor):
-                found.pop(name, None)
-                found[name] = output
-
-        return hook
-
-    hooks = [modules[name].register_forward_hook(keep(name)) for name in names]
+def _imported(library: str) -> Any:
     try:
-        model(pictures)
-    finally:
-        for hook in hooks:
-            hook.remove()
-    return found
-
-
-def _not_installed(library: str) -> DomainError:
-    return DomainError(
-        f"eyes '{library}:…' need {library}, which is not installed: pip install {library}"
-    )
-
-
-def _does_not_fit(library: str, problem: Exception) -> DomainError:
-    # Compiled for another PyTorch, they fail in whatever way that leads to.
-    return DomainError(
-        f"eyes '{library}:…' need {library}, which does not work with this PyTorch ({problem}): "
-        "install the release that belongs to it"
-    )
+        return import_module(library)
+    except ImportError:
+        raise DomainError(
+            f"eyes '{library}:…' need {library}, which is not installed: pip install {library}"
+        ) from None
+    except Exception as problem:
+        # Compiled for another PyTorch, it fails in whatever way that leads to.
+        raise DomainError(
+            f"eyes '{library}:…' need {library}, which does not work with this PyTorch "
+            f"({problem}): install the release that belongs to it"
+        ) from None
 
 
 def _not_fetched(name: str, problem: Exception) -> ModelError:
