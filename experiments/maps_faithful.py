@@ -84,14 +84,14 @@ def marked_and_elsewhere(found: Floats, rng: np.random.Generator) -> Floats:
     return np.array(masks)
 
 
-def changes(agent: Agent, picture: Bytes, own: Where, rng: np.random.Generator) -> list[Floats]:
+def changes(agent: Agent, picture: Bytes, where: Where, rng: np.random.Generator) -> list[Floats]:
     """For each way: how far the probability moves, hidden where marked and then elsewhere."""
     assert agent.extractor is not None
-    masks = marked_and_elsewhere(own.map, rng)
+    masks = marked_and_elsewhere(where.map, rng)
     copies = np.concatenate([hide(picture, masks) for hide in WAYS.values()])
-    column = list(agent.extractor.values[own.feature]).index(own.value)
-    seen = agent.extractor.see(copies).probabilities[own.feature][:, column]
-    return list(np.abs(seen - own.probability).reshape(len(WAYS), len(masks)))
+    column = list(agent.extractor.values[where.feature]).index(where.value)
+    seen = agent.extractor.see(copies).probabilities[where.feature][:, column]
+    return list(np.abs(seen - where.probability).reshape(len(WAYS), len(masks)))
 
 
 def held_out(agent: Agent, scenes: Dataset, *, count: int, seed: int) -> Dataset:
@@ -156,22 +156,22 @@ def main() -> None:
     held = held_out(agent, scenes, count=options.count, seed=options.seed)
     pictures = held.pictures(agent.picture_size)
     found = agent.classify_all(pictures)
-    right = np.mean([own.label == label for own, label in zip(found, held.labels, strict=True)])
+    right = np.mean([scene.label == label for scene, label in zip(found, held.labels, strict=True)])
     rng = np.random.default_rng(options.seed)
     began, maps = time.process_time(), []
     for picture, scene in zip(pictures, found, strict=True):
         maps.append(agent.where(picture, scene=scene))
     spent = (time.process_time() - began) / len(maps)
-    every = [own for row in maps for own in row.values()]
-    marking = np.mean([own.matters for own in every])
+    every = [where for row in maps for where in row.values()]
+    marking = np.mean([where.matters for where in every])
     print(f"{len(held)} pictures, {100 * right:.1f} % classified rightly, {len(every)} maps")
     print(f"{spent:.2f} s of processor time a picture, all features together")
     print(f"{100 * marking:.0f} % of the maps mark a place (some window takes {MATTERS} or more)")
     moved = {
-        (number, name): changes(agent, pictures[number], own, rng)
+        (number, name): changes(agent, pictures[number], where, rng)
         for number, row in enumerate(maps)
-        for name, own in row.items()
-        if own.matters
+        for name, where in row.items()
+        if where.matters
     }
     print("hundredths of the probability; in how many comparisons what is marked changes more")
     for feature in (None, *agent.extractor.values):
@@ -183,9 +183,9 @@ def main() -> None:
                     for (picture, name), change in moved.items()
                     if picture == number and feature in (None, name)
                 ]
-                rows["marked"].append([float(own[0]) for own in chosen])
-                rows["elsewhere"].append([float(own[1:].mean()) for own in chosen])
-                rows["more"].append([float((own[0] > own[1:]).mean()) for own in chosen])
+                rows["marked"].append([float(losses[0]) for losses in chosen])
+                rows["elsewhere"].append([float(losses[1:].mean()) for losses in chosen])
+                rows["more"].append([float((losses[0] > losses[1:]).mean()) for losses in chosen])
             if sum(map(bool, rows["marked"])) < 2:
                 continue
             told = {name: mean_and_error(values) for name, values in rows.items()}
@@ -212,12 +212,12 @@ def say_displaced(agent: Agent, held: Dataset, *, drawn: Mapping[str, int]) -> N
         blocks, _, _, displaced = scene.vector
         if displaced != "yes" or blocks not in ("3", "4", "5"):
             continue
-        own = agent.where(scene.picture)["block_displaced"]
-        if own.value != "yes" or not own.matters:
+        where = agent.where(scene.picture)["block_displaced"]
+        if where.value != "yes" or not where.matters:
             continue
-        truth = places(seed=drawn["seed"], index=int(scene.picture.stem), size=len(own.map))
+        truth = places(seed=drawn["seed"], index=int(scene.picture.stem), size=len(where.map))
         places_of_blocks = np.argwhere(truth.blocks >= 0)
-        best = np.unravel_index(own.map.argmax(), own.map.shape)
+        best = np.unravel_index(where.map.argmax(), where.map.shape)
         far = np.linalg.norm(places_of_blocks - np.array(best), axis=1)
         nearest = int(truth.blocks[tuple(places_of_blocks[far.argmin()])])
         pair = {*truth.displaced, *(number - 1 for number in truth.displaced)}

@@ -62,12 +62,12 @@ def page(
         lines += [f"**Missing: {len(missing)} of {len(set(asked))} trials.**", ""]
     for chosen in sets:
         lines += [f"## {chosen.title}", ""]
-        own = [result for result in shown if result.trial.pictures == chosen.name]
+        of_set = [result for result in shown if result.trial.pictures == chosen.name]
         trials = [trial for trial in asked if trial.pictures == chosen.name]
-        trials += [result.trial for result in own]
+        trials += [result.trial for result in of_set]
         for drawn in sorted({trial.drawn for trial in trials}):
             counts = {trial.count for trial in trials if trial.drawn == drawn}
-            some = [result for result in own if result.trial.drawn == drawn]
+            some = [result for result in of_set if result.trial.drawn == drawn]
             if drawn:
                 lines += [f"Every system was trained on {drawn:,} drawings before.", ""]
             if some:
@@ -163,15 +163,15 @@ def _footnotes(
 ) -> list[str]:
     found = []
     for system in systems:
-        own = [result for result in results if result.trial.system == system.name]
+        of_system = [result for result in results if result.trial.system == system.name]
         absent = {count for count in counts if is_too_many(system, count)}
-        absent -= {result.trial.count for result in own}
+        absent -= {result.trial.count for result in of_system}
         if absent:
             found.append(
                 f"({system.letter}) is run with at most {system.most} labels without a graphics "
                 "processor."
             )
-        unknown = [result.unknown for result in own]
+        unknown = [result.unknown for result in of_system]
         if unknown and np.mean(unknown) >= 0.0005:
             found.append(
                 f"Of {_percent(np.mean(unknown))} % of the pictures ({system.letter}) decides on "

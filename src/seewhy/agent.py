@@ -648,8 +648,8 @@ class Agent:
         """The positions of the pictures of which some network is less sure than the gate."""
         if self.gate is None or not self.domain.features:
             return []
-        own = [seen.probabilities[key].max(axis=1) for key in self.domain.features]
-        certainty = np.min(own, axis=0)
+        surest = [seen.probabilities[key].max(axis=1) for key in self.domain.features]
+        certainty = np.min(surest, axis=0)
         return [int(n) for n in np.flatnonzero(certainty < self.gate)]
 
     @property

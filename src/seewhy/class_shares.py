@@ -83,7 +83,7 @@ def with_class_shares(
         for row in range(len(readings))
     ]
     vectors = {
-        columns: tuple(own[n] for own, n in zip(values, columns, strict=True))
+        columns: tuple(column[n] for column, n in zip(values, columns, strict=True))
         for picture in likely
         for columns, _ in picture
     }
@@ -95,9 +95,9 @@ def with_class_shares(
         best: dict[str, tuple[float, tuple[int, ...]]] = {}
         for columns, probability in picture:
             for name, share in shares[columns].items():
-                own = probability * share
-                probable[name] = probable.get(name, 0.0) + own
-                best[name] = max(best.get(name, (0.0, columns)), (own, columns))
+                joint = probability * share
+                probable[name] = probable.get(name, 0.0) + joint
+                best[name] = max(best.get(name, (0.0, columns)), (joint, columns))
         others = [
             Other(
                 name,
@@ -127,24 +127,24 @@ def _most_probable(
 
     It ends where all others together are less probable than ``least``.
     """
-    order = [(-own).argsort(kind="stable") for own in tables]
-    sorted_ = [own[places].tolist() for own, places in zip(tables, order, strict=True)]
+    order = [(-table).argsort(kind="stable") for table in tables]
+    sorted_ = [table[places].tolist() for table, places in zip(tables, order, strict=True)]
     start = (0,) * len(tables)
     left = 1.0
-    heap = [(-prod(own[0] for own in sorted_), start, 0)]
+    heap = [(-prod(table[0] for table in sorted_), start, 0)]
     for _ in range(MOST_VECTORS):
         if not heap or left < least:
             return
         negative, ranks, first = heapq.heappop(heap)
         if negative == 0.0:
             return
-        yield tuple(int(own[n]) for own, n in zip(order, ranks, strict=True)), -negative
+        yield tuple(int(places[n]) for places, n in zip(order, ranks, strict=True)), -negative
         left += negative
         # Every vector is reached once: from the one whose last changed place is a step better.
         for place in range(first, len(ranks)):
             if ranks[place] + 1 < len(sorted_[place]):
                 after = (*ranks[:place], ranks[place] + 1, *ranks[place + 1 :])
-                joint = prod(own[n] for own, n in zip(sorted_, after, strict=True))
+                joint = prod(table[n] for table, n in zip(sorted_, after, strict=True))
                 heapq.heappush(heap, (-joint, after, place))
 
 

@@ -499,7 +499,9 @@ class ConsistentReading:
                 chosen = zip(places, found[0], strict=True)
                 best[number] = [place[value or ""] for place, value in chosen]
         rows = np.arange(len(best))
-        weighted = np.sum([own[rows, n] for own, n in zip(logarithms, best.T, strict=True)], axis=0)
+        weighted = np.sum(
+            [table[rows, n] for table, n in zip(logarithms, best.T, strict=True)], axis=0
+        )
         alone = weighted / self.weights.features
         return best, alone, np.exp(alone)
 

@@ -89,14 +89,14 @@ def classify_pictures(
     say_why = _why(agent)
     looked = read_ahead(look, map(Path, pictures), ahead=batch)
     while some := list(islice(looked, batch)):
-        pixels = [own for _, own in some if not isinstance(own, PictureError)]
+        pixels = [read for _, read in some if not isinstance(read, PictureError)]
         scenes = agent.classify_all(np.stack(pixels)) if pixels else []
         explained = zip(scenes, say_why(scenes), strict=True)
         yield [
-            ClassifiedPicture(picture, None, problem=str(own))
-            if isinstance(own, PictureError)
+            ClassifiedPicture(picture, None, problem=str(read))
+            if isinstance(read, PictureError)
             else ClassifiedPicture(picture, *next(explained))
-            for picture, own in some
+            for picture, read in some
         ]
 
 
@@ -125,7 +125,11 @@ def _why(agent: Agent) -> Callable[[Sequence[Classification]], list[str]]:
 
     def say(scenes: Sequence[Classification]) -> list[str]:
         asked = [(scene, question_about(scene)) for scene in scenes]
-        replies = iter(agent.answer_all([(scene, own) for scene, own in asked if own is not None]))
+        replies = iter(
+            agent.answer_all(
+                [(scene, question) for scene, question in asked if question is not None]
+            )
+        )
         return [
             next(replies).text
             if question is not None

@@ -110,7 +110,7 @@ def classify_to_table(
         if on_progress is not None:
             on_progress(rows.done)
         for some in classify_pictures(agent, pictures[rows.done :], batch=batch):
-            rows.add([row_of(own, agent.domain) for own in some])
+            rows.add([row_of(picture, agent.domain) for picture in some])
             if on_progress is not None:
                 on_progress(rows.done)
         write_table(table, columns, rows)

@@ -47,13 +47,13 @@ def ask(
         remark(f"picture: {picture}")
     near = agent.nearest(image) if nearest or json else ()
     if json:
-        print_json({**reply.to_dict(), "nearest": [own.to_dict() for own in near]})
+        print_json({**reply.to_dict(), "nearest": [nearby.to_dict() for nearby in near]})
         return
     print_reply(reply)
     if nearest:
         say("most like it in training:" if near else "most like it in training: not kept")
-        for own in near:
-            say(f"  {own.to_text()}")
+        for nearby in near:
+            say(f"  {nearby.to_text()}")
 
 
 def print_reply(reply: Reply) -> None:

@@ -84,7 +84,7 @@ def _file_of_module(name: str) -> Path | None:
         called = ".".join(parts[: depth + 1])
         finders = (getattr(finder, "find_spec", None) for finder in sys.meta_path)
         found = (find(called, within) for find in finders if find is not None)
-        spec = next((own for own in found if own is not None), None)
+        spec = next((place for place in found if place is not None), None)
         within = None if spec is None else spec.submodule_search_locations
         if spec is None or (within is None and depth + 1 < len(parts)):
             return None

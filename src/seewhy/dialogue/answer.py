@@ -147,8 +147,8 @@ def _template(domain: Domain, form: str, *, unsure: bool) -> str:
     if not unsure:
         return templates[form]
     if form in reworded and f"{form}_unsure" not in reworded:
-        own = reworded[form]
-        return own if "{probably}" in own else f"{{probably}}, {own}"
+        wording = reworded[form]
+        return wording if "{probably}" in wording else f"{{probably}}, {wording}"
     return templates[f"{form}_unsure"]
 
 

@@ -46,7 +46,7 @@ def axiom_records(
                 label = schema.class_of(head)
                 if label is not None:
                     fired[vector].append((axiom, label))
-    concludes = {axiom.identifier for own in fired.values() for axiom, _ in own}
+    concludes = {axiom.identifier for of_vector in fired.values() for axiom, _ in of_vector}
     records = []
     for axiom in reasoner.knowledge.axioms:
         if axiom.identifier not in concludes and axiom.head.predicate not in {
@@ -56,8 +56,8 @@ def axiom_records(
         outcomes = [
             concluded == label
             for vector, label in zip(vectors, labels, strict=True)
-            for own, concluded in fired[vector]
-            if own.identifier == axiom.identifier
+            for firing, concluded in fired[vector]
+            if firing.identifier == axiom.identifier
         ]
         records.append(
             AxiomRecord(axiom.identifier, str(axiom), axiom.text, len(outcomes), sum(outcomes))

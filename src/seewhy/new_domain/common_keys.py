@@ -38,7 +38,7 @@ def common_keys(table: str, *, without: Collection[str] = ()) -> list[str]:
     # How far training pictures are turned at most, in degrees to either side.
     # rotate = 15
     """
-    (described,) = [own for own in table_references(DomainFile) if own.header == f"[{table}]"]
+    (described,) = [found for found in table_references(DomainFile) if found.header == f"[{table}]"]
     meanings = {key.name: key.meaning for key in described.keys}
     lines: list[str] = []
     for name, example in _EXAMPLES[table].items():

@@ -74,14 +74,15 @@ class NearPicture:
 
         Examples
         --------
-        >>> own = TrainingPicture("images/7.png", "bad", {"colour": "blue", "round": "no"})
-        >>> NearPicture(own, 0.925).to_text()
+        >>> tile = TrainingPicture("images/7.png", "bad", {"colour": "blue", "round": "no"})
+        >>> NearPicture(tile, 0.925).to_text()
         'images/7.png (0.93): bad; colour blue, round no'
         """
-        own = self.picture
-        told = ", ".join(f"{name} {value}" for name, value in own.features.items())
-        annotated = "; ".join(part for part in (own.label, told) if part) or "nothing annotated"
-        return f"{own.name} ({self.likeness:.2f}): {annotated}"
+        picture = self.picture
+        told = ", ".join(f"{name} {value}" for name, value in picture.features.items())
+        annotated = "; ".join(part for part in (picture.label, told) if part)
+        annotated = annotated or "nothing annotated"
+        return f"{picture.name} ({self.likeness:.2f}): {annotated}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as values that JSON can hold."""

@@ -72,7 +72,7 @@ def draw_card(
         parts.append(drawn)
         y += lines * 15 + 2
     top = max(y, _MARGIN + _SIDE) + 8
-    shown = [own for name, own in (where or {}).items() if name in rests_on(reply)]
+    shown = [of_feature for name, of_feature in (where or {}).items() if name in rests_on(reply)]
     if shown:
         top = _draw_where(shown, image, fit=fit, width=width, top=top, parts=parts)
     bottom = draw_rows(reply.justification, width=width, top=top, parts=parts)
@@ -120,16 +120,16 @@ def _draw_where(
     y = top
     for start in range(0, len(shown), columns):
         lowest = y
-        for column, own in enumerate(shown[start : start + columns]):
+        for column, of_feature in enumerate(shown[start : start + columns]):
             x = _MARGIN + column * (_PANEL + _MARGIN)
-            drawn = own.picture(image, side=2 * _PANEL, fit=fit)
+            drawn = of_feature.picture(image, side=2 * _PANEL, fit=fit)
             parts.append(
                 f"<image x='{x}' y='{y:g}' width='{_PANEL}' height='{_PANEL}' "
                 f"href='data:image/png;base64,{_base64(drawn)}'/>"
             )
             below = y + _PANEL + 15
-            title = f"{own.feature}: {own.value}".replace("_", " ")
-            said = own.to_text().replace("p = ", "p\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
+            title = f"{of_feature.feature}: {of_feature.value}".replace("_", " ")
+            said = of_feature.to_text().replace("p = ", "p\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}")
             for text, colour in ((title, "#2f6fb3"), (said, "#666666")):
                 written, lines = text_lines(text, x, below, width=room, fill=colour)
                 parts.append(written)
