@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -17,6 +18,8 @@ import pytest
 from conftest import DOMAIN, Result, Run, draw_tile, write_domain, write_tiles
 from seewhy.agent import Agent
 from seewhy.domain import Domain, load_domain
+from seewhy.knowledge.learned_file import LEARNED
+from seewhy.model import replaced_notice
 
 COMMANDS = [
     "",
@@ -395,6 +398,7 @@ def test_train_then_evaluate(
     out = tmp_path / "model"
     result = run("train", tiles_folder, "--data", tiles_data, "--out", out, "--seed", 3)
     assert result.code == 0
+    assert "holds a model" not in result.err
     assert result.out.splitlines()[3:] == [
         "the knowledge leaves 22 of 40 training scenes open or gets them wrong; from these the "
         "tree has learned:",
@@ -416,6 +420,23 @@ def test_train_then_evaluate(
     result = run("evaluate", out, "--data", tiles_data, "--questions", 3)
     assert re.search(r"classification\s+100\.0 %", result.out)
     assert re.search(r"decided by knowledge\s+50\.0 %", result.out)
+
+
+@pytest.mark.usefixtures("in_one_process")
+def test_training_over_a_model_says_what_is_replaced(
+    run: Run, tiles_folder: Path, tiles_data: Path, model_folder: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "model"
+    shutil.copytree(model_folder, out)
+    command = ("train", tiles_folder, "--data", tiles_data, "--out", out)
+    replaced = f"{out} holds a model, which is replaced when this training ends"
+    result = run(*command)
+    assert result.code == 0
+    assert f"{replaced}; to keep it, name another folder\n" in result.err
+    (out / LEARNED).write_text("bad(T) if -round(T).\n", encoding="utf-8")
+    assert replaced_notice(out) == (
+        f"{replaced}, with the axioms that it has learned; to keep it, name another folder"
+    )
 
 
 @pytest.mark.usefixtures("in_one_process")

@@ -128,6 +128,22 @@ def check_target(folder: Path) -> None:
         )
 
 
+def replaced_notice(folder: Path) -> str | None:
+    """What is replaced when a model is written to ``folder``, in a sentence; None if nothing is."""
+    if not (folder / MANIFEST).is_file():
+        return None
+    try:
+        lines = (folder / LEARNED).read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        lines = []
+    learned = any(line and not line.startswith("%") for line in lines)
+    return (
+        f"{folder} holds a model, which is replaced when this training ends"
+        f"{', with the axioms that it has learned' if learned else ''}; "
+        "to keep it, name another folder"
+    )
+
+
 def read_model(folder: Path, *, device: str = "auto") -> Model:
     """Read what :func:`write_model` wrote; eyes are to compute on ``device``.
 

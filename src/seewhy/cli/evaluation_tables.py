@@ -140,11 +140,22 @@ def print_confused(result: Evaluation, *, most: int = MOST) -> None:
         output().print(rows)
 
 
-def print_axioms(result: Evaluation) -> None:
-    """Print how often each axiom applied and was right, on the annotated features."""
+def print_axioms(result: Evaluation, *, most: int = MOST) -> None:
+    """Print how often axioms applied and were right, on the annotated features.
+
+    All of a few, in the order of their file; of many those that were wrong most often.
+    """
+    axioms = list(result.axioms)
+    if len(axioms) > most:
+        axioms.sort(key=lambda axiom: (axiom.accuracy, -axiom.decided))
     rows = table("axiom", ">decides", ">right")
-    for axiom in result.axioms:
+    for axiom in axioms[:most]:
         add_row(rows, axiom.statement, str(axiom.decided), percent(axiom.accuracy))
+    more = axioms[most:]
+    if more:
+        decided = sum(axiom.decided for axiom in more)
+        say_right = f"at least {percent(more[0].accuracy)}"
+        add_row(rows, f"{len(more)} more", str(decided), say_right)
     output().print(rows)
 
 

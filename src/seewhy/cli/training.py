@@ -70,7 +70,7 @@ def train_model(
     from seewhy.agent import Agent
     from seewhy.cli.read_data import read_data
     from seewhy.data.coverage import coverage_notices
-    from seewhy.model import check_target
+    from seewhy.model import check_target, replaced_notice
     from seewhy.perception.backbones import NONE
 
     check_target(out)
@@ -91,6 +91,9 @@ def train_model(
     train.require_feature_labels()
     for notice in coverage_notices(train, without=without):
         remark(notice)
+    replaced = replaced_notice(out)
+    if replaced is not None:
+        remark(replaced)
     with progress() as bars:
         drawing = bars.add_task("drawing pictures", total=None, visible=False)
         shown = eyes_progress(bars) if agent.eyes != NONE else networks_progress(bars, agent)
