@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from seewhy.domain import Domain
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.scene import FeatureVector
+
+_PART_OF_IT = re.compile(r"^the ([^{}]+) of \{it\} ")
 
 
 def say_literal(domain: Domain, literal: Literal) -> str:
@@ -97,11 +100,20 @@ def draw_together(clauses: Sequence[str]) -> list[str]:
 
 
 def join_clauses(clauses: Sequence[str], *, subject: str, word: str = "and") -> str:
-    """Join clauses, naming the subject in the first clause that has one and then saying "it"."""
+    """Join clauses, naming the subject in the first clause that has one and then saying "it".
+
+    Examples
+    --------
+    >>> thumb, index = "the thumb of {it} is folded", "the index of {it} is stretched"
+    >>> join_clauses([thumb, index], subject="the hand")
+    'the thumb of the hand is folded, and its index is stretched'
+    """
     named: list[str] = []
     for clause in clauses:
         first = not any("{it}" in earlier for earlier in clauses[: len(named)])
-        named.append(clause.replace("{it}", subject if first else "it", 1).replace("{it}", "it"))
+        if first:
+            clause = clause.replace("{it}", subject, 1)
+        named.append(_PART_OF_IT.sub(r"its \1 ", clause).replace("{it}", "it"))
     if len(named) > 1 and word == "and":
         return f"{', '.join(named[:-1])}, and {named[-1]}"
     return join_words(named, word=word)
