@@ -110,10 +110,14 @@ def test_every_trial_has_a_row_for_each_system(finished: Path) -> None:
         (size, seed, system)
         for size in ("20", "30")
         for seed in ("0", "1")
-        for system in ("seewhy", "believing", "end_to_end")
+        for system in ("seewhy", "believing", "end_to_end", "frozen")
     ]
     for row in rows:
         assert (row["trained"], row["tested"]) == (row["size"], "15")
+        assert 0.0 <= float(row["accuracy"]) <= 1.0
+        if row["system"] == "frozen":
+            assert {row[key] for key in ("answers", "answers_strict", *EXPLAINED)} == {""}
+            continue
         for key in ("accuracy", "answers", "answers_strict", *EXPLAINED):
             assert 0.0 <= float(row[key]) <= 1.0
         assert float(row["answers_strict"]) <= float(row["answers"])
@@ -122,7 +126,7 @@ def test_every_trial_has_a_row_for_each_system(finished: Path) -> None:
     assert timings[0] == (
         "seed,size,system,machine,commit,seconds_networks,seconds_answers,seconds_test"
     )
-    assert len(timings) == 13
+    assert len(timings) == 17
 
 
 def test_the_page_is_whole(finished: Path, hasty: Path, tiles_data: Path) -> None:
@@ -464,7 +468,7 @@ def test_trials_of_a_version_that_compared_others_are_named(
     assert result.code == 2
     assert result.err == (
         f"seewhy: {finished / 'vqa'}: holds trials of an earlier version, which compared others "
-        "(seewhy, end_to_end); choose another folder with --out, or delete this one\n"
+        "(seewhy, end_to_end, frozen); choose another folder with --out, or delete this one\n"
     )
 
 
@@ -763,7 +767,9 @@ def made(ours: list[float], theirs: list[float], *, size: int = 100) -> list[Row
         {"seed": seed, "size": size, "system": system, **dict.fromkeys(keys, value)}
         for seed, pair in enumerate(zip(ours, theirs, strict=True))
         for system, value in zip(
-            ("seewhy", "believing", "end_to_end"), (pair[0], *pair), strict=True
+            ("seewhy", "believing", "end_to_end", "frozen"),
+            (pair[0], *pair, pair[1]),
+            strict=True,
         )
     ]
 
@@ -853,17 +859,17 @@ def test_one_trial_proves_nothing() -> None:
     few = conclude("vqa", made([0.9] * 5, [0.1] * 5), domain="tiles")
     enough = conclude("vqa", made([0.9] * 6, [0.1] * 6), domain="tiles")
     assert summary(few).startswith("There are too few")
-    assert summary(enough) == "8 of 8 claims hold at every size that was tried."
+    assert summary(enough) == "9 of 9 claims hold at every size that was tried."
     assert json.dumps(finding.to_dict(), allow_nan=False)
     # One trial more of another size takes nothing from what enough trials told.
     more = [*made([0.9] * 6, [0.1] * 6), *made([0.9], [0.1], size=200)]
     assert summary(conclude("vqa", more, domain="tiles")) == (
-        "8 of 8 claims hold at every size that was tried often enough to tell. At 200 there are "
+        "9 of 9 claims hold at every size that was tried often enough to tell. At 200 there are "
         "too few trials to tell."
     )
     worse = [*made([0.1] * 9, [0.9] * 9), *made([0.9] * 2, [0.1] * 2, size=200)]
     said = summary(conclude("vqa", worse, domain="tiles"))
-    assert said.startswith("0 of 8 claims hold")
+    assert said.startswith("0 of 9 claims hold")
     assert "classified rightly: SeeWhy against end to end at 100;" in said
 
 

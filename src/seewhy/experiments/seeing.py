@@ -34,7 +34,7 @@ from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.pretraining import Pretrained, pretrained
 
-__all__ = ["Remembered", "Seen", "Shown", "class_network", "pretrain", "see"]
+__all__ = ["Remembered", "Seen", "Shown", "class_network", "drawings", "pretrain", "see"]
 
 _FOLDER = "networks"
 _DRAWN, _FEATURES = "drawn", "features"
@@ -210,15 +210,15 @@ def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
     The networks of the features, and that of the class, on pictures of the domain's source; once
     for all trials.
     """
-    domain = setting.domain
-    folder = setting.out / f"{_DRAWN}-{setting.drawn}"
+    folder = _folder_of_drawings(setting)
     while not (folder / CLASS).is_dir():
         with claimed(folder / CLASS) as ours:
             if not ours:
                 time.sleep(1.0)  # another process trains them
             elif not (folder / CLASS).is_dir():
                 _pretrain(setting, folder)
-    scenes = Dataset.load(folder / "drawn", domain)
+    domain = setting.domain
+    scenes = _drawn_scenes(setting)
     pixels = scenes.pictures(domain.pictures.size)
     columns = {
         key: [str(value) for value in column]
@@ -236,6 +236,20 @@ def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
             labels,
         ),
     )
+
+
+def drawings(setting: Setting) -> Dataset:
+    """The drawings that networks are trained on before."""
+    pretrain(setting)
+    return _drawn_scenes(setting)
+
+
+def _folder_of_drawings(setting: Setting) -> Path:
+    return setting.out / f"{_DRAWN}-{setting.drawn}"
+
+
+def _drawn_scenes(setting: Setting) -> Dataset:
+    return Dataset.load(_folder_of_drawings(setting) / "drawn", setting.domain)
 
 
 def _pretrain(setting: Setting, folder: Path) -> None:
