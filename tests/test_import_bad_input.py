@@ -105,9 +105,9 @@ def test_pictures_that_are_none(tmp_path: Path) -> None:
     cut, *others = notes["pictures that cannot be used, left out"]
     assert cut.startswith("b/cut.jpg is ")
     assert others == [
-        "b/empty.png is empty",
+        "b/empty.png is empty (0 bytes)",
         "b/flat.png is 3×30 pixels, each side must be at least 8",
-        "b/page.jpg is no picture of a known type",
+        "b/page.jpg is not a picture of a known type",
     ]
 
 
@@ -116,8 +116,8 @@ def test_most_pictures_cannot_be_used(tmp_path: Path) -> None:
     for name in ("2.jpg", "3.jpg"):
         write(tmp_path / "s/dogs" / name, "<html>")
     assert complaint(tmp_path / "s", "folder") == (
-        "s: 2 of 3 pictures cannot be used, the first of them dogs/2.jpg is no picture of a known "
-        "type; copy them again from where they come from"
+        "s: 2 of 3 pictures cannot be used, the first of them dogs/2.jpg is not a picture of a "
+        "known type; copy them again from where they come from"
     )
 
 
@@ -128,7 +128,7 @@ def test_a_script_of_another_program_is_no_picture(tmp_path: Path) -> None:
     dataset, rows = imported(source, "folder", tmp_path / "data")
     assert len(rows) == 2
     assert notes_of(dataset)["pictures that cannot be used, left out"] == (
-        "dogs/3.jpg is no picture of a known type",
+        "dogs/3.jpg is PostScript (EPS), a program and no picture",
     )
 
 

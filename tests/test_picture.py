@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 import struct
 import subprocess
 import sys
+import threading
+import time
 import zlib
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +17,7 @@ import pytest
 from PIL import Image
 
 from seewhy.errors import PictureError
+from seewhy.perception import picture, picture_file
 from seewhy.perception.picture import as_picture, read_picture
 
 
@@ -70,11 +75,89 @@ def test_empty_file(tmp_path: Path) -> None:
     )
 
 
-@pytest.mark.parametrize("content", [b"name,class\na,b\n", b"<svg></svg>", b"\x00" * 64])
+@pytest.mark.parametrize("content", [b"name,class\na,b\n", b"<html>", b"\x00" * 64])
 def test_no_picture(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "a.png").write_bytes(content)
     assert refusal(tmp_path / "a.png") == (
         "a.png is not a picture of a known type: save it as PNG or JPEG"
+    )
+
+
+POSTSCRIPT = "a.png is PostScript (EPS), a program and no picture: save it as PNG or JPEG"
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        (b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 40 40\nshowpage\n", POSTSCRIPT),
+        (b"\x04%!PS-Adobe-3.0\nshowpage\n", POSTSCRIPT),
+        (b"\xc5\xd0\xd3\xc6" + bytes(28) + b"%!PS-Adobe-3.0 EPSF-3.0\n", POSTSCRIPT),
+        (
+            b"\xd7\xcd\xc6\x9a" + bytes(60),
+            "a.png is a Windows metafile (WMF), a program and no picture: save it as PNG or JPEG",
+        ),
+        (
+            b"\x01\x00\x00\x00" + bytes(36) + b" EMF" + bytes(60),
+            "a.png is a Windows metafile (EMF), a program and no picture: save it as PNG or JPEG",
+        ),
+        (b"%PDF-1.7\n", "a.png is a PDF document, no picture: save it as PNG or JPEG"),
+        (b"<svg></svg>", "a.png is an SVG drawing, which is not read: save it as PNG or JPEG"),
+        (
+            b'<?xml version="1.0"?>\n<svg></svg>',
+            "a.png is an SVG drawing, which is not read: save it as PNG or JPEG",
+        ),
+        (
+            b"\0\0\0\x20ftypheic" + bytes(60),
+            "a.png is a HEIC or AVIF picture, which is not read: save it as PNG or JPEG",
+        ),
+        (bytes(128) + b"DICM", "a.png is a DICOM file, which is not read: save it as PNG or JPEG"),
+    ],
+)
+def test_what_is_no_picture_is_named(tmp_path: Path, content: bytes, sentence: str) -> None:
+    (tmp_path / "a.png").write_bytes(content)
+    assert refusal(tmp_path / "a.png") == sentence
+
+
+@pytest.mark.parametrize("ending", ["eps", "ico", "jp2", "tga", "pcx", "ppm"])
+def test_only_formats_that_are_named_are_tried(tmp_path: Path, ending: str) -> None:
+    """Whatever Pillow could write and read beside them is refused, however it is called."""
+    Image.fromarray(noise(32, 32)).save(tmp_path / f"a.{ending}")
+    for name in (f"a.{ending}", "a.png"):
+        (tmp_path / name).write_bytes((tmp_path / f"a.{ending}").read_bytes())
+        if ending == "ppm":
+            assert read_picture(tmp_path / name, size=32).shape == (32, 32, 3)
+        else:
+            assert "save it as PNG or JPEG" in refusal(tmp_path / name)
+
+
+def test_every_call_of_pillow_names_its_formats() -> None:
+    """A picture of unknown origin must not choose the decoder that reads it."""
+    root = Path(__file__).parents[1]
+    calls = [
+        (file.name, node)
+        for folder in ("src", "experiments", "benchmarks")
+        for file in (root / folder).rglob("*.py")
+        if "Image" in (text := file.read_text(encoding="utf-8")) and ".open(" in text
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.Call) and ast.unparse(node.func).endswith("Image.open")
+    ]
+    assert calls
+    for name, call in calls:
+        assert "formats" in {keyword.arg for keyword in call.keywords}, f"{name}:{call.lineno}"
+
+
+def test_a_jpeg_of_a_thousand_scans(tmp_path: Path) -> None:
+    """Each would be a pass over the whole picture, for a hundred bytes."""
+    path = tmp_path / "a.jpg"
+    Image.new("RGB", (400, 400)).save(path, progressive=True)
+    content = path.read_bytes()
+    scan = content[content.rindex(b"\xff\xda") : -2]
+    path.write_bytes(content[:-2] + scan * 20 + b"\xff\xd9")
+    assert read_picture(path, size=16).shape == (16, 16, 3)
+    path.write_bytes(content[:-2] + scan * 1000 + b"\xff\xd9")
+    assert refusal(path) == (
+        "a.jpg is a JPEG of more than 50 scans, as no camera writes it: save it again as PNG or "
+        "JPEG"
     )
 
 
@@ -177,6 +260,77 @@ def test_floating_point_file(tmp_path: Path) -> None:
     assert (found == 128).all()
 
 
+@pytest.mark.parametrize(
+    ("dtype", "white"),
+    [
+        (np.uint16, 255),
+        (np.uint16, 4095),
+        (np.uint16, 65535),
+        (np.int32, 255),
+        (np.int32, 4095),
+        (np.int32, 65535),
+        (np.int32, 1_000_000),
+        (np.float32, 1),
+        (np.float32, 255),
+        (np.float32, 4095),
+        (np.float32, 65535),
+    ],
+)
+def test_greys_are_scaled_by_their_range(tmp_path: Path, dtype: type, white: int) -> None:
+    grey = np.linspace(0, white, 40)[None].repeat(40, axis=0).astype(dtype)
+    Image.fromarray(grey).save(tmp_path / "a.tiff")
+    found = read_picture(tmp_path / "a.tiff", size=40)[..., 0]
+    np.testing.assert_allclose(found, grey * (255.0 / white), atol=0.51)
+    if dtype == np.uint16:
+        np.testing.assert_array_equal(as_picture(grey, size=40)[..., 0], found)
+
+
+def test_a_dark_picture_that_says_its_range_stays_dark(tmp_path: Path) -> None:
+    grey = np.full((40, 40), 257, dtype=">u2")
+    (tmp_path / "a.pgm").write_bytes(b"P5\n40 40\n65535\n" + grey.tobytes())
+    assert (read_picture(tmp_path / "a.pgm", size=40) == 1).all()
+
+
+def test_what_is_no_number_is_black_and_what_is_endless_white(tmp_path: Path) -> None:
+    grey = np.full((40, 40), 0.5, dtype=np.float32)
+    grey[:10], grey[10:20], grey[20:30] = np.nan, np.inf, -np.inf
+    Image.fromarray(grey).save(tmp_path / "a.tiff")
+    found = read_picture(tmp_path / "a.tiff", size=40)[..., 0]
+    assert [int(found[row, 5]) for row in (5, 15, 25, 35)] == [0, 255, 0, 128]
+    Image.fromarray(np.full((40, 40), np.nan, dtype=np.float32)).save(tmp_path / "a.tiff")
+    assert refusal(tmp_path / "a.tiff") == (
+        "a.tiff has no pixel that is a number: save it as PNG or JPEG"
+    )
+
+
+def colours_of_16_bits(path: Path, value: int) -> None:
+    row = b"\0" + struct.pack(">HHH", value, value // 2, 0) * 40
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
+    path.write_bytes(
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", 40, 40, 16, 2, 0, 0, 0))
+        + chunk(b"IDAT", zlib.compress(row * 40))
+        + chunk(b"IEND", b"")
+    )
+
+
+def test_colours_of_16_bits(tmp_path: Path) -> None:
+    """Pillow keeps the upper half of each; of 12 bits in 16 that is nearly nothing."""
+    colours_of_16_bits(tmp_path / "a.png", 0xFF00)
+    assert (read_picture(tmp_path / "a.png", size=40) == (255, 127, 0)).all()
+    colours_of_16_bits(tmp_path / "a.png", 0)
+    assert (read_picture(tmp_path / "a.png", size=40) == 0).all()
+    colours_of_16_bits(tmp_path / "a.png", 4095)
+    assert refusal(tmp_path / "a.png") == (
+        "a.png has colours of 16 bits and is nearly black, as pictures of 12 bits in 16 are: "
+        "spread its values over the whole range, or save it with 8 bits a colour"
+    )
+
+
 def test_palette(tmp_path: Path) -> None:
     image = Image.new("RGB", (40, 40), (250, 10, 20)).quantize(4)
     assert image.mode == "P"
@@ -252,6 +406,77 @@ def test_fine_patterns_fade_when_scaled_down(tmp_path: Path, kind: str) -> None:
     found = read_picture(tmp_path / f"a.{kind}", size=56)[2:-2, 2:-2].astype(int)
     assert abs(found.mean() - 127.5) < 3
     assert np.ptp(found) < 20  # leaving out pixels would give 0 and 255
+
+
+# Large pictures
+
+
+@pytest.mark.parametrize("mode", ["L", "RGB", "RGBA", "P", "I;16", "F"])
+@pytest.mark.parametrize("turned", [False, True])
+def test_large_pictures_are_reduced_in_bands(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mode: str, turned: bool
+) -> None:
+    """What is read of a picture hardly depends on whether it is reduced before."""
+    soft = Image.fromarray(noise(9, 7)).resize((910, 707), Image.Resampling.BICUBIC)
+    if mode in ("I;16", "F"):
+        image = Image.fromarray(
+            np.asarray(soft.convert("L")).astype(np.uint16 if mode == "I;16" else np.float32) * 200
+        )
+    else:
+        image = soft.quantize(64) if mode == "P" else soft.convert(mode)
+    if mode == "RGBA":
+        image.putalpha(Image.linear_gradient("L").resize(image.size))
+    exif = Image.Exif()
+    exif[0x0112] = 6 if turned else 1
+    image.save(tmp_path / "a.tiff", exif=exif)
+    whole = read_picture(tmp_path / "a.tiff", size=32).astype(int)
+    monkeypatch.setattr(picture, "_KEPT_WHOLE", 0)
+    monkeypatch.setattr(picture, "_BAND", 30_000)
+    reduced = read_picture(tmp_path / "a.tiff", size=32).astype(int)
+    assert np.abs(whole - reduced).max() <= 3
+
+
+def test_large_pictures_take_bounded_memory(tmp_path: Path) -> None:
+    """Of 30 megapixels in 16 bits with opacity, less than a third of what a plain way takes."""
+    Image.new("RGBA", (6000, 5000), (9, 8, 7, 6)).save(tmp_path / "a.png", compress_level=1)
+    code = (
+        "import resource, sys; from seewhy.perception.picture import read_picture;"
+        "before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss;"
+        "read_picture(sys.argv[1], size=224);"
+        "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)"
+    )
+    command = [sys.executable, "-c", code, str(tmp_path / "a.png")]
+    found = subprocess.run(command, check=True, capture_output=True)
+    assert int(found.stdout) < 200 * 1024
+
+
+def test_what_takes_too_much_memory_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(picture_file, "MOST_MEMORY", 2**20)
+    Image.new("L", (800, 800)).save(tmp_path / "a.png")
+    assert "which take 0.0 GiB of memory to decode as PNG, more than" in refusal(tmp_path / "a.png")
+
+
+def test_threads_share_the_memory() -> None:
+    room = picture_file._Room(10)
+    taken, most = 0, 0
+    lock = threading.Lock()
+
+    def take(number: int) -> None:
+        nonlocal taken, most
+        with room.taken(number):
+            with lock:
+                taken += number
+                most = max(most, taken)
+            time.sleep(0.002)
+            with lock:
+                taken -= number
+
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(take, [6, 3, 10, 4, 1, 5] * 5))
+    assert (taken, room._free) == (0, 10)
+    assert most == 10
 
 
 # Images and arrays

@@ -21,7 +21,7 @@ from seewhy.data.dataset import TABLE
 from seewhy.domain import Domain
 from seewhy.errors import DatasetError, PictureError
 from seewhy.files import whole_file, write_whole
-from seewhy.perception.picture import LARGEST_MEGAPIXELS, SMALLEST_SIDE
+from seewhy.perception.picture_file import LARGEST_MEGAPIXELS, SMALLEST_SIDE
 
 LARGEST_SIDE = 256
 """Pictures with a longer side than this (in pixels) are reduced to it."""

@@ -142,8 +142,10 @@ def _fine(picture: Path) -> tuple[Image.Image, int]:
     """The brightness of a picture, and its shorter side as it is in the file."""
     from PIL import Image
 
+    from seewhy.perception.picture_file import open_picture
+
     brightness = Image.fromarray(_channels(picture)[..., 0])
-    with Image.open(picture) as image:  # whose header was read and found good
+    with open_picture(picture) as image:
         return brightness, min(image.size)
 
 
@@ -232,14 +234,6 @@ def same_pixels(first: Path, second: Path) -> bool:
     >>> same_pixels(folder / "a.png", folder / "a.bmp")
     True
     """
-    from PIL import Image, ImageOps
+    from seewhy.perception.picture import pixels_digest
 
-    with Image.open(first) as one, Image.open(second) as other:
-        if {one.width, one.height} != {other.width, other.height}:
-            return False
-        ours, theirs = (np.asarray(ImageOps.exif_transpose(own)) for own in (one, other))
-        if ours.dtype != theirs.dtype or one.mode != other.mode:
-            ours, theirs = (
-                np.asarray(ImageOps.exif_transpose(own).convert("RGB")) for own in (one, other)
-            )
-        return ours.shape == theirs.shape and bool((ours == theirs).all())
+    return pixels_digest(first) == pixels_digest(second)

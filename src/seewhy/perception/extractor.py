@@ -22,7 +22,7 @@ from seewhy.perception.labels import labelled
 from seewhy.perception.network import GrowingNetwork, Standard, deepest
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.parallel import train_networks
-from seewhy.perception.picture import SMALLEST_SIDE
+from seewhy.perception.picture_file import SMALLEST_SIDE
 from seewhy.perception.randomness import seeded
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.training import new_network

@@ -2,23 +2,36 @@
 
 from __future__ import annotations
 
-import warnings
+from collections.abc import Iterator
+from hashlib import sha256
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
-from PIL import Image, ImageOps, UnidentifiedImageError
+from PIL import Image, ImageOps
 
 from seewhy.errors import PictureError
+from seewhy.perception.picture_file import (
+    SMALLEST_SIDE,
+    check_measures,
+    damaged,
+    memory_for,
+    open_picture,
+)
 
-__all__ = ["LARGEST_MEGAPIXELS", "SMALLEST_SIDE", "Fit", "as_picture", "read_picture"]
+__all__ = ["Fit", "as_picture", "pixels_digest", "read_picture"]
 
-SMALLEST_SIDE = 8
-"""Pictures with a side shorter than this (in pixels) show nothing that a network could see."""
+_KEPT_WHOLE = 16_000_000
+"""Pixels; larger pictures are reduced to four times what is asked for, some rows at a time."""
 
-LARGEST_MEGAPIXELS = 100
-"""Pictures larger than this are refused from their header, before they fill the memory."""
+_BAND = 1_000_000
+"""Pixels that are converted at a time."""
+
+_WHITES = (255.0, 4095.0, 65535.0)
+"""What white may be where a file does not say it: the largest numbers of 8, 12 and 16 bits."""
+
+_ORIENTATION = 0x0112
 
 Picture = npt.NDArray[np.uint8]
 
@@ -29,11 +42,16 @@ Fit = Literal["pad", "stretch"]
 def read_picture(path: Path | str, *, size: int, fit: Fit = "pad") -> Picture:
     """Read a picture file as a square RGB array.
 
-    Greyscale (8 and 16 bit), palette, transparent (laid on white), CMYK and animated files (the
-    first frame) are read; a rotation noted by the camera is applied. A picture that is not
-    square is padded to a square in the mean colour of its border, because stretching would
-    change the very shapes that features such as "leans" or "wide" are about; ``fit="stretch"``
-    stretches it all the same, for pictures that are cut out close around one thing.
+    The formats are those of :data:`~seewhy.perception.picture_file.FORMATS`. Greyscale (8 to 32 bit
+    and floating point), palette, transparent (laid on white), CMYK and animated files (the first
+    frame) are read; a rotation noted by the camera is applied. Greys of more than 8 bits say no
+    range: white is the smallest of 255, 4095 and 65535 (of fractions, 1) that no pixel exceeds.
+    What is no number (NaN) is black. Large pictures are reduced while they are decoded.
+
+    A picture that is not square is padded to a square in the mean colour of its border, because
+    stretching would change the very shapes that features such as "leans" or "wide" are about;
+    ``fit="stretch"`` stretches it all the same, for pictures that are cut out close around one
+    thing.
 
     Parameters
     ----------
@@ -52,8 +70,9 @@ def read_picture(path: Path | str, *, size: int, fit: Fit = "pad") -> Picture:
     Raises
     ------
     PictureError
-        The file is missing, a folder, empty, cut short, of no known type, smaller than 8 pixels
-        on a side or larger than 100 megapixels. The text names the file and the remedy.
+        The file is missing, a folder, empty, cut short, of no format that is read, smaller than 8
+        pixels on a side, larger than 100 megapixels, or would take more than 1 GiB of memory. The
+        text names the file and the remedy.
 
     Examples
     --------
@@ -79,24 +98,11 @@ def read_picture(path: Path | str, *, size: int, fit: Fit = "pad") -> Picture:
     if empty:
         raise PictureError(f"{file} is empty (0 bytes): copy the picture again from its source")
 
-    with warnings.catch_warnings():
-        # Pillow warns from 89 megapixels on; the limit that counts here is our own, below.
-        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
-        try:
-            image = Image.open(file)
-        except Image.DecompressionBombError:
-            raise PictureError(_too_large(str(file), "far more")) from None
-        except UnidentifiedImageError:
-            raise PictureError(
-                f"{file} is not a picture of a known type: save it as PNG or JPEG"
-            ) from None
-        except PermissionError:
-            raise PictureError(f"{file} may not be read: check the file's permissions") from None
-        except Exception as error:
-            # A decoder raises whatever the damaged bytes lead it to: struct.error, IndexError, …
-            raise PictureError(_damaged(str(file), error)) from None
-        with image:
-            return _square(image, size=size, fit=fit, name=str(file))
+    try:
+        with open_picture(file) as image:
+            return _square(image, size=size, fit=fit)
+    except PictureError as problem:
+        raise PictureError(f"{file} {problem}") from None
 
 
 def as_picture(
@@ -109,7 +115,7 @@ def as_picture(
     image : Path, str, PIL.Image.Image or ndarray
         A path is read by :func:`read_picture`. An array has shape (height, width),
         (height, width, 1), (height, width, 3) or (height, width, 4: the last is opacity) and
-        holds booleans, uint8 in 0..255, uint16 in 0..65535 or floats in 0..1.
+        holds booleans, uint8, uint16 (white is 255, 4095 or 65535, as in a file) or floats in 0..1.
     size : int
         Side of the result, in pixels; at least 8.
     fit : {"pad", "stretch"}, default "pad"
@@ -133,44 +139,159 @@ def as_picture(
         return read_picture(image, size=size, fit=fit)
     _check_size(size)
     if isinstance(image, Image.Image):
-        name = getattr(image, "filename", "") or "the image"
-        return _square(image, size=size, fit=fit, name=name)
+        return _named_square(image, getattr(image, "filename", "") or "the image", size, fit)
     if isinstance(image, np.ndarray):
-        return _square(_from_array(image), size=size, fit=fit, name="the array")
+        return _named_square(_from_array(image), "the array", size, fit)
     raise PictureError(
         "a picture must be a path, a Pillow image or a NumPy array, "
         f"got {type(image).__name__}: convert it first"
     )
 
 
-def _square(image: Image.Image, *, size: int, fit: Fit, name: str) -> Picture:
-    """Decode, upright, on white, scaled and padded or stretched."""
-    width, height = image.size
-    if width * height > LARGEST_MEGAPIXELS * 1_000_000:
-        found = f"{-(-width * height // 1_000_000)} megapixels ({width}×{height}), more"
-        raise PictureError(_too_large(name, found))
-    if min(width, height) < SMALLEST_SIDE:
-        raise PictureError(
-            f"{name} is {width}×{height} pixels, each side must be at least {SMALLEST_SIDE}: "
-            "use the picture in its original size"
-        )
+def pixels_digest(path: Path) -> str:
+    """Return a name for what a picture shows: the same for every file that shows just the same.
+
+    Formats, palettes and the camera's note on how it was held may differ, and what is transparent
+    throughout has no colour.
+
+    Raises
+    ------
+    PictureError
+        As :func:`read_picture`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> Image.new("RGB", (9, 9), "red").save(folder / "a.png")
+    >>> Image.new("RGB", (9, 9), "red").save(folder / "a.bmp")
+    >>> pixels_digest(folder / "a.png") == pixels_digest(folder / "a.bmp")
+    True
+    """
+    try:
+        with open_picture(path) as image:
+            pixels = image.width * image.height
+            with memory_for(image, stored=pixels, reduced=pixels):
+                image.load()
+                upright = _upright(image, image)
+                digest = sha256(f"{upright.size}".encode())
+                for band in _bands(upright):
+                    digest.update(_plain(band))
+                return digest.hexdigest()
+    except PictureError as problem:
+        raise PictureError(f"{path} {problem}") from None
+    except Exception as error:
+        raise PictureError(f"{path} {damaged(error)}") from None
+
+
+def _plain(image: Image.Image) -> bytes:
+    """The pixels in one of two ways: deep greys as they are, all else in 8 bits with opacity."""
+    if image.mode.startswith(("I", "F")):
+        return np.asarray(image).astype(np.float32).tobytes()
+    whole = image if image.has_transparency_data else image.convert("RGB")
+    pixels = np.array(whole.convert("RGBA"))
+    pixels[pixels[..., 3] == 0] = 0
+    return pixels.tobytes()
+
+
+def _bands(image: Image.Image, *, factor: int = 1) -> Iterator[Image.Image]:
+    """A picture from the top down, some rows at a time, their number divisible by ``factor``."""
+    rows = max(1, _BAND // (image.width * factor)) * factor
+    for top in range(0, image.height, rows):
+        yield image.crop((0, top, image.width, min(image.height, top + rows)))
+
+
+def _named_square(image: Image.Image, name: str, size: int, fit: Fit) -> Picture:
+    try:
+        check_measures(image)
+        return _square(image, size=size, fit=fit)
+    except PictureError as problem:
+        raise PictureError(f"{name} {problem}") from None
+
+
+def _square(image: Image.Image, *, size: int, fit: Fit) -> Picture:
+    """Decode, upright, on white, scaled and padded or stretched; errors begin with a verb."""
+    stored = image.width * image.height
     try:
         # A JPEG can be decoded at a fraction of its size; four times the need loses nothing.
         image.draft(None, (4 * size, 4 * size))
-        image.load()
-        upright = ImageOps.exif_transpose(image)
-        opaque = _rgb(upright)
+        factor = _reduction(image, size)
+        with memory_for(image, stored=stored, reduced=image.width * image.height // factor**2):
+            opaque = _upright(image, _decoded(image, factor))
+            return _fitted(opaque, size=size, fit=fit)
+    except PictureError:
+        raise
     except Image.DecompressionBombError:
-        raise PictureError(_too_large(name, "far more")) from None
+        raise PictureError(
+            "has far more pixels than its header says: scale it down first"
+        ) from None
     except Exception as error:
-        raise PictureError(_damaged(name, error)) from None
+        raise PictureError(damaged(error)) from None
 
-    scale = size / max(opaque.size)
-    fitted = (max(1, round(opaque.width * scale)), max(1, round(opaque.height * scale)))
+
+def _reduction(image: Image.Image, size: int) -> int:
+    """By which whole number the sides of a picture are divided before anything else is done."""
+    if image.width * image.height <= _KEPT_WHOLE:
+        return 1
+    return max(1, min(max(image.size) // (4 * size), min(image.size) // SMALLEST_SIDE))
+
+
+def _decoded(image: Image.Image, factor: int) -> Image.Image:
+    """The whole picture in red, green and blue, on white, its sides divided by a number."""
+    deep_colour = image.mode not in ("I", "F") and any(";16" in str(t) for t in _tiles(image))
+    image.load()
+    white = _white_of(image) if image.mode.startswith(("I", "F")) else 0.0
+    if deep_colour and not white:
+        _check_depth(image)
+    if image.mode == "RGB" and factor == 1 and not image.has_transparency_data:
+        return image
+    width, height = image.size
+    canvas = Image.new("RGB", (-(-width // factor), -(-height // factor)))
+    top = 0
+    for band in _bands(image, factor=factor):
+        coloured = _rgb(band, white)
+        reduced = coloured.reduce(factor) if factor > 1 else coloured
+        canvas.paste(reduced, (0, top))
+        top += reduced.height
+    return canvas
+
+
+def _tiles(image: Image.Image) -> list[object]:
+    """How the decoder is called; it says how many bits there are of which Pillow keeps eight."""
+    return [getattr(tile, "args", None) for tile in getattr(image, "tile", ())]
+
+
+def _check_depth(image: Image.Image) -> None:
+    """Refuse colours of 16 bits of which so few are used that eight of them show nothing."""
+    extrema = image.getextrema()
+    bands = [extrema] if isinstance(extrema[0], int | float) else extrema
+    colours = dict(zip(image.getbands(), bands, strict=True))
+    colours.pop("A", None)
+    peak = max(high for _, high in colours.values())
+    if 0 < peak < 16:  # of 256: 12 bits in 16
+        raise PictureError(
+            "has colours of 16 bits and is nearly black, as pictures of 12 bits in 16 are: spread "
+            "its values over the whole range, or save it with 8 bits a colour"
+        )
+
+
+def _upright(image: Image.Image, decoded: Image.Image) -> Image.Image:
+    """What was decoded, turned as the camera noted."""
+    orientation = image.getexif().get(_ORIENTATION, 1)
+    if orientation == 1:
+        return decoded
+    if decoded is not image:
+        decoded.getexif()[_ORIENTATION] = orientation
+    return ImageOps.exif_transpose(decoded)
+
+
+def _fitted(image: Image.Image, *, size: int, fit: Fit) -> Picture:
+    scale = size / max(image.size)
+    fitted = (max(1, round(image.width * scale)), max(1, round(image.height * scale)))
     if fit == "stretch":
         fitted = (size, size)
     # Pillow widens the filter with the reduction, so thin lines fade instead of breaking up.
-    pixels = np.asarray(opaque.resize(fitted, Image.Resampling.BICUBIC))
+    pixels = np.asarray(image.resize(fitted, Image.Resampling.BICUBIC))
     rows, columns = pixels.shape[:2]
     if rows == columns:
         return np.array(pixels, dtype=np.uint8)
@@ -182,26 +303,42 @@ def _square(image: Image.Image, *, size: int, fit: Fit, name: str) -> Picture:
     return canvas
 
 
-def _rgb(image: Image.Image) -> Image.Image:
+def _rgb(image: Image.Image, white: float) -> Image.Image:
     """The image in red, green and blue, what is transparent laid on white."""
-    if image.mode.startswith(("I", "F")):
-        return _from_array(_unit_range(np.asarray(image), mode=image.mode)).convert("RGB")
+    if white:
+        return _from_greys(np.asarray(image), white).convert("RGB")
     if image.has_transparency_data:
         image = image.convert("RGBA")
-        white = Image.new("RGBA", image.size, "white")
-        return Image.alpha_composite(white, image).convert("RGB")
+        under = Image.new("RGBA", image.size, "white")
+        return Image.alpha_composite(under, image).convert("RGB")
     return image.convert("RGB")
 
 
-def _unit_range(values: npt.NDArray[np.generic], *, mode: str) -> npt.NDArray[np.float64]:
-    """Greys of 16 bit and more as 0..1; Pillow's own conversion would clip them at 255."""
-    grey = np.nan_to_num(values.astype(np.float64), nan=0.0, posinf=0.0, neginf=0.0)
-    peak = float(grey.max())
-    if mode.startswith("I"):
-        full = max(65535.0, peak)
-    else:  # floating point files state no range: 0..1, bytes, 16 bit and beyond all occur
-        full = next((limit for limit in (1.0, 255.0, 65535.0) if peak <= limit), peak)
-    return np.clip(grey / full, 0.0, 1.0)
+def _white_of(image: Image.Image) -> float:
+    """What is white in a picture of greys of more than 8 bits."""
+    if image.format == "PPM":
+        return 65535.0  # says what is white, and Pillow scales by it
+    peak = max(_peak(np.asarray(band)) for band in _bands(image))
+    if not np.isfinite(peak):
+        raise PictureError("has no pixel that is a number: save it as PNG or JPEG")
+    return _white(peak, fractions=image.mode == "F")
+
+
+def _peak(greys: npt.NDArray[np.generic]) -> float:
+    finite = greys[np.isfinite(greys)]
+    return float(finite.max()) if finite.size else -np.inf
+
+
+def _white(peak: float, *, fractions: bool) -> float:
+    """The white of greys that say no range: the first usual one that none of them exceeds."""
+    whites = (1.0, *_WHITES) if fractions else _WHITES
+    return next((white for white in whites if peak <= white), peak)
+
+
+def _from_greys(greys: npt.NDArray[np.generic], white: float) -> Image.Image:
+    """Greys of any range in 8 bits; Pillow's own conversion would clip them at 255."""
+    shares = np.nan_to_num(greys.astype(np.float64), nan=0.0, posinf=white, neginf=0.0) / white
+    return Image.fromarray(np.rint(np.clip(shares, 0.0, 1.0) * 255.0).astype(np.uint8))
 
 
 def _from_array(values: npt.NDArray[np.generic]) -> Image.Image:
@@ -220,7 +357,8 @@ def _from_array(values: npt.NDArray[np.generic]) -> Image.Image:
     elif values.dtype == np.uint8:
         pixels = values.astype(np.uint8)
     elif values.dtype == np.uint16:
-        pixels = np.rint(values.astype(np.float64) / 257.0).astype(np.uint8)
+        white = _white(float(values.max()), fractions=False)
+        pixels = np.rint(values.astype(np.float64) * (255.0 / white)).astype(np.uint8)
     elif np.issubdtype(values.dtype, np.floating):
         floats = values.astype(np.float64)
         if not (np.isfinite(floats).all() and floats.min() >= 0.0 and floats.max() <= 1.0):
@@ -240,14 +378,3 @@ def _from_array(values: npt.NDArray[np.generic]) -> Image.Image:
 def _check_size(size: int) -> None:
     if size < SMALLEST_SIDE:
         raise PictureError(f"size must be at least {SMALLEST_SIDE} pixels, got {size}")
-
-
-def _too_large(name: str, found: str) -> str:
-    return (
-        f"{name} has {found} than the {LARGEST_MEGAPIXELS} megapixels that are read: "
-        "scale it down first"
-    )
-
-
-def _damaged(name: str, error: Exception) -> str:
-    return f"{name} is damaged or cut short ({error}): copy the picture again from its source"

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import io
 import posixpath
 import re
-import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,9 +19,6 @@ ENDINGS = (
     ".pgm", ".pbm", ".pnm",
 )  # fmt: skip
 """How the names of pictures end, in any case."""
-
-FORMATS = ("JPEG", "PNG", "BMP", "GIF", "TIFF", "WEBP", "PPM")
-"""What may be in them, whatever their names say (in Pillow's words)."""
 
 SPLITS = {
     "train": "train",
@@ -97,34 +92,25 @@ def read_header(stream: IO[bytes]) -> PictureHeader:
     PictureError
         If it is no picture that can be looked at; the text is the reason alone.
     """
-    from PIL import Image, UnidentifiedImageError
+    from seewhy.perception.picture_file import damaged, open_picture
 
-    from seewhy.perception.picture import LARGEST_MEGAPIXELS, SMALLEST_SIDE
-
-    with warnings.catch_warnings():
-        # Pillow warns from 89 megapixels on; the limit that counts is SeeWhy's own.
-        warnings.simplefilter("ignore")
-        try:
-            with Image.open(stream, formats=FORMATS) as image:
-                width, height = image.size
-                orientation = int(image.getexif().get(_ORIENTATION, 1) or 1)
-        except UnidentifiedImageError:
-            empty = not stream.seek(0, io.SEEK_END)
-            raise PictureError("is empty" if empty else "is no picture of a known type") from None
-        except Image.DecompressionBombError:
-            raise PictureError(f"has more than {LARGEST_MEGAPIXELS} megapixels") from None
-        except Exception as problem:
-            # A decoder raises whatever the damaged bytes lead it to: struct.error, IndexError, …
-            raise PictureError(f"is damaged or cut short ({problem})") from None
-    if width * height > LARGEST_MEGAPIXELS * 1_000_000:
-        raise PictureError(f"has more than {LARGEST_MEGAPIXELS} megapixels ({width}×{height})")
-    if min(width, height) < SMALLEST_SIDE:
-        raise PictureError(
-            f"is {width}×{height} pixels, each side must be at least {SMALLEST_SIDE}"
-        )
+    try:
+        with open_picture(stream) as image:
+            width, height = image.size
+            orientation = int(image.getexif().get(_ORIENTATION, 1) or 1)
+    except PictureError as problem:
+        raise PictureError(_without_remedy(str(problem))) from None
+    except Exception as problem:
+        # What reads the camera's notes raises whatever the damaged bytes lead it to.
+        raise PictureError(_without_remedy(damaged(problem))) from None
     turned = orientation in _QUARTER_TURNS
     size = (height, width) if turned else (width, height)
     return PictureHeader(size=size, stored=(width, height), orientation=orientation)
+
+
+def _without_remedy(text: str) -> str:
+    """A sentence's reason alone: whoever lists many pictures says once what is to be done."""
+    return text.rpartition(": ")[0]
 
 
 class PictureFinder:

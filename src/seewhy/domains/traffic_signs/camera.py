@@ -104,4 +104,4 @@ def _compressed(image: Image.Image, quality: int) -> Image.Image:
     stream = io.BytesIO()
     image.save(stream, "JPEG", quality=quality)
     stream.seek(0)
-    return Image.open(stream).convert("RGB")
+    return Image.open(stream, formats=("JPEG",)).convert("RGB")

@@ -14,7 +14,7 @@ from seewhy.domains.traffic_signs.camera import develop
 from seewhy.domains.traffic_signs.pose import Crop, Pose, crop_around, random_pose
 from seewhy.domains.traffic_signs.sign import Color, Face, Patch
 from seewhy.domains.traffic_signs.surroundings import in_front, supports
-from seewhy.perception.picture import SMALLEST_SIDE
+from seewhy.perception.picture_file import SMALLEST_SIDE
 
 __all__ = ["photograph", "photograph_scene"]
 
