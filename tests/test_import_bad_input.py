@@ -266,6 +266,74 @@ def test_a_damaged_picture_in_an_archive(tmp_path: Path) -> None:
     assert place_said.startswith(f"{archive}: dogs/3.png: is damaged in the archive (")
 
 
+@pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_other_ways_of_packing(tmp_path: Path, method: int) -> None:
+    """Their members are read; a damaged one is left out as any other."""
+    picture = draw(tmp_path / "1.png").read_bytes()
+    with zipfile.ZipFile(tmp_path / "a.zip", "w", method) as archive:
+        for name in ("cats/1.png", "dogs/2.png", "dogs/3.png"):
+            archive.writestr(name, picture)
+    assert len(imported(tmp_path / "a.zip", "folder", tmp_path / "whole")[1]) == 3
+    content = (tmp_path / "a.zip").read_bytes()
+    place = content.index(b"dogs/3.png") + 30
+    (tmp_path / "a.zip").write_bytes(content[:place] + b"\xa5" * 20 + content[place + 20 :])
+    dataset, rows = imported(tmp_path / "a.zip", "folder", tmp_path / "data")
+    assert len(rows) == 2
+    (said,) = notes_of(dataset)["pictures that cannot be used, left out"]
+    assert said.startswith(f"{tmp_path / 'a.zip'}: dogs/3.png: is damaged in the archive (")
+
+
+def test_a_workbook_that_explodes(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "a.xlsx", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("xl/workbook.xml", b" " * (65 * 2**20))
+    assert complaint(tmp_path / "a.xlsx", "table") == (
+        "a.xlsx: 'xl/workbook.xml' in it would unpack to what no table holds; save it as CSV"
+    )
+
+
+def test_names_that_no_file_system_holds(tmp_path: Path) -> None:
+    picture = draw(tmp_path / "1.png").read_bytes()
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        for name in (f"{'c' * 300}/1.png", f"dogs/{'2' * 300}.png", f"dogs/{'3' * 300}.png"):
+            archive.writestr(name, picture)
+    _, rows = imported(tmp_path / "a.zip", "folder", tmp_path / "data")
+    assert len({row["image"] for row in rows}) == 3
+    for row in rows:
+        assert (tmp_path / "data" / row["image"]).is_file()
+
+
+LINKS_OUT = "links that lead out of the folder, left out (--outside follows them)"
+
+
+def test_links_out_of_a_folder(tmp_path: Path) -> None:
+    """A folder from a stranger may lead to pictures of one's own; the same in itself is well."""
+    source = draw_all(tmp_path / "s", ["cats/1.png", "dogs/2.png", "dogs/3.png"])
+    secret = draw(tmp_path / "secret/s.png")
+    (source / "cats/secret.png").symlink_to(secret)
+    (source / "dogs/more").symlink_to(secret.parent)
+    (source / "birds").symlink_to("../secret")
+    (source / "cats/4.png").symlink_to("../dogs/2.png")
+    dataset, rows = imported(source, "folder", tmp_path / "data")
+    assert [row["image"] for row in rows] == [
+        "images/cats/1.png", "images/cats/4.png", "images/dogs/2.png", "images/dogs/3.png",
+    ]  # fmt: skip
+    assert sorted(notes_of(dataset)[LINKS_OUT]) == ["birds", "cats/secret.png", "dogs/more"]
+    _, rows = imported(source, "folder", tmp_path / "all", outside=True)
+    assert len(rows) == 7
+
+
+def test_a_table_leads_through_a_link_out_of_its_folder(tmp_path: Path) -> None:
+    source = draw_all(tmp_path / "s", ["1.png", "2.png"])
+    draw(tmp_path / "secret/s.png")
+    (source / "more").symlink_to("../secret")
+    table = write(source / "t.csv", "image,class\n1.png,a\n2.png,b\nmore/s.png,b\n")
+    dataset, rows = imported(table, "table", tmp_path / "data")
+    assert len(rows) == 2
+    assert notes_of(dataset)["pictures that are not there, left out"] == (
+        f"more/s.png ({table}:4)",
+    )
+
+
 # Pictures that are missing ---------------------------------------------------------------------
 
 

@@ -1,4 +1,4 @@
-"""Files are written whole or not at all."""
+"""Files are written whole or not at all, and folders are not left through links."""
 
 from __future__ import annotations
 
@@ -59,3 +59,20 @@ def write_whole(path: Path | str, content: str | bytes) -> None:
             temporary.write_bytes(content)
         else:
             temporary.write_text(content, encoding="utf-8")
+
+
+def lies_in(path: Path | str, folder: Path | str) -> bool:
+    """Whether a path lies in a folder, wherever links lead.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp()) / "photos"
+    >>> folder.mkdir()
+    >>> (folder / "link").symlink_to("..")
+    >>> [lies_in(folder / name, folder) for name in ("a.png", "../a.png", "link/a.png")]
+    [True, False, False]
+    """
+    root = os.path.realpath(folder)
+    real = os.path.realpath(path)
+    return real == root or real.startswith(root.rstrip(os.sep) + os.sep)

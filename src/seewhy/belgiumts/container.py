@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import lzma
 import os
 import zipfile
 import zlib
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Protocol
 
 from seewhy.errors import DatasetError
+from seewhy.files import lies_in
 
 LARGEST_FILE = 64 * 2**20
 """Bytes of the largest file that is read; a photograph of a sign has less than one megabyte."""
@@ -62,6 +64,11 @@ class Folder:
             for entry in entries:
                 if entry.name.startswith("."):
                     continue
+                if entry.is_symlink() and not lies_in(entry.path, self.path):
+                    raise DatasetError(
+                        f"{entry.path}: is a link that leads out of {self.path}; put what it leads "
+                        "to in its place"
+                    )
                 if entry.is_file():
                     yield Path(entry.path).relative_to(self.path).as_posix()
                 elif entry.is_dir() and depth < _DEEPEST:
@@ -115,7 +122,7 @@ class Archive:
         try:
             with self._zip.open(name) as stream:
                 content = stream.read(LARGEST_FILE + 1)
-        except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as problem:
+        except (zipfile.BadZipFile, zlib.error, lzma.LZMAError, EOFError, OSError) as problem:
             raise DamagedFileError(f"is damaged in the archive ({problem})") from None
         except (RuntimeError, NotImplementedError):
             raise DamagedFileError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http
 import http.client
+import lzma
 import re
 import ssl
 import urllib.error
@@ -135,12 +136,18 @@ def _receive(url: str, part: Path, name: str, on_progress: Progress | None) -> b
     return total_size is None or _size(part) == total_size
 
 
+_DAMAGED = (
+    zipfile.BadZipFile, zlib.error, lzma.LZMAError, EOFError, OSError, RuntimeError, ValueError,
+)  # fmt: skip
+"""What reading an archive raises that is not whole, however its members are packed."""
+
+
 def _damage(path: Path) -> str | None:
     """What keeps a file from being a whole zip archive; None where it is one."""
     try:
         with zipfile.ZipFile(path) as archive:
             damaged = archive.testzip()
-    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError) as problem:
+    except _DAMAGED as problem:
         return f"is no whole zip archive ({problem})"
     return f"is damaged ({damaged})" if damaged is not None else None
 

@@ -51,6 +51,8 @@ def classify(
     from seewhy.agent import Agent
     from seewhy.classifying.running import classify_to_table
     from seewhy.data.digest import digest_of
+    from seewhy.data.importers.annotation import Note
+    from seewhy.data.importers.source_files import LINKS_OUT
     from seewhy.data.picture_listing import list_pictures
     from seewhy.errors import DatasetError
     from seewhy.model import MANIFEST
@@ -64,6 +66,8 @@ def classify(
             f"rows that have a class are left out ({listing.with_class:,}); --all classifies them, "
             "too"
         )
+    if listing.links_out:
+        remark(Note(LINKS_OUT, listing.links_out).say())
     with progress() as bars:
         task = bars.add_task("classifying", total=len(listing.pictures))
         found = classify_to_table(

@@ -17,6 +17,7 @@ from seewhy.cli.import_options import (
     Group,
     ImageColumn,
     Inside,
+    LinksOutside,
     Pictures,
     TestShare,
     request_of,
@@ -83,6 +84,7 @@ def import_(
     inside: Inside = None,
     test_share: TestShare = 0.0,
     copy: Copy = False,
+    outside: LinksOutside = False,
     domain: SignDomain = None,
     json: Json = False,
 ) -> None:
@@ -98,6 +100,7 @@ def import_(
             "--pictures": pictures, "--features": features, "--class-parts": class_parts,
             "--group": group, "--image-column": image_column, "--class-column": class_column,
             "--inside": inside, "--test-share": test_share or None, "--copy": copy or None,
+            "--outside": outside or None,
         }  # fmt: skip
         _refuse({option: value for option, value in given.items() if value is not None}, format)
         _report_photographs(_import_photographs(sources, out, domain or _SIGNS), json=json)
@@ -117,6 +120,7 @@ def import_(
         inside=inside,
         test_share=test_share,
         copy=copy,
+        outside=outside,
     )
     dataset = run_import(request, out)
     say_notes(dataset.notes)

@@ -76,6 +76,10 @@ Copy = Annotated[
     bool,
     typer.Option("--copy", help="Copy pictures even where they could be linked."),
 ]
+LinksOutside = Annotated[
+    bool,
+    typer.Option("--outside", help="Also follow links that lead out of SOURCE."),
+]
 
 
 def request_of(
@@ -92,6 +96,7 @@ def request_of(
     inside: str | None,
     test_share: float,
     copy: bool,
+    outside: bool,
 ) -> ImportRequest:
     """The request that the options of a command line make."""
     from seewhy.data.importers import ImportRequest
@@ -109,6 +114,7 @@ def request_of(
         inside=inside,
         test_share=test_share,
         copy=copy,
+        outside=outside,
     )
 
 
@@ -136,4 +142,9 @@ def command_of(request: ImportRequest, *, features: Path | None, out: Path) -> s
     ):
         if value is not None:
             words += [option, str(value)]
-    return shlex.join([*words, *(["--copy"] if request.copy else []), "--out", str(out)])
+    words += [option for option, given in _flags(request) if given]
+    return shlex.join([*words, "--out", str(out)])
+
+
+def _flags(request: ImportRequest) -> tuple[tuple[str, bool], ...]:
+    return (("--copy", request.copy), ("--outside", request.outside))

@@ -17,6 +17,7 @@ from seewhy.cli.import_options import (
     Group,
     ImageColumn,
     Inside,
+    LinksOutside,
     Pictures,
     TestShare,
     command_of,
@@ -69,6 +70,7 @@ def new(
     inside: Inside = None,
     test_share: TestShare = 0.0,
     copy: Copy = False,
+    outside: LinksOutside = False,
     json: Json = False,
 ) -> None:
     """Write a working domain folder: features, axioms, questions, and a README.
@@ -97,6 +99,7 @@ def new(
         inside=inside,
         test_share=test_share,
         copy=copy,
+        outside=outside,
     )
     _write_from(Path(name), request, data=data, subject=subject or "the picture", json=json)
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from seewhy.data.dataset import TABLE
+from seewhy.data.importers.annotation import Notes
 from seewhy.data.importers.picture_files import is_picture_name
-from seewhy.data.importers.source_files import FolderFiles
+from seewhy.data.importers.source_files import LINKS_OUT, FolderFiles
 from seewhy.data.scene import TablePlace
 from seewhy.data.scene_rows import IMAGE, OPTIONAL, columns_of, scenes_of_rows
 from seewhy.data.table import read_table
@@ -39,11 +40,14 @@ class PictureListing:
         Rows of tables that were left out because they have a class.
     tables : tuple of Path
         The tables that were read.
+    links_out : tuple of str
+        Links of folders that lead out of them and were left out.
     """
 
     pictures: tuple[Path, ...]
     with_class: int = 0
     tables: tuple[Path, ...] = ()
+    links_out: tuple[str, ...] = ()
 
 
 def list_pictures(
@@ -66,7 +70,8 @@ def list_pictures(
     with_class : bool, default False
         Whether rows of tables that have a class are meant, too.
     outside : bool, default False
-        Whether tables may name pictures that lie outside of their folder.
+        Whether tables may name pictures that lie outside of their folder, and links of folders
+        lead there.
 
     Raises
     ------
@@ -87,11 +92,12 @@ def list_pictures(
     pictures: dict[Path, None] = {}
     left_out = 0
     tables: list[Path] = []
+    notes = Notes()
     for name in named:
         for place in _places(Path(name)):
             table = _table_of(place)
             if table is None:
-                pictures.update(dict.fromkeys(_of_place(place)))
+                pictures.update(dict.fromkeys(_of_place(place, notes, outside=outside)))
                 continue
             meant, labelled = _of_table(table, domain, with_class=with_class, outside=outside)
             pictures.update(dict.fromkeys(meant))
@@ -99,7 +105,7 @@ def list_pictures(
             tables.append(table)
     if not pictures:
         raise DatasetError(_nothing(named, left_out))
-    return PictureListing(tuple(pictures), left_out, tuple(tables))
+    return PictureListing(tuple(pictures), left_out, tuple(tables), notes.places(LINKS_OUT))
 
 
 def _places(named: Path) -> list[Path]:
@@ -128,9 +134,10 @@ def _table_of(place: Path) -> Path | None:
     return place if place.suffix.casefold() in _TABLES else None
 
 
-def _of_place(place: Path) -> Iterator[Path]:
+def _of_place(place: Path, notes: Notes, *, outside: bool) -> Iterator[Path]:
     if place.is_dir():
-        yield from (place / name for name in FolderFiles(place).names if is_picture_name(name))
+        files = FolderFiles(place, notes, outside=outside)
+        yield from (place / name for name in files.names if is_picture_name(name))
         return
     for what, endings in _NO_PICTURES.items():
         if place.suffix.casefold() in endings:

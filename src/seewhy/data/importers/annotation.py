@@ -117,6 +117,10 @@ class Notes:
         """How many places a note has so far."""
         return len(self._places.get(text, ()))
 
+    def places(self, text: str) -> tuple[str, ...]:
+        """The places of a note so far."""
+        return tuple(self._places.get(text, ()))
+
     def all(self) -> tuple[Note, ...]:
         """What was noted, in the order of the first of each."""
         return tuple(Note(text, tuple(places)) for text, places in self._places.items())

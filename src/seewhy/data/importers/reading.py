@@ -90,11 +90,11 @@ def read_source(
     pattern = grouping(request.group)
     notes = Notes()
     with ExitStack() as stack:
-        files = stack.enter_context(open_source(request.source, notes))
+        files = stack.enter_context(open_source(request.source, notes, outside=request.outside))
         pictures_of = (
             files
             if request.pictures is None
-            else stack.enter_context(open_source(request.pictures, notes))
+            else stack.enter_context(open_source(request.pictures, notes, outside=request.outside))
         )
         source = Source(
             files=files,
@@ -137,7 +137,7 @@ def detect_format(request: ImportRequest) -> Format:
         If it is in none that is read, or in several.
     """
     notes = Notes()
-    with open_source(request.source, notes) as files:
+    with open_source(request.source, notes, outside=request.outside) as files:
         return format_of(Source(files, files, notes, only=_only(request.source)))
 
 

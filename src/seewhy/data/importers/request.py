@@ -38,6 +38,8 @@ class ImportRequest:
         The share of pictures that is kept for evaluation where the source has no splits.
     copy : bool
         Whether pictures are copied even where they could be linked.
+    outside : bool
+        Whether links are followed that lead out of the folders of the source and the pictures.
     """
 
     source: Path
@@ -52,6 +54,7 @@ class ImportRequest:
     inside: str | None = None
     test_share: float = 0.0
     copy: bool = False
+    outside: bool = False
 
     def settings(self) -> dict[str, str]:
         """What makes two imports the same one, as text."""
@@ -70,6 +73,7 @@ class ImportRequest:
                     ("class_column", self.class_column),
                     ("inside", self.inside),
                     ("test_share", self.test_share or None),
+                    ("outside", self.outside or None),
                 )
                 if value is not None
             },

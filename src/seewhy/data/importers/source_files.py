@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import lzma
 import os
 import stat
 import zipfile
@@ -14,6 +15,7 @@ from typing import IO, Protocol
 
 from seewhy.data.importers.annotation import Notes
 from seewhy.errors import DatasetError
+from seewhy.files import lies_in
 
 RECORD = "imported.json"
 """What an import leaves in the dataset folder that it writes."""
@@ -23,6 +25,11 @@ LARGEST_PICTURE = 512 * 2**20
 
 LARGEST_TEXT = 4 * 2**30
 """Bytes of the largest table or export that is read."""
+
+_DAMAGED_MEMBER = (zipfile.BadZipFile, zlib.error, lzma.LZMAError, EOFError)
+"""What reading a member of a zip archive raises where it is damaged, however it is packed."""
+
+LINKS_OUT = "links that lead out of the folder, left out (--outside follows them)"
 
 _MOST_FILES = 5_000_000
 _DEEPEST = 32
@@ -74,9 +81,18 @@ class SourceFiles(Protocol):
 
 
 class FolderFiles:
-    """The files of a folder; links are followed, circles of them are not.
+    """The files of a folder; links are followed in it, circles of them are not.
 
-    Datasets below it that an import has written are left out.
+    A folder may come from a stranger: links that lead out of it are left out and noted. Datasets
+    below it that an import has written are left out.
+
+    Parameters
+    ----------
+    path : Path
+    notes : Notes, optional
+        Where it is noted what was left out.
+    outside : bool, default False
+        Whether links are followed out of the folder, too.
 
     Examples
     --------
@@ -88,8 +104,10 @@ class FolderFiles:
     ['cats/first.jpg']
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, notes: Notes | None = None, *, outside: bool = False) -> None:
         self.path = path
+        self._notes = Notes() if notes is None else notes
+        self._outside = outside
 
     @cached_property
     def names(self) -> list[str]:
@@ -106,6 +124,9 @@ class FolderFiles:
             for entry in entries:
                 if _is_litter(entry.name):
                     continue
+                if entry.is_symlink() and not self._may_follow(Path(entry.path)):
+                    self._notes.add(LINKS_OUT, f"{prefix}{entry.name}")
+                    continue
                 if entry.is_dir():
                     if _is_imported(Path(entry.path)):
                         continue  # what an import has written is not imported again
@@ -114,6 +135,9 @@ class FolderFiles:
                     )
                 elif entry.is_file():
                     yield f"{prefix}{entry.name}"
+
+    def _may_follow(self, path: Path) -> bool:
+        return self._outside or lies_in(path, self.path)
 
     @contextmanager
     def open(self, name: str) -> Iterator[IO[bytes]]:
@@ -128,7 +152,8 @@ class FolderFiles:
 
     def has(self, name: str) -> bool:
         try:
-            return not _leads_out(name) and (self.path / name).is_file()
+            path = self.path / name
+            return not _leads_out(name) and path.is_file() and self._may_follow(path)
         except (OSError, ValueError):
             return False
 
@@ -201,7 +226,7 @@ class ZipFiles:
                     f"{self.path}: '{name}' is encrypted; unpack the archive with its password "
                     "and name the folder"
                 )
-            if member.file_size > max(_BOMB_BYTES, _BOMB_RATIO * member.compress_size):
+            if explodes(member):
                 raise DatasetError(
                     f"{self.path}: '{name}' would unpack from {member.compress_size:,} to "
                     f"{member.file_size:,} bytes, which no picture or export does; remove it from "
@@ -230,8 +255,12 @@ class ZipFiles:
         try:
             with stream:
                 yield stream
-        except (zipfile.BadZipFile, zlib.error, EOFError) as problem:
+        except _DAMAGED_MEMBER as problem:
             raise self._damaged(name, problem) from None
+        except OSError as problem:
+            if problem.errno is not None:
+                raise
+            raise self._damaged(name, problem) from None  # what bzip2 cannot unpack
 
     def _damaged(self, name: str, problem: Exception) -> DamagedFileError:
         return DamagedFileError(
@@ -259,9 +288,16 @@ class ZipFiles:
         return f"{self.path}: {name}"
 
 
+def explodes(member: zipfile.ZipInfo) -> bool:
+    """Whether a member of a zip archive unpacks to what no picture, table or export does."""
+    return member.file_size > max(_BOMB_BYTES, _BOMB_RATIO * member.compress_size)
+
+
 @contextmanager
-def open_source(path: Path, notes: Notes) -> Iterator[SourceFiles]:
+def open_source(path: Path, notes: Notes, *, outside: bool = False) -> Iterator[SourceFiles]:
     """Yield the files of a folder, of a zip archive, or of the folder that a file lies in.
+
+    Links that lead out of a folder are followed only where ``outside`` allows it.
 
     Raises
     ------
@@ -276,7 +312,7 @@ def open_source(path: Path, notes: Notes) -> Iterator[SourceFiles]:
     []
     """
     if path.is_dir():
-        yield FolderFiles(path)
+        yield FolderFiles(path, notes, outside=outside)
         return
     if not path.exists():
         raise DatasetError(f"{path}: there is no such file or folder; check the path")
@@ -287,7 +323,7 @@ def open_source(path: Path, notes: Notes) -> Iterator[SourceFiles]:
         finally:
             archive.close()
         return
-    yield FolderFiles(path.parent)
+    yield FolderFiles(path.parent, notes, outside=outside)
 
 
 def is_archive(path: Path) -> bool:
@@ -355,6 +391,8 @@ def read_bytes(files: SourceFiles, name: str, *, most: int = LARGEST_PICTURE) ->
         try:
             content = stream.read(most + 1)
         except OSError as problem:
+            if problem.errno is None:
+                raise  # what an archive cannot unpack
             raise DamagedFileError(
                 f"{files.said(name)}: cannot be read ({problem.strerror})"
             ) from None

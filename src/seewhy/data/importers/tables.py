@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import tempfile
+import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,7 +14,13 @@ from typing import Any
 
 from seewhy.data.importers.column_words import CLASS_WORDS, IMAGE_WORDS
 from seewhy.data.importers.json_reading import json_items
-from seewhy.data.importers.source_files import DamagedFileError, SourceFiles, decoded, read_bytes
+from seewhy.data.importers.source_files import (
+    DamagedFileError,
+    SourceFiles,
+    decoded,
+    explodes,
+    read_bytes,
+)
 from seewhy.data.table import read_table
 from seewhy.errors import DatasetError
 
@@ -166,6 +173,12 @@ def _excel_rows(files: SourceFiles, name: str) -> Iterator[tuple[int, Sequence[o
     said = files.said(name)
     content = io.BytesIO(read_bytes(files, name))
     try:
+        with zipfile.ZipFile(content) as archive:
+            exploding = next((m.filename for m in archive.infolist() if explodes(m)), None)
+        if exploding is not None:
+            raise DamagedFileError(
+                f"{said}: '{exploding}' in it would unpack to what no table holds; save it as CSV"
+            )
         book = load_workbook(content, read_only=True, data_only=True)
         sheet = book.worksheets[0]
         for number, row in enumerate(sheet.iter_rows(values_only=True), start=1):
