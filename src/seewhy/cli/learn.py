@@ -12,7 +12,7 @@ import typer
 from seewhy.cli.axiom_lines import axiom_dict, rests, withdrawn_dict, withdrawn_line
 from seewhy.cli.options import Json, Outside, Seed
 from seewhy.cli.robot import Without, with_knowledge_of_robot
-from seewhy.cli.screen import percent, print_json, remark, say
+from seewhy.cli.screen import harmless, percent, print_json, remark, say
 from seewhy.errors import DatasetError, SeeWhyError
 
 if TYPE_CHECKING:
@@ -246,7 +246,7 @@ def _remark_held_back(held_back: int, pictures: int) -> None:
 
 def _confirmed(question: str, *, default: bool = True, else_: str = _MODEL_STAYS) -> bool:
     try:
-        return typer.confirm(f"  {question}", default=default)
+        return typer.confirm(harmless(f"  {question}"), default=default)
     except typer.Abort:
         raise SeeWhyError(
             f"no answer to '{question}', {else_}; answer y or n, or give --yes to agree without "

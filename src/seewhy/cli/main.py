@@ -68,12 +68,14 @@ def main() -> None:
     # PyTorch's modules last until the end. Looking for garbage among them then takes ten times
     # as long as an answer.
     atexit.register(gc.freeze)
+    _require_output()
     for stream in (sys.stdin, sys.stdout, sys.stderr):
         # Names and questions may hold what the terminal's encoding does not.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:
         code = app(standalone_mode=False, prog_name="seewhy")
+        sys.stdout.flush()
     except SeeWhyError as problem:
         complain(str(problem))
         sys.exit(2)
@@ -93,6 +95,20 @@ def main() -> None:
     if code == _INTERRUPTED:
         complain("interrupted; what is finished is kept, the same command goes on from there")
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _require_output() -> None:
+    """End where there is no standard output; what else is closed reads nothing and says nothing.
+
+    The numbers of closed streams must not go to files that are opened later: libraries write there.
+    """
+    closed = sys.stdout is None
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode))  # noqa: PTH123, SIM115
+    if closed:
+        complain("standard output is closed; send it to a file, or to /dev/null")
+        sys.exit(2)
 
 
 def _complain_of_usage(problem: Any) -> None:
