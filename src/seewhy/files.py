@@ -62,7 +62,7 @@ def write_whole(path: Path | str, content: str | bytes) -> None:
 
 
 def lies_in(path: Path | str, folder: Path | str) -> bool:
-    """Whether a path lies in a folder, wherever links lead.
+    """Whether a path lies in a folder, wherever links lead; not where they may not be looked at.
 
     Examples
     --------
@@ -74,5 +74,8 @@ def lies_in(path: Path | str, folder: Path | str) -> bool:
     [True, False, False]
     """
     root = os.path.realpath(folder)
-    real = os.path.realpath(path)
+    try:
+        real = os.path.realpath(path)
+    except OSError:
+        return False
     return real == root or real.startswith(root.rstrip(os.sep) + os.sep)

@@ -113,8 +113,8 @@ def open_picture(source: Path | IO[bytes]) -> Iterator[Image.Image]:
     seewhy.errors.PictureError: is PostScript (EPS), a program and no picture: save it as PNG ...
     """
     with warnings.catch_warnings():
-        # Pillow warns from 89 megapixels on; the limit that counts here is our own.
-        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        # Pillow warns from 89 megapixels on, and of notes of a camera that it cannot read.
+        warnings.filterwarnings("ignore", module=r"PIL\.")
         with _opened(source) as image:
             check_measures(image)
             if image.info.get("progressive"):
