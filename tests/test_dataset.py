@@ -12,6 +12,7 @@ from conftest import write_tiles
 from seewhy.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.data.dataset_domain import domain_of
+from seewhy.data.picture_listing import list_pictures
 from seewhy.domain import Domain
 from seewhy.errors import DatasetError, PictureError
 from seewhy.report.contact_sheet import draw_contact_sheet
@@ -323,6 +324,22 @@ def test_pictures_outside_of_the_folder(folder: Path, tiles: Domain, tmp_path: P
     within = ("inside.png", "images/../images/000.png", f"{folder}/images/000.png")
     for name in within:
         assert len(load(folder, tiles, HEAD + f"{name},good,red,yes\n")) == 1, name
+
+
+def test_a_table_that_is_a_link_out_of_its_folder(
+    folder: Path, tiles: Domain, tmp_path: Path
+) -> None:
+    (folder / "scenes.csv").rename(tmp_path / "elsewhere.csv")
+    (folder / "scenes.csv").symlink_to("../elsewhere.csv")
+    expected = (
+        f"{folder}/scenes.csv: is a link that leads out of the folder; copy the table into it, or "
+        "allow it with --outside (in Python: outside=True)"
+    )
+    for read in (lambda: Dataset.load(folder, tiles), lambda: list_pictures([folder], tiles)):
+        with pytest.raises(DatasetError) as problem:
+            read()
+        assert str(problem.value) == expected
+    assert len(Dataset.load(folder, tiles, outside=True)) == 3
 
 
 def test_a_folder_that_is_itself_reached_by_a_link(

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from seewhy.data.contradiction import require_agreement
 from seewhy.data.digest import digest_of
+from seewhy.data.picture_path import require_own_table
 from seewhy.data.reading_ahead import read_ahead
 from seewhy.data.scene import Scene, TablePlace
 from seewhy.data.scene_rows import OPTIONAL, columns_of, scenes_of_rows
@@ -90,6 +91,7 @@ class Dataset:
                 f"{folder}: the folder has no {TABLE}; it lists the pictures with the columns "
                 f"image, class, {', '.join(domain.features)}"
             )
+        require_own_table(file, outside=outside)
         table = read_table(file, known=columns_of(domain), optional=OPTIONAL)
         dataset = Dataset(
             scenes=tuple(

@@ -11,6 +11,7 @@ from seewhy.data.dataset import TABLE
 from seewhy.data.importers.annotation import Notes
 from seewhy.data.importers.picture_files import is_picture_name
 from seewhy.data.importers.source_files import LINKS_OUT, FolderFiles
+from seewhy.data.picture_path import require_own_table
 from seewhy.data.scene import TablePlace
 from seewhy.data.scene_rows import IMAGE, OPTIONAL, columns_of, scenes_of_rows
 from seewhy.data.table import read_table
@@ -96,6 +97,8 @@ def list_pictures(
     for name in named:
         for place in _places(Path(name)):
             table = _table_of(place)
+            if table is not None and table != place:
+                require_own_table(table, outside=outside)
             if table is None:
                 pictures.update(dict.fromkeys(_of_place(place, notes, outside=outside)))
                 continue

@@ -9,8 +9,9 @@ from errno import EACCES, ELOOP, ENAMETOOLONG
 from pathlib import Path
 
 from seewhy.errors import DatasetError
+from seewhy.files import lies_in
 
-__all__ = ["picture_finder"]
+__all__ = ["picture_finder", "require_own_table"]
 
 _SHOWN = 160
 """Of longer paths, the beginning is shown."""
@@ -103,6 +104,18 @@ def picture_finder(folder: Path, *, outside: bool = False) -> Callable[[str, str
         return found
 
     return find
+
+
+def require_own_table(file: Path, *, outside: bool = False) -> None:
+    """Raise a DatasetError if the table of a folder is a link that leads out of it.
+
+    Complaints about a table show cells of it, and what lies out there is nobody's table.
+    """
+    if not outside and not lies_in(file, file.parent):
+        raise DatasetError(
+            f"{file}: is a link that leads out of the folder; copy the table into it, or allow it "
+            "with --outside (in Python: outside=True)"
+        )
 
 
 def _unreadable(cell: str, problem: OSError | ValueError) -> str:
