@@ -287,6 +287,21 @@ def test_a_table_may_name_pictures_elsewhere(run: Run, model_folder: Path, photo
     assert cells(Path("t.csv"))[0]["class"] == "bad"
 
 
+def test_links_out_of_a_folder(run: Run, model_folder: Path, photos: Path) -> None:
+    Path("secret").mkdir()
+    (photos / "a.png").rename("secret/a.png")
+    (photos / "link.png").symlink_to("../secret/a.png")
+    (photos / "way").symlink_to("../secret")
+    result = run("classify", model_folder, "photos", "--out", "t.csv")
+    assert (
+        "links that lead out of the folder, left out (--outside follows them) (2): " in result.err
+    )
+    assert len(cells(Path("t.csv"))) == 3
+    result = run("classify", model_folder, "photos", "--out", "t.csv", "--outside")
+    assert "links that lead out" not in result.err
+    assert len(cells(Path("t.csv"))) == 5
+
+
 @pytest.mark.parametrize(
     ("named", "out", "said"),
     [
