@@ -47,7 +47,7 @@ def test_both_arms_are_rows_and_a_page(finished: Path) -> None:
         "<pre>% Axioms that",
         f"<code>seewhy experiment planning --out {finished} --quick --trials 1 --seed 3 --jobs 1",
         f"({here().commit}). The trials: {here().commit} (1 trial).",
-        "planning time is measured by the clock,\nin the trials, made on",
+        "planning time is the processor's, of looking for plans alone,\nin the trials, made on",
     ):
         assert part in page
     assert "http" not in page.replace("http://www.w3.org/2000/svg", "")

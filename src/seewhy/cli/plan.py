@@ -70,7 +70,9 @@ def plan(
         _write_pddl(to_pddl(knowledge, aim, start=known.now), pddl)
     most = own.horizon if horizon is None else horizon
     found = find_plan(knowledge, aim, start=known.now, horizon=most, answer_sets=own.answer_sets)
-    supposed = suppositions(knowledge, aim, found.actions, start=known.now)
+    supposed: tuple[Symbol, ...] = ()
+    if found.settles(known.now):
+        supposed = suppositions(knowledge, aim, found.actions, start=known.now)
     if json:
         print_json(_to_dict(found, goal, supposed))
     else:

@@ -74,6 +74,9 @@ class Step:
     because : tuple of clingo.Symbol
         Where the robot gave up: what it sees that stands in the way, each alone.
     planning_seconds : float
+        Time of the processor in which plans to do were looked for, in
+        :func:`seewhy.planning.planner.plan` alone: diagnosis, monitoring, doubting, and what a
+        plan supposes or what stands in its way are not in it.
     """
 
     number: int
@@ -175,6 +178,7 @@ class _Robot:
         self.began = False
         self.doubted_before: int | None = None
         self.doubt = Doubt(domain.knowledge)
+        self.planned_for = 0.0
 
     def decide(
         self,
@@ -206,7 +210,7 @@ class _Robot:
                     "skipped": self.intended[:skipped],
                     "action": rest[0],
                 }
-        begun = time.perf_counter()
+        self.planned_for = 0.0
         self.doubted_before, start = None, now
         found = self._plan(start)
         if not found.found:
@@ -214,11 +218,11 @@ class _Robot:
             if least is not None:
                 self.doubted_before, start, found = least
         supposed: tuple[clingo.Symbol, ...] = ()
-        if found.found:
+        if found.settles(start):
             supposed = suppositions(knowledge, goal, found.actions, start=start)
         if found.status is PlanStatus.ALREADY_TRUE:
             found = self._look(start, supposed)
-        seconds = time.perf_counter() - begun
+        seconds = self.planned_for
         if not found.actions:
             return {
                 "decision": Decision.GIVE_UP,
@@ -292,13 +296,17 @@ class _Robot:
         return tuple(unusual or found)
 
     def _plan(self, start: State, goal: Goal | None = None) -> Plan:
-        return plan(
+        # Of the processor: what else a machine does is no planning.
+        begun = time.process_time()
+        found = plan(
             self.domain.knowledge,
             self.goal if goal is None else goal,
             start=start,
             horizon=self.domain.horizon,
             answer_sets=self.domain.answer_sets,
         )
+        self.planned_for += time.process_time() - begun
+        return found
 
 
 def _last_seen(history: History) -> dict[clingo.Symbol, int]:

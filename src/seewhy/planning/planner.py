@@ -107,6 +107,22 @@ class Plan:
         """Whether the goal can be reached by these actions (none where it holds already)."""
         return self.status in (PlanStatus.FOUND, PlanStatus.ALREADY_TRUE)
 
+    def settles(self, start: State) -> bool:
+        """Whether the plan, made from ``start``, takes something to be so that is unknown there.
+
+        Where it does not, it supposes nothing; where it does,
+        :func:`seewhy.planning.following.suppositions` says what of that must be so.
+
+        Examples
+        --------
+        >>> here, there = clingo.Function("here"), clingo.Function("there")
+        >>> start = State(frozenset({here}), frozenset({there}))
+        >>> found = Plan(PlanStatus.ALREADY_TRUE, states=(State(frozenset({here, there})),))
+        >>> found.settles(start), Plan(PlanStatus.ALREADY_TRUE, states=(start,)).settles(start)
+        (True, False)
+        """
+        return self.found and self.states[0].unknown != start.unknown
+
 
 def plan(
     knowledge: Knowledge,
