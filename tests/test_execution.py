@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
 
 import clingo
 import numpy as np
@@ -11,11 +14,17 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.language import Knowledge
+from seewhy.planning import execution
 from seewhy.planning.diagnosis import diagnose
 from seewhy.planning.domain import load_planning_domain
+from seewhy.planning.doubt import Doubt
 from seewhy.planning.environment import PlanningEnvironment
 from seewhy.planning.execution import Decision, Outcome, Run, execute
+from seewhy.planning.following import suppositions
 from seewhy.planning.goal import Goal, read_goal
+from seewhy.planning.planner import Plan
+from seewhy.planning.state import State
 from seewhy.planning.world import World
 
 OFFICE = load_planning_domain("robot_assistant")
@@ -188,3 +197,85 @@ def test_a_count_that_may_be_reached_is_looked_at(environment: PlanningEnvironme
         environment, world(environment, "loc(sally,kitchen)", "loc(bob,kitchen)"), goal=crowd
     )
     assert found.outcome is Outcome.ACHIEVED
+
+
+@pytest.mark.parametrize(
+    ("literals", "supposing"),
+    [
+        ((), 0),  # she is where she usually is
+        (("loc(sally,library)",), 0),  # she is seen at once
+        (("loc(sally,bobs_office)",), 3),  # she is looked for in three places
+    ],
+)
+def test_what_a_plan_supposes_is_worked_out_only_where_the_search_left_something_open(
+    environment: PlanningEnvironment,
+    monkeypatch: pytest.MonkeyPatch,
+    literals: tuple[str, ...],
+    supposing: int,
+) -> None:
+    worked_out = []
+
+    def noted(
+        knowledge: Knowledge, goal: Goal, actions: Sequence[clingo.Symbol], *, start: State
+    ) -> tuple[clingo.Symbol, ...]:
+        worked_out.append(suppositions(knowledge, goal, actions, start=start))
+        return worked_out[-1]
+
+    monkeypatch.setattr(execution, "suppositions", noted)
+    found = run(environment, world(environment, *literals))
+    assert len(worked_out) == supposing
+    assert worked_out == [step.supposed for step in found.plans if step.supposed]
+    # Were it worked out for every plan, nothing would be otherwise.
+    monkeypatch.setattr(Plan, "settles", lambda own, _: own.found)
+    whole = run(environment, world(environment, *literals))
+    assert len(worked_out) == supposing + len(whole.plans)
+    assert [replace(step, planning_seconds=0.0) for step in whole.steps] == [
+        replace(step, planning_seconds=0.0) for step in found.steps
+    ]
+
+
+@pytest.mark.parametrize(
+    ("literals", "ends"),
+    [
+        (("loc(sally,bobs_office)",), Decision.STOP),
+        (("closed(kitchen)", "closed(bobs_office)", "closed(johns_office)"), Decision.GIVE_UP),
+    ],
+)
+def test_the_clock_of_planning_runs_in_looking_for_plans_alone(
+    environment: PlanningEnvironment,
+    monkeypatch: pytest.MonkeyPatch,
+    literals: tuple[str, ...],
+    ends: Decision,
+) -> None:
+    """Everything that a robot does takes an hour by this clock, and looking for a plan a second."""
+    clock, looked, explaining = Counter[str](), list[int](), list[bool]()
+
+    def taking(place: object, name: str, kind: str, seconds: int) -> None:
+        own = getattr(place, name)
+
+        def slow(*arguments: Any, **options: Any) -> Any:
+            clock["now"] += seconds
+            clock[kind] += not explaining
+            return own(*arguments, **options)
+
+        monkeypatch.setattr(place, name, slow)
+
+    monkeypatch.setattr(execution.time, "process_time", lambda: float(clock["now"]))
+    taking(execution, "plan", "plan", 1)
+    for name in ("diagnose", "follow", "suppositions", "holds_in"):
+        taking(execution, name, name, 3600)
+    taking(Doubt, "applied", "doubt", 3600)
+    in_the_way = execution._Robot._in_the_way
+
+    def explained(*arguments: Any) -> Any:
+        explaining.append(True)
+        try:
+            return in_the_way(*arguments)
+        finally:
+            explaining.pop()
+
+    monkeypatch.setattr(execution._Robot, "_in_the_way", explained)
+    found = run(environment, world(environment, *literals))
+    assert found.steps[-1].decision is ends
+    assert sum(step.planning_seconds for step in found.steps) == clock["plan"]
+    assert all((step.planning_seconds > 0) == (step in found.plans) for step in found.steps[:-1])

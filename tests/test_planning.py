@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections import deque
+from collections.abc import Sequence
 
 import clingo
 import pytest
@@ -413,6 +414,20 @@ def least_actions(knowledge: Knowledge, goal: str, start: State, horizon: int) -
     return None
 
 
+def reaches_whatever_is_unknown(
+    knowledge: Knowledge, goal: str, start: State, actions: Sequence[clingo.Symbol]
+) -> bool:
+    aimed = with_goal(knowledge, read_goal(goal, knowledge))
+    facts = " ".join(f":- not holds({literal}, 0)." for literal in start.holds)
+    for complete in answer_states(aimed, facts, last=0):
+        ends = {complete}
+        for action in actions:
+            ends = {end for before in ends for end in following(aimed, before, action)}
+        if not any(clingo.Function(REACHED, []) in end for end in ends):
+            return False
+    return True
+
+
 @settings(max_examples=25, deadline=None)
 @given(
     known=WORLDS,
@@ -439,6 +454,8 @@ def test_plans_are_as_short_as_can_be_in_random_worlds(
     for before, action, after in zip(found.states, found.actions, found.states[1:], strict=False):
         # What stays unknown may be either way.
         assert any(after.holds <= own for own in following(known, before.holds, action))
+    if found.found and not found.settles(start):
+        assert reaches_whatever_is_unknown(known, goal, start, found.actions)
 
 
 def test_the_states_of_a_plan_tell_what_no_way_to_the_goal_asks_about() -> None:
