@@ -248,7 +248,7 @@ def test_the_clock_of_planning_runs_in_looking_for_plans_alone(
     ends: Decision,
 ) -> None:
     """Everything that a robot does takes an hour by this clock, and looking for a plan a second."""
-    clock, looked, explaining = Counter[str](), list[int](), list[bool]()
+    clock, explaining = Counter[str](), list[bool]()
 
     def taking(place: object, name: str, kind: str, seconds: int) -> None:
         own = getattr(place, name)

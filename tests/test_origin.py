@@ -3,16 +3,28 @@
 from __future__ import annotations
 
 import json
+import os
+import platform
 import subprocess
+import sys
 from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 
 import pytest
+from torch.backends import cpu
 
 from seewhy.experiments import origin, rows
 from seewhy.experiments.experiment import Row, Trial
 from seewhy.experiments.origin import Origin, one_machine, say_machine, say_origins
-from seewhy.experiments.rows import finish, read_trial, trial_file, write_table, write_trial
+from seewhy.experiments.published import take_up
+from seewhy.experiments.rows import (
+    finish,
+    read_trial,
+    trial_file,
+    write_table,
+    write_tables,
+    write_trial,
+)
 
 TRIAL = Trial(0, 9)
 ROW = {"seed": 0, "size": 9, "system": "a", "accuracy": 0.5, "seconds_answers": 1.5}
@@ -134,5 +146,44 @@ def test_which_commits_made_the_trials() -> None:
     )
 
 
-def test_this_machine_has_a_name() -> None:
-    assert origin.here().machine.count(", ") >= 2
+def test_the_machine_says_its_instruction_set() -> None:
+    """In a process that PyTorch was told to compute so in."""
+    if cpu.get_cpu_capability() == "DEFAULT":
+        pytest.skip("this processor has no larger instruction set")
+    say = "from seewhy.experiments.origin import here; print(here().machine)"
+    done = subprocess.run(
+        [sys.executable, "-c", say],
+        env={**os.environ, "ATEN_CPU_CAPABILITY": "default"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    cores = os.cpu_count() or 1
+    assert done.stdout.endswith(f"DEFAULT), {cores} core{'s' * (cores > 1)}, {platform.system()}\n")
+
+
+def test_processors_of_one_name_are_told_apart(tmp_path: Path) -> None:
+    file = tmp_path / "cpuinfo"
+    two = "model name\t: AMD EPYC\ncpu family\t: 25\nmodel\t\t: {}\nstepping\t: 1\n\n"
+    said = []
+    for model in (1, 17):
+        file.write_text(two.format(model) * 2)
+        said.append(origin._processor(file))
+    instructions = cpu.get_cpu_capability()
+    assert said == [f"AMD EPYC (family 25, model {n}, {instructions})" for n in (1, 17)]
+    # Where the system does not say, there are still a name and the instruction set.
+    name = origin._processor(tmp_path / "missing")
+    assert name == f"{platform.processor() or platform.machine()} ({instructions})"
+
+
+def test_rows_that_lack_the_instruction_set_are_read_and_timed_apart(tmp_path: Path) -> None:
+    earlier = {"machine": "AMD EPYC, 2 cores, Linux", "commit": "commit 1ab"}
+    write_trial(tmp_path, TRIAL, [ROW], made=earlier)
+    write_trial(tmp_path, Trial(1, 9), [{**ROW, "seed": 1}])
+    write_tables(tmp_path)
+    for file in (tmp_path / "trials").iterdir():
+        file.unlink()
+    take_up(tmp_path)
+    found = [row for seed in (0, 1) for row in read_trial(tmp_path, Trial(seed, 9)) or ()]
+    assert [row["machine"] for row in found] == [earlier["machine"], origin.here().machine]
+    assert one_machine([*found, found[1]])[0] == [found[1], found[1]]

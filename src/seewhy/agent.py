@@ -77,7 +77,7 @@ class Agent:
         Which exceptions to defaults are preferred; see
         :class:`~seewhy.knowledge.reasoner.Reasoner`.
     seed : int
-        Two agents with the same seed and data agree.
+        Two agents with the same seed and data agree, on processors with the same instruction set.
     eyes : str, optional
         The backbone that sees, see :mod:`seewhy.perception.backbones`; ``"none"``: networks that
         grow on the domain's pictures alone, as in the paper. What the domain says where left out.

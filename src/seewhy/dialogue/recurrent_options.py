@@ -62,7 +62,8 @@ class RecurrentOptions:
     held_out_share : float, default 0.2
         Share of the scenes whose questions are held out.
     seed : int, default 0
-        Two runs with the same seed and examples agree.
+        Two runs with the same seed and examples agree, on processors with the same instruction
+        set.
 
     Raises
     ------

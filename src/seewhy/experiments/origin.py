@@ -20,6 +20,7 @@ COLUMNS = ("machine", "commit")
 """Columns that say where a row was made; not part of what the trial found."""
 
 _WAIT = 20.0  # seconds for git
+_CPUINFO = Path("/proc/cpuinfo")
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,9 @@ class Origin:
     Attributes
     ----------
     machine : str
-        The kind of machine: two of one kind are as fast.
+        The kind of machine: two of one kind are as fast, and networks come out the same on them.
+        The instruction set that PyTorch computes with is part of it; rows of earlier versions
+        lack it, and count as made on another kind.
     commit : str
         The commit, where SeeWhy runs from its git checkout; else its version.
     """
@@ -46,16 +49,24 @@ def here() -> Origin:
 
 def _machine() -> str:
     cores = os.cpu_count() or 1
-    return f"{_processor()}, {cores} core{'s' * (cores > 1)}, {platform.system()}"
+    return f"{_processor(_CPUINFO)}, {cores} core{'s' * (cores > 1)}, {platform.system()}"
 
 
-def _processor() -> str:
+def _processor(file: Path) -> str:
+    """The processor's name, which virtual machines shorten, its model, and its instruction set."""
+    from torch.backends import cpu
+
     try:
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+        lines = file.read_text(encoding="utf-8").splitlines()
     except OSError:
         lines = []
-    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return names[0] if names else platform.processor() or platform.machine()
+    said: dict[str, str] = {}
+    for line in lines:
+        key, _, value = line.partition(":")
+        said.setdefault(key.strip(), value.strip())
+    name = said.get("model name") or platform.processor() or platform.machine()
+    numbers = [f"{key.split()[-1]} {said[key]}" for key in ("cpu family", "model") if key in said]
+    return f"{name} ({', '.join([*numbers, cpu.get_cpu_capability()])})"
 
 
 def _commit(folder: Path) -> str:

@@ -149,7 +149,7 @@ def _check_settings(run: PlanningRun) -> None:
         run.folder,
         {
             **{key: asdict(run)[key] for key in ("records", "before", "answer_sets")},
-            # Rows of earlier versions timed what a plan supposes, too, and other work of the machine.
+            # Earlier rows timed what a plan supposes, too, and other work of the machine.
             "planning_time": "processor time of plan()",
             "knowledge": digest(folder / "knowledge.al", folder / "planning.toml"),
         },

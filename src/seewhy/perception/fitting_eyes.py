@@ -120,7 +120,7 @@ def fit_eyes(
     checkpoints : Path, optional
         A folder in which an interrupted call finds where it was.
     seed : int, default 0
-        Two runs with the same seed and data agree on the same kind of machine.
+        Two runs with the same seed and data agree on processors with the same instruction set.
     on_progress : callable, optional
         Called with an :class:`~seewhy.perception.events.EyesEvent`.
 

@@ -43,7 +43,8 @@ class TrainingOptions:
     validation_share : float, default 0.15
         Share of the labelled pictures kept for validation.
     seed : int, default 0
-        Two runs with the same seed and data agree bit for bit on the same kind of machine.
+        Two runs with the same seed and data agree bit for bit on processors with the same
+        instruction set.
     flip : bool, default False
         Mirror half of the pictures left to right. Only where no value depends on the side.
     shift : float, default 0.05
