@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
 import json
 import os
 import shutil
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -22,12 +23,13 @@ from conftest import DOMAIN, Run, write_domain
 from seewhy.agent import Agent
 from seewhy.cli.main import main
 from seewhy.data.dataset import Dataset
+from seewhy.dialogue import learned
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of
-from seewhy.domain import Domain
+from seewhy.domain import Domain, load_domain
 from seewhy.errors import ExperimentError
-from seewhy.experiments import drawing, running
+from seewhy.experiments import coupling, drawing, running
 from seewhy.experiments.axioms import agreement, explanations, incomplete, learned_again
 from seewhy.experiments.catalogue import NAMES, experiment
 from seewhy.experiments.claims import claimed
@@ -40,6 +42,8 @@ from seewhy.experiments.origin import here
 from seewhy.experiments.questioning import answer_scores, draw_questions, suitable
 from seewhy.experiments.rows import ROWS, TIMINGS, trial_file, write_trial
 from seewhy.experiments.vqa import annotator
+from seewhy.induction.tree import DecisionTree
+from seewhy.knowledge.reasoner import Reasoner
 from seewhy.learning import AnnotatedScenes
 
 SMALL = ("--trials", 2, "--sizes", "20,30", "--tested", 15, "--jobs", 1)
@@ -877,3 +881,30 @@ def test_an_experiment_is_found_by_name() -> None:
             assert {claim.system, claim.against} <= own.systems.keys()
     with pytest.raises(ExperimentError, match="did you mean 'axioms'"):
         experiment("axiom")
+
+
+def test_the_clock_of_learning_runs_in_learning_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By this clock a tree takes a second, a recurrent network ten, deciding at first an hour."""
+    clock = Counter[str]()
+
+    def taking(place: object, name: str, seconds: Callable[[], int]) -> None:
+        real = getattr(place, name)
+
+        def slow(*arguments: Any, **options: Any) -> Any:
+            clock["now"] += seconds()
+            clock[name] += 1
+            return real(*arguments, **options)
+
+        monkeypatch.setattr(place, name, slow)
+
+    monkeypatch.setattr(coupling.time, "process_time", lambda: float(clock["now"]))
+    taking(Reasoner, "decide_all", lambda: 0 if clock["decide_all"] else 3600)
+    taking(DecisionTree, "fit", lambda: 1)
+    taking(learned, "fit_answerer", lambda: 10)
+    agent = Agent(load_domain("structure_stability"), eyes="none")
+    values = (feature.values for feature in agent.domain.features.values())
+    # Whatever the knowledge says of it, one of the two is not as it says.
+    vectors, labels = [next(itertools.product(*values))] * 2, ["stable", "unstable"]
+    reference = ReferenceAnswers(agent.domain, agent.reasoned, experience_of(vectors, labels))
+    assert coupling._learned(agent, vectors, labels, reference) == (1.0, 10.0)
+    assert agent.answerer is not None

@@ -25,6 +25,7 @@ from seewhy.experiments.vqa import (
     score_agent,
 )
 from seewhy.induction.tree import DecisionTree
+from seewhy.knowledge.scene import FeatureVector
 
 if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
@@ -72,12 +73,7 @@ def run_ablation(setting: Setting, trial: Trial) -> list[Row]:
     reference = annotator(setting.scenes)
     vectors, labels = scenes_to_learn(setting, seen.train.scenes)
     whole = agent_of(setting, seen, seed=trial.seed)
-    began = time.process_time()
-    whole.fit_induction(vectors, labels, answers=False)
-    middle = time.process_time()
-    whole.fit_induction(vectors, labels, reference=reference)
-    grown = middle - began
-    taught = time.process_time() - middle - grown
+    grown, taught = _learned(whole, vectors, labels, reference)
 
     def variant(
         system: str, *, tree: DecisionTree, answerer: RecurrentAnswerer | None, seconds: float
@@ -102,6 +98,20 @@ def run_ablation(setting: Setting, trial: Trial) -> list[Row]:
         variant("tree_on_all", tree=larger, answerer=answerer, seconds=grown_on_all + taught),
         variant("lstm_on_all", tree=tree, answerer=wider, seconds=grown + taught_on_all),
     ]
+
+
+def _learned(
+    agent: Agent, vectors: list[FeatureVector], labels: list[str], reference: ReferenceAnswers
+) -> tuple[float, float]:
+    """Let an agent learn; return the seconds that its tree took, and its recurrent network."""
+    # Decides the scenes, which is remembered, and imports: neither is learning.
+    agent.fit_induction(vectors, labels, answers=False)
+    began = time.process_time()
+    agent.fit_induction(vectors, labels, answers=False)
+    middle = time.process_time()
+    agent.fit_induction(vectors, labels, reference=reference)
+    grown = middle - began
+    return grown, time.process_time() - middle - grown
 
 
 def run_confidence(setting: Setting, trial: Trial) -> list[Row]:
