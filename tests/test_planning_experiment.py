@@ -9,8 +9,13 @@ from pathlib import Path
 import pytest
 
 from conftest import Run
+from seewhy.experiments import planning
 from seewhy.experiments.origin import here
 from seewhy.experiments.planning import MEASURES, SYSTEMS, summary
+from seewhy.planning.execution import Decision, Outcome, Step
+from seewhy.planning.execution import Run as Execution
+from seewhy.planning.simulation import Simulation
+from seewhy.planning.state import State
 
 SMALL = ("--quick", "--trials", 1, "--seed", 3, "--jobs", 1)
 
@@ -59,11 +64,28 @@ def test_times_of_two_kinds_of_machines_are_not_put_together() -> None:
         for seed, machine, value in ((0, "slow", 8.0), (1, "fast", 2.0), (2, "fast", 2.0))
         for system in SYSTEMS
     ]
-    plans, *_, planning, _ = summary(rows)
+    plans, *_, times, _ = summary(rows)
     assert (plans.trials, plans.before) == (3, 4.0)
-    assert (planning.trials, planning.before) == (2, 2.0)
-    *_, planning, _ = summary(rows, machine="slow")
-    assert (planning.trials, planning.before) == (1, 8.0)
+    assert (times.trials, times.before) == (2, 2.0)
+    *_, times, _ = summary(rows, machine="slow")
+    assert (times.trials, times.before) == (1, 8.0)
+
+
+def test_looking_in_vain_counts_for_the_trial_and_for_no_plan(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    robot = planning.robot_before()
+    goal = planning.random_goal(robot, seed=0)
+    nothing = State(frozenset())
+    steps = [
+        Step(0, (), nothing, (), Decision.PLAN, (), planning_seconds=1.0),
+        Step(1, (), nothing, (), Decision.REPLAN, (), planning_seconds=2.0),
+        Step(2, (), nothing, (), Decision.GIVE_UP, (), planning_seconds=5.0),
+    ]
+    given_up = Execution(goal, robot.history, steps, Outcome.IMPOSSIBLE)
+    monkeypatch.setattr(planning, "_run", lambda *_, **__: Simulation(given_up))
+    row, _ = planning.trial(seed=0, learned=())
+    assert (row["plans"], row["seconds_planning"], row["seconds_per_plan"]) == (2, 8.0, 1.5)
 
 
 def test_a_run_adds_only_what_is_missing(run: Run, finished: Path) -> None:
@@ -120,6 +142,14 @@ def test_options_of_other_experiments_are_refused(
 def test_a_folder_of_other_settings_is_refused(run: Run, finished: Path, tmp_path: Path) -> None:
     done = run("experiment", "planning", "--out", finished, *SMALL, "--answer-sets")
     assert (done.code, "holds trials with other settings" in done.err) == (2, True)
+    # Times of an earlier clock, which ran on while suppositions were worked out, are not mixed in.
+    earlier = tmp_path / "out" / "planning" / "settings.json"
+    earlier.parent.mkdir(parents=True)
+    settings = json.loads((finished / "planning" / "settings.json").read_text(encoding="utf-8"))
+    del settings["planning_time"]
+    earlier.write_text(json.dumps(settings), encoding="utf-8")
+    done = run("experiment", "planning", "--out", tmp_path / "out", *SMALL)
+    assert (done.code, "holds trials with other settings (planning_time)" in done.err) == (2, True)
     file = tmp_path / "file"
     file.write_text("", encoding="utf-8")
     done = run("experiment", "planning", "--out", file, *SMALL)
