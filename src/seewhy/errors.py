@@ -19,6 +19,10 @@ class KnowledgeError(SeeWhyError, ValueError):
     """A knowledge file cannot be read; the text names the file, line and column."""
 
 
+class ReasoningError(SeeWhyError, RuntimeError):
+    """Grounding or a search for answer sets took more time or memory than it may."""
+
+
 class DatasetError(SeeWhyError, ValueError):
     """A dataset folder or its scenes.csv cannot be used."""
 

@@ -12,7 +12,7 @@ from clingo import ast
 
 from seewhy.knowledge.signature import Location
 
-_STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
+STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 _VARIABLE = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![A-Za-z0-9_\'])_*[A-Z][A-Za-z0-9_\']*')
 
 
@@ -110,7 +110,7 @@ class Condition:
     @property
     def is_local(self) -> bool:
         """Whether the condition has variables of its own, as ``#count {…}`` and ``p(X) : q(X)``."""
-        return self.literal is None and re.search("[{:]", _STRING.sub("", self.text)) is not None
+        return self.literal is None and re.search("[{:]", STRING.sub("", self.text)) is not None
 
 
 class AxiomKind(StrEnum):

@@ -10,11 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any
-
-import clingo
 
 from seewhy.knowledge.axiom import Axiom, Literal
+from seewhy.knowledge.bounded_control import BoundedControl
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import UNKNOWN, axiom_rules, sort_facts
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
@@ -43,10 +42,10 @@ class Batch:
         self.schema = schema
         self.names = tuple(f"{schema.scene}_{number}__" for number in range(SCENES))
         self.classes = tuple(schema.classes)
-        self.control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-        self.control.add("base", [], "\n".join(self._program(knowledge)))
-        self.control.ground([("base", [])])
-        literals = {str(atom.symbol): atom.literal for atom in self.control.symbolic_atoms}
+        self.control = BoundedControl(
+            "\n".join(self._program(knowledge)), size=grounding_size(knowledge).times(SCENES)
+        )
+        literals = {str(atom.symbol): atom.literal for atom in self.control.atoms}
         self._observed = tuple(
             tuple(
                 {
@@ -59,8 +58,7 @@ class Batch:
             )
             for name in self.names
         )
-        solve: Any = self.control.configuration.solve
-        solve.models = 2
+        self.control.configuration.models = 2
 
     def outcomes(self, vectors: Sequence[FeatureVector]) -> list[Outcome] | None:
         """Return the outcome of at most :data:`SCENES` scenes, or None where the call cannot tell.
@@ -76,14 +74,12 @@ class Batch:
             for tables, vector in zip(self._observed, filled, strict=True)
             for table, value in zip(tables, vector, strict=True)
         ]
-        with self.control.solve(assumed, yield_=True) as handle:
-            model = handle.model()
-            if model is None:
-                return None
-            shown = sorted(symbol.number for symbol in model.symbols(shown=True))
-            handle.resume()
-            if handle.model() is not None:
-                return None
+        models = self.control.solve(
+            assumed, on_model=lambda model: [own.number for own in model.symbols(shown=True)]
+        )
+        if len(models) != 1:
+            return None
+        shown = sorted(models[0])
         believed: list[list[str]] = [[] for _ in filled]
         contradictory = [False] * len(filled)
         for number in shown:

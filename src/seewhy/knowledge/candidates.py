@@ -5,12 +5,13 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
-from typing import Any
 
 import clingo
 import numpy as np
 from numpy.typing import NDArray
 
+from seewhy.knowledge.bounded_control import BoundedControl
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.program import UNKNOWN, program_text
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
@@ -54,9 +55,8 @@ def decided_vectors(reasoner: Reasoner, *, limit: int) -> tuple[FeatureVector, .
     """
     schema = reasoner.schema
     control = _control(reasoner, "--project=show")
-    _solve_for(control, models=limit + 1)
-    found: list[FeatureVector] = []
-    control.solve(on_model=lambda model: found.append(_vector(model, schema)))
+    control.configuration.models = limit + 1
+    found = control.solve(on_model=lambda model: _vector(model, schema))
     if len(found) > limit:
         return None
     places = [{value: n for n, value in enumerate(own)} for own in schema.features.values()]
@@ -167,7 +167,6 @@ def _cheapest(
     control = _control(reasoner, "--opt-mode=opt")
     control.add(
         "costs",
-        [],
         "".join(
             f":~ observed({feature}, {value}). [{round(_SCALE * (own.max() - own[n]))}, {feature}]"
             for feature, own in zip(schema.features, probabilities, strict=True)
@@ -178,8 +177,7 @@ def _cheapest(
             for number, (label, score) in enumerate(class_scores.items())
         ),
     )
-    control.ground([("costs", [])])
-    _solve_for(control, models=0)
+    control.configuration.models = 0
     for number, vector in enumerate(seen):
         _rule_out(control, schema, vector, number)
     number = len(seen)
@@ -203,7 +201,7 @@ def _cheapest(
     return best
 
 
-def _control(reasoner: Reasoner, *arguments: str) -> clingo.Control:
+def _control(reasoner: Reasoner, *arguments: str) -> BoundedControl:
     """The program whose answer sets hold a class, with every feature seen.
 
     A vector that is decided has such an answer set: the class is believed in all preferred ones.
@@ -213,15 +211,9 @@ def _control(reasoner: Reasoner, *arguments: str) -> clingo.Control:
     lines += [f":- observed({feature}, {UNKNOWN})." for feature in schema.features]
     lines.append(f":- {', '.join(f'not holds({own})' for own in schema.classes.values())}.")
     lines.append("#show observed/2.")
-    control = clingo.Control(["--warn=none", *arguments], logger=lambda *_: None)
-    control.add("base", [], "\n".join(lines))
-    control.ground([("base", [])])
-    return control
-
-
-def _solve_for(control: clingo.Control, *, models: int) -> None:
-    solve: Any = control.configuration.solve
-    solve.models = models
+    return BoundedControl(
+        "\n".join(lines), size=grounding_size(reasoner.knowledge), arguments=arguments
+    )
 
 
 def _vector(model: clingo.Model, schema: SceneSchema) -> FeatureVector:
@@ -229,19 +221,16 @@ def _vector(model: clingo.Model, schema: SceneSchema) -> FeatureVector:
     return tuple(shown[feature] for feature in schema.features)
 
 
-def _optimum(control: clingo.Control, schema: SceneSchema) -> tuple[FeatureVector, int] | None:
-    found: list[tuple[FeatureVector, int]] = []
-    control.solve(on_model=lambda model: found.append((_vector(model, schema), sum(model.cost))))
+def _optimum(control: BoundedControl, schema: SceneSchema) -> tuple[FeatureVector, int] | None:
+    found = control.solve(on_model=lambda model: (_vector(model, schema), sum(model.cost)))
     return found[-1] if found else None
 
 
 def _rule_out(
-    control: clingo.Control, schema: SceneSchema, vector: FeatureVector, number: int
+    control: BoundedControl, schema: SceneSchema, vector: FeatureVector, number: int
 ) -> None:
     observed = ", ".join(
         f"observed({feature}, {value})"
         for feature, value in zip(schema.features, vector, strict=True)
     )
-    part = f"ruled_out_{number}"
-    control.add(part, [], f":- {observed}.")
-    control.ground([(part, [])])
+    control.add(f"ruled_out_{number}", f":- {observed}.")

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import clingo
 
+from seewhy.knowledge.bounded_control import BoundedControl
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.program import UNKNOWN, program_text
 from seewhy.knowledge.reasoner import Reasoner
@@ -73,17 +74,18 @@ class ChangeFinder:
         self._constraints = 0
 
     @cached_property
-    def _control(self) -> clingo.Control:
-        control = clingo.Control(
-            ["--warn=none", "--opt-mode=optN", "--project=show"], logger=lambda *_: None
+    def _control(self) -> BoundedControl:
+        control = BoundedControl(
+            self._program(),
+            size=grounding_size(self.reasoner.knowledge),
+            arguments=["--opt-mode=optN", "--project=show"],
         )
-        control.add("base", [], self._program())
-        control.ground([("base", [])])
+        control.configuration.models = _EQUALLY_NEAR
         return control
 
     @cached_property
     def _literals(self) -> dict[str, int]:
-        return {str(atom.symbol): atom.literal for atom in self._control.symbolic_atoms}
+        return {str(atom.symbol): atom.literal for atom in self._control.atoms}
 
     def _program(self) -> str:
         schema = self.schema
@@ -166,26 +168,21 @@ class ChangeFinder:
         return []
 
     def _cheapest(self, assumptions: list[int]) -> list[FeatureVector]:
-        found: list[FeatureVector] = []
+        def vector(model: clingo.Model) -> FeatureVector | None:
+            if not model.optimality_proven:
+                return None
+            shown = {
+                str(s.arguments[0]): str(s.arguments[1])
+                for s in model.symbols(shown=True)
+                if s.name == "observed"
+            }
+            return tuple(
+                None if shown[feature] == UNKNOWN else shown[feature]
+                for feature in self.schema.features
+            )
 
-        def on_model(model: clingo.Model) -> None:
-            if model.optimality_proven:
-                shown = {
-                    str(s.arguments[0]): str(s.arguments[1])
-                    for s in model.symbols(shown=True)
-                    if s.name == "observed"
-                }
-                found.append(
-                    tuple(
-                        None if shown[feature] == UNKNOWN else shown[feature]
-                        for feature in self.schema.features
-                    )
-                )
-
-        solve: Any = self._control.configuration.solve
-        solve.models = _EQUALLY_NEAR
-        self._control.solve(assumptions, on_model=on_model)
-        return list(dict.fromkeys(found))
+        found = self._control.solve(assumptions, on_model=vector)
+        return [own for own in dict.fromkeys(found) if own is not None]
 
     def _rule_out(self, vector: FeatureVector, label: str) -> None:
         """Forbid a vector that was tried in vain as a way to ``label``, now and later."""
@@ -200,10 +197,9 @@ class ChangeFinder:
         """Forbid an atom together with observed values."""
         features = list(self.schema.features)
         observed = ", ".join(f"observed({features[place]}, {value})" for place, value in parts)
-        self._constraints += 1
-        part = f"constraint_{self._constraints}"
-        self._control.add(part, [], f":- {atom}, {observed}.")
-        self._control.ground([(part, [])])
+        with self._control.lock:
+            self._constraints += 1
+            self._control.add(f"constraint_{self._constraints}", f":- {atom}, {observed}.")
 
     def _change(self, before: FeatureVector, after: FeatureVector) -> Change:
         changes = tuple(

@@ -7,6 +7,7 @@ import clingo
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Axiom, AxiomKind
 from seewhy.knowledge.grounding import Grounding
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import program_text
 from seewhy.knowledge.scene import SceneSchema
@@ -61,7 +62,9 @@ class _Probe:
     def __init__(self, knowledge: Knowledge, schema: SceneSchema, *, also: str = "") -> None:
         self.knowledge = knowledge
         text = program_text(knowledge, schema, exceptions=True, firings=True)
-        self.grounding = Grounding(text + also + "used(I) :- fires(I, V).\n", schema)
+        self.grounding = Grounding(
+            text + also + "used(I) :- fires(I, V).\n", schema, size=grounding_size(knowledge)
+        )
         self.used = self.grounding.with_predicate("used")
         self.exceptions = self.grounding.with_predicate("exception")
 
@@ -72,7 +75,6 @@ class _Probe:
         literal = self.used.get(clingo.Function("used", [clingo.Function(axiom.identifier)]))
         if literal is None:
             return None
-        self.grounding.configure(models=1)
         if strict:  # what is consistent once a default is given up can be used
             return self.grounding.first_model([literal, self.grounding.strict])
         none = [-exception for exception in self.exceptions.values()]

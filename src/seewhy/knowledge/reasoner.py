@@ -12,7 +12,8 @@ import clingo
 
 from seewhy.knowledge.axiom import AxiomKind
 from seewhy.knowledge.batch import SCENES, Batch, speaks_of_one_scene
-from seewhy.knowledge.grounding import Grounding
+from seewhy.knowledge.grounding import Grounding, Search
+from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import program_text
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
@@ -68,6 +69,8 @@ class Reasoner:
     A scene is classified when exactly one class is believed in every preferred answer set.
     Defaults are given up only where the program is otherwise inconsistent, and minimally.
 
+    Threads may share one: its programs are solved for one of them at a time.
+
     Departure from the paper: the program is not rewritten for every picture; it is grounded
     once, and a picture's features are assumptions. The answer sets are the same.
 
@@ -105,10 +108,13 @@ class Reasoner:
         self._has_defaults = any(a.kind is AxiomKind.DEFAULT for a in knowledge.axioms)
 
     @cached_property
+    def _size(self) -> GroundingSize:
+        return grounding_size(self.knowledge)
+
+    @cached_property
     def _plain(self) -> Grounding:
-        grounding = Grounding(program_text(self.knowledge, self.schema), self.schema)
-        grounding.configure(enum_mode="cautious")
-        return grounding
+        text = program_text(self.knowledge, self.schema)
+        return Grounding(text, self.schema, size=self._size)
 
     @cached_property
     def _restoring(self) -> Grounding:
@@ -121,12 +127,12 @@ class Reasoner:
             # Subset-minimal models over the shown atoms: prefer them false, record each found.
             text += "#show exception/2.\n"
             arguments = ["--heuristic=Domain", "--enum-mode=domRec", "--dom-mod=false,show"]
-        return Grounding(text, self.schema, arguments=arguments)
+        return Grounding(text, self.schema, size=self._size, arguments=arguments)
 
     @cached_property
     def _explaining(self) -> Grounding:
         text = program_text(self.knowledge, self.schema, exceptions=True, firings=True)
-        return Grounding(text, self.schema)
+        return Grounding(text, self.schema, size=self._size)
 
     def forget(self) -> None:
         """Drop everything remembered about scenes; the programs stay grounded."""
@@ -148,15 +154,11 @@ class Reasoner:
 
     def decide_all(self, vectors: Sequence[FeatureVector]) -> list[Decision]:
         """Classify many scenes; equal feature vectors are solved once."""
-        decisions = self._decisions
         # In the order given, so that nothing depends on how strings hash.
-        new = [vector for vector in dict.fromkeys(vectors) if vector not in decisions]
+        new = [vector for vector in dict.fromkeys(vectors) if vector not in self._decisions]
         if len(new) >= _WORTH_A_BATCH and self._batch is not None:
             self._decide_in_batches(new, self._batch)
-        for vector in new:
-            if vector not in decisions:
-                decisions[vector] = self._decide(vector)
-        return list(map(decisions.__getitem__, vectors))
+        return [self.decide(vector) for vector in vectors]
 
     @cached_property
     def _batch(self) -> Batch | None:
@@ -198,7 +200,6 @@ class Reasoner:
         believed: set[str] | None = None
         for chosen in self.minimal_exceptions(vector):
             fixed = [literal if s in chosen else -literal for s, literal in atoms.items()]
-            explaining.configure(enum_mode="cautious")
             here = explaining.believed_classes(
                 [*explaining.assume(vector), explaining.strict, *fixed]
             )
@@ -214,18 +215,22 @@ class Reasoner:
         The empty set alone means that none is needed; an empty list that none suffices.
         """
         restoring = self._restoring
-        found: list[frozenset[clingo.Symbol]] = []
 
-        def on_model(model: clingo.Model) -> None:
+        def minimal(model: clingo.Model) -> frozenset[clingo.Symbol] | None:
             if self.minimality == "inclusion" or model.optimality_proven:
-                found.append(frozenset(model.symbols(shown=True)))
+                return frozenset(model.symbols(shown=True))
+            return None
 
-        if self.minimality == "cardinality":
-            restoring.configure(enum_mode="auto", opt_mode="optN")
-        else:
-            restoring.configure(enum_mode="domRec")
-        restoring.control.solve([*restoring.assume(vector), restoring.strict], on_model=on_model)
-        return sorted(set(found), key=lambda chosen: sorted(map(str, chosen)))
+        found = restoring.solve(
+            [*restoring.assume(vector), restoring.strict],
+            Search(opt_mode="optN")
+            if self.minimality == "cardinality"
+            else Search(enum_mode="domRec"),
+            on_model=minimal,
+        )
+        return sorted(
+            {own for own in found if own is not None}, key=lambda chosen: sorted(map(str, chosen))
+        )
 
     def answer_set(self, vector: FeatureVector) -> AnswerSet | None:
         """Return the first preferred answer set with what fired in it.
@@ -233,11 +238,15 @@ class Reasoner:
         Where the scene is contradictory, the contradictory beliefs are returned with
         ``conflict`` set; None where there is no answer set at all.
         """
-        if vector not in self._answer_sets:
-            if len(self._answer_sets) >= _REMEMBERED:
-                self._answer_sets.clear()
-            self._answer_sets[vector] = self._first_answer_set(vector)
-        return self._answer_sets[vector]
+        known = self._answer_sets
+        try:
+            return known[vector]
+        except KeyError:
+            found = self._first_answer_set(vector)
+        if len(known) >= _REMEMBERED:
+            known.clear()
+        known[vector] = found
+        return found
 
     def _first_answer_set(self, vector: FeatureVector) -> AnswerSet | None:
         explaining = self._explaining
@@ -251,7 +260,6 @@ class Reasoner:
                 trials.append([*assumed, explaining.strict, *fixed])
         trials.append([*assumed, -explaining.strict, *none])
         for trial in trials:
-            explaining.configure(models=1, enum_mode="auto")
             symbols = explaining.first_model(trial)
             if symbols is not None:
                 return _answer_set(symbols)

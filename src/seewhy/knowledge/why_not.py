@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from weakref import WeakKeyDictionary
 
-import clingo
-
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, substitute, variables_in
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.evidence import Evidence, Say, evidence_of
 from seewhy.knowledge.ground import key_of, literal_of, term_of, terms_of
+from seewhy.knowledge.grounding_size import axioms_size
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.program import held, variable_tuple
 from seewhy.knowledge.reasoner import Reasoner
@@ -215,11 +215,10 @@ def _solved(
                 f"ok({instance}, {number}) :- instance({instance}), "
                 f"{held(condition.text, evidence.signature)}."
             )
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-    control.add("base", [], "\n".join(lines))
-    control.ground([("base", [])])
+    size = axioms_size([axiom for _, axiom, _ in candidates], evidence.signature)
+    control = BoundedControl("\n".join(lines), size=size)
     instances: dict[tuple[str, tuple[str, ...]], set[int]] = {}
-    for atom in control.symbolic_atoms:
+    for atom in control.atoms:
         if atom.is_fact and atom.symbol.name in ("instance", "ok"):
             name, values = atom.symbol.arguments[:2]
             key = (name.name, tuple(map(str, values.arguments)))

@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any
 
 import clingo
 
 from seewhy.errors import PlanningError
 from seewhy.knowledge.axiom import Axiom, AxiomKind, predicates_in
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import (
     body_at,
     constraints,
@@ -27,14 +27,14 @@ from seewhy.knowledge.dynamics import (
     transition_rules,
 )
 from seewhy.knowledge.ground import fluent_of, key_of
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.history import History, Observation, Occurrence
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Signature
-from seewhy.planning.last_model import last_model
 from seewhy.planning.state import State
 
 # Few surprises explain most histories: raising the bound from below proves that soonest.
-_OPTIONS = ["--warn=none", "--opt-strategy=usc", "--restart-on-model"]
+_OPTIONS = ["--opt-strategy=usc", "--restart-on-model"]
 _PROGRAM = """
 1 { holds(F, 0); holds(-F, 0) } 1 :- fluent(basic, F).
 occurs(A, T) :- happened(A, T).
@@ -152,16 +152,15 @@ def diagnose(
     text = diagnosis_program(knowledge, last=last, sensors_err=sensors_err) + "\n".join(
         history_facts(history)
     )
-    control = clingo.Control(_OPTIONS, logger=lambda *_: None)
-    control.add("base", [], text)
-    control.ground([("base", [])])
-    solve: Any = control.configuration.solve
-    best = last_model(control)
+    size = grounding_size(knowledge).times(last + 1)
+    control = BoundedControl(text, size=size, arguments=_OPTIONS)
+    best = control.last_model()
     if best is None:
         raise PlanningError(unexplained(knowledge, history))
+    solve = control.configuration
     solve.opt_mode, solve.enum_mode, solve.models = "optN", "cautious", 0
-    sure = last_model(control) or []
-    fluents = [own.symbol.arguments[1] for own in control.symbolic_atoms.by_signature("fluent", 2)]
+    sure = control.last_model() or []
+    fluents = [own.symbol.arguments[1] for own in control.by_signature("fluent", 2)]
     return Diagnosis(
         states=tuple(_states(sure, fluents, last)),
         surprises=tuple(sorted(_surprises(knowledge, best, frozenset(sure)))),
@@ -184,10 +183,12 @@ def explained(knowledge: Knowledge, history: History, *, sensors_err: bool = Fal
         diagnosis_program(knowledge, last=history.last_step, sensors_err=sensors_err),
         *history_facts(history),
     ]
-    control = clingo.Control(["--warn=none", "--opt-mode=ignore"], logger=lambda *_: None)
-    control.add("base", [], "\n".join(lines))
-    control.ground([("base", [])])
-    return bool(control.solve().satisfiable)
+    control = BoundedControl(
+        "\n".join(lines),
+        size=grounding_size(knowledge).times(history.last_step + 1),
+        arguments=["--opt-mode=ignore"],
+    )
+    return control.satisfiable()
 
 
 def diagnosis_program(knowledge: Knowledge, *, last: int, sensors_err: bool = False) -> str:
@@ -288,10 +289,12 @@ def entries_in_the_way(
     ]
     for number, fact in enumerate(history_facts(history)):
         lines.append(f"{{ wrong({number}) }}. {fact.rstrip('.')} :- not wrong({number}).")
-    control = clingo.Control(_OPTIONS, logger=lambda *_: None)
-    control.add("base", [], "\n".join([*lines, "#show wrong/1."]))
-    control.ground([("base", [])])
-    best = last_model(control)
+    control = BoundedControl(
+        "\n".join([*lines, "#show wrong/1."]),
+        size=grounding_size(knowledge).times(history.last_step + 1),
+        arguments=_OPTIONS,
+    )
+    best = control.last_model()
     if best is None:
         return None
     wrong = sorted(own.arguments[0].number for own in best if own.name == "wrong")

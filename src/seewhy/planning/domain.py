@@ -14,7 +14,9 @@ from seewhy.domain import domain_folder
 from seewhy.domain_tables import DomainFile, FeatureTable
 from seewhy.errors import DomainError, PlanningError
 from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import fixed_rules
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.history import History, read_history_file
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.signature import PredicateKind
@@ -86,12 +88,10 @@ class PlanningDomain:
 
     def statics(self, predicate: str) -> list[clingo.Symbol]:
         """The literals about a static that follow from the knowledge, sorted."""
-        control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-        control.add("base", [], "\n".join(fixed_rules(self.knowledge)))
-        control.ground([("base", [])])
-        literals = (
-            own.symbol.arguments[0] for own in control.symbolic_atoms.by_signature("holds", 1)
+        control = BoundedControl(
+            "\n".join(fixed_rules(self.knowledge)), size=grounding_size(self.knowledge)
         )
+        literals = (own.symbol.arguments[0] for own in control.by_signature("holds", 1))
         return sorted(own for own in literals if own.name == predicate)
 
     def knowing(self, axioms: Iterable[Axiom]) -> PlanningDomain:

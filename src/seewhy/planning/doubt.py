@@ -7,8 +7,10 @@ from collections.abc import Mapping
 import clingo
 
 from seewhy.knowledge.axiom import AxiomKind, Literal
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import fixed_rules, of_kind, rule
 from seewhy.knowledge.ground import fluent_of
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.mutex import mutexes
@@ -83,12 +85,10 @@ def _changed_unasked(knowledge: Knowledge) -> set[clingo.Symbol]:
         ]
         fluent = Literal(axiom.head.predicate, axiom.head.arguments)
         lines.append(rule(f"changed({fluent})", [f"exogenous({axiom.action})", *sorts]))
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-    control.add("base", [], "\n".join(lines))
-    control.ground([("base", [])])
-    changed = {own.symbol.arguments[0] for own in control.symbolic_atoms.by_signature("changed", 1)}
+    control = BoundedControl("\n".join(lines), size=grounding_size(knowledge))
+    changed = {own.symbol.arguments[0] for own in control.by_signature("changed", 1)}
     groups = {_group(own, knowledge) for own in changed} - {None}
-    fluents = (own.symbol.arguments[1] for own in control.symbolic_atoms.by_signature("fluent", 2))
+    fluents = (own.symbol.arguments[1] for own in control.by_signature("fluent", 2))
     return changed | {own for own in fluents if _group(own, knowledge) in groups}
 
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import clingo
 
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import transition_rules
 from seewhy.knowledge.ground import fluent_of
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.goal import REACHED, Goal, with_goal
-from seewhy.planning.last_model import last_model
 from seewhy.planning.state import State
 
 
@@ -92,13 +92,11 @@ def _solved(
     ]
     if not cautious:
         lines += [f":~ holds({own}, 0). [1, {own}]" for own in basic]
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-    control.add("base", [], "\n".join(lines))
-    control.ground([("base", [])])
-    solve: Any = control.configuration.solve
+    size = grounding_size(knowledge).times(len(actions) + 1)
+    control = BoundedControl("\n".join(lines), size=size)
     if cautious:
-        solve.enum_mode, solve.models = "cautious", 0
-    return last_model(control)
+        control.configuration.enum_mode, control.configuration.models = "cautious", 0
+    return control.last_model()
 
 
 def state_after(

@@ -15,12 +15,12 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Any
 
 import clingo
 
 from seewhy.errors import PlanningError
 from seewhy.knowledge.axiom import AxiomKind
+from seewhy.knowledge.bounded_control import BoundedControl, OutOfTimeError
 from seewhy.knowledge.dynamics import (
     body_at,
     constraints,
@@ -31,6 +31,7 @@ from seewhy.knowledge.dynamics import (
     untimed_predicates,
 )
 from seewhy.knowledge.ground import complement_of, fluent_of
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.planning.goal import REACHED, Goal, with_goal
 from seewhy.planning.ground_problem import GroundProblem, ground_problem
@@ -252,10 +253,11 @@ class _Search:
     def __init__(self, knowledge: Knowledge, start: State, possible: Reachability) -> None:
         self.rigid = possible.rigid
         self.fluents = {fluent_of(own) for own in (*start.holds, *start.unknown)}
-        self.control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-        text = "\n".join(_program(knowledge, start, possible))
-        self.control.add(text)
-        self.control.ground([("base", []), ("state", [clingo.Number(0)])])
+        self.control = BoundedControl(
+            "\n".join(_program(knowledge, start, possible)),
+            size=grounding_size(knowledge),
+            parts=[("base", ()), ("state", [clingo.Number(0)])],
+        )
 
     def extend(self, steps: int) -> None:
         """Ground the next step; to be called with every number of steps, in order."""
@@ -282,14 +284,17 @@ class _Search:
             (clingo.Function("occurs", [action, clingo.Number(step)]), True)
             for step, action in enumerate(actions)
         ]
-        found: list[list[clingo.Symbol]] = []
-        solving: Any
-        with self.control.solve(
-            done, on_model=lambda model: found.append(list(model.symbols(atoms=True))), async_=True
-        ) as solving:
-            if not solving.wait(None if until is None else max(0.0, until - time.perf_counter())):
-                solving.cancel()
-        self.control.release_external(query)
+        try:
+            found = self.control.solve(
+                done,
+                on_model=lambda model: list(model.symbols(atoms=True)),
+                seconds=None if until is None else max(0.0, until - time.perf_counter()),
+            )
+        except OutOfTimeError:
+            if until is None:
+                raise
+            found = []
+        self.control.assign_external(query, None)
         return self._read(found[-1], steps) if found else None
 
     def follow(

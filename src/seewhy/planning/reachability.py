@@ -14,7 +14,9 @@ from dataclasses import dataclass
 import clingo
 
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, predicates_in
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import constraints, fixed_rules, of_kind, rule
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import held
 from seewhy.knowledge.signature import Signature
@@ -85,7 +87,7 @@ class Reachability:
 def reachable(knowledge: Knowledge, state: State) -> Reachability:
     """Return what may hold and be done from a state on."""
     believed = facts("believed", state.holds)
-    sets = _atoms([*_rules(knowledge), believed, facts("unknown", state.unknown), _RELAXATION])
+    sets = _atoms(knowledge, [believed, facts("unknown", state.unknown), _RELAXATION])
     can = frozenset(atom.arguments[0] for atom in sets.get("can", ()))
     rigid = frozenset(atom.arguments[0] for atom in sets.get("rigid", ()))
     kept = [
@@ -119,16 +121,15 @@ def instances(knowledge: Knowledge, state: State) -> Mapping[str, Sequence[cling
     # What is not believed true, and not unknown, is believed false: that need not be told.
     positive = (own for own in state.holds if own.positive)
     given = [facts("believed", positive), facts("unknown", state.unknown)]
-    return _atoms([*_rules(knowledge), *_instance_rules(knowledge), *given, _INSTANCES])
+    return _atoms(knowledge, [*_instance_rules(knowledge), *given, _INSTANCES])
 
 
-def _atoms(program: list[str]) -> dict[str, list[clingo.Symbol]]:
+def _atoms(knowledge: Knowledge, program: list[str]) -> dict[str, list[clingo.Symbol]]:
     """The atoms shown of the one answer set, by predicate; none where there is no answer set."""
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-    control.add("base", [], "\n".join([*program, _PROGRAM]))
-    control.ground([("base", [])])
-    found: list[list[clingo.Symbol]] = []
-    control.solve(on_model=lambda model: found.append(list(model.symbols(shown=True))))
+    control = BoundedControl(
+        "\n".join([*_rules(knowledge), *program, _PROGRAM]), size=grounding_size(knowledge)
+    )
+    found = control.models()
     sets: dict[str, list[clingo.Symbol]] = {}
     for atom in found[0] if found else ():
         sets.setdefault(atom.name, []).append(atom)

@@ -6,7 +6,9 @@ from collections.abc import Iterable
 
 import clingo
 
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import body_at, fixed_rules, rule
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.planning.goal import Goal, with_goal
 
@@ -29,7 +31,4 @@ def holds_in(knowledge: Knowledge, goal: Goal, literals: Iterable[clingo.Symbol]
         "at(0, 0). :- not reached. #defined holds/2.",
         " ".join(f"holds({own}, 0)." for own in sorted(literals)),
     ]
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-    control.add("base", [], "\n".join(lines))
-    control.ground([("base", [])])
-    return bool(control.solve().satisfiable)
+    return BoundedControl("\n".join(lines), size=grounding_size(aimed)).satisfiable()

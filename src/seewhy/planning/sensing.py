@@ -10,7 +10,9 @@ import clingo
 
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Condition, Literal, substitute, variables_in
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import at_step, fixed_rules, rule
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge, read_axioms, read_literal
 from seewhy.planning.goal import example_fluent
 from seewhy.planning.world import World
@@ -135,6 +137,7 @@ class Sensors:
             ]
             lines.append(rule(f"sensed({number}, {own.literal})", body))
         self._program = "\n".join([*lines, "at(0, 0).", "#show sensed/2."])
+        self._size = grounding_size(knowledge)
         self._remembered: dict[World, list[tuple[clingo.Symbol, float]]] = {}
 
     def sensed(self, state: World) -> list[tuple[clingo.Symbol, float]]:
@@ -145,12 +148,10 @@ class Sensors:
         return known
 
     def _sensed(self, state: World) -> Iterator[tuple[clingo.Symbol, float]]:
-        control = clingo.Control(["--warn=none"], logger=lambda *_: None)
         facts = " ".join(f"holds({own}, 0)." for own in sorted(state))
-        control.add("base", [], f"{self._program}\n{facts}")
-        control.ground([("base", [])])
+        control = BoundedControl(f"{self._program}\n{facts}", size=self._size)
         errors: dict[clingo.Symbol, float] = {}
-        for atom in control.symbolic_atoms.by_signature("sensed", 2):
+        for atom in control.by_signature("sensed", 2):
             number, fluent = atom.symbol.arguments
             errors[fluent] = max(errors.get(fluent, 0.0), self.sensing[number.number].error)
         yield from errors.items()

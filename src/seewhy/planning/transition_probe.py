@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import clingo
 
 from seewhy.knowledge.axiom import Axiom, AxiomKind
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import (
     STEP,
     body_at,
@@ -18,6 +19,7 @@ from seewhy.knowledge.dynamics import (
     rule,
 )
 from seewhy.knowledge.ground import complement_of
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 
 # Every state is tried as the first one; each of the others is a state that may follow it.
@@ -82,14 +84,15 @@ class TransitionProbe:
     """
 
     def __init__(self, knowledge: Knowledge, *, following: int) -> None:
-        self.control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-        text = "\n".join(_rules(knowledge, following))
-        self.control.add("base", [], text)
-        self.control.ground([("base", [])])
-        atoms = self.control.symbolic_atoms
-        self._literals = {str(own.symbol): own.literal for own in atoms}
+        self.control = BoundedControl(
+            "\n".join(_rules(knowledge, following)),
+            size=grounding_size(knowledge).times(following + 1),
+        )
+        self._literals = {str(own.symbol): own.literal for own in self.control.atoms}
         self.actions = [n for n, p in knowledge.signature.predicates.items() if p.kind.is_action]
-        self.guarded = [own for own in knowledge.axioms if f"used({own.identifier})" in text]
+        self.guarded = [
+            own for own in knowledge.axioms if f"used({own.identifier})" in self._literals
+        ]
 
     def find(
         self,
@@ -124,10 +127,7 @@ class TransitionProbe:
         for own in self.guarded:
             literal = self._literals[f"used({own.identifier})"]
             assumed.append(-literal if own.identifier in dropped else literal)
-        found: list[list[clingo.Symbol]] = []
-        self.control.solve(
-            assumed, on_model=lambda model: found.append(list(model.symbols(atoms=True)))
-        )
+        found = self.control.solve(assumed, on_model=lambda model: list(model.symbols(atoms=True)))
         return _read(found[-1]) if found else None
 
     def smallest_conflict(

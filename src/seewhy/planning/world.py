@@ -9,8 +9,10 @@ from collections.abc import Collection, Iterable
 
 import clingo
 
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import transition_rules
 from seewhy.knowledge.ground import complement_of
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 
 World = frozenset[clingo.Symbol]
@@ -42,10 +44,9 @@ class Transitions:
     """
 
     def __init__(self, knowledge: Knowledge) -> None:
-        self.control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-        self.control.add("base", [], "\n".join([*transition_rules(knowledge, last=1), _FREE]))
-        self.control.ground([("base", [])])
-        atoms = self.control.symbolic_atoms
+        text = "\n".join([*transition_rules(knowledge, last=1), _FREE])
+        self.control = BoundedControl(text, size=grounding_size(knowledge).times(2))
+        atoms = self.control.atoms
         self._holds: tuple[dict[clingo.Symbol, int], ...] = ({}, {})
         for atom in atoms.by_signature("holds", 2):
             if atom.literal and atom.symbol.arguments[1].type is clingo.SymbolType.Number:
@@ -90,7 +91,7 @@ class Transitions:
 
     def _satisfiable(self, assumed: list[int]) -> bool:
         idle = [-own for own in self._occurs.values()]
-        return bool(self.control.solve([*assumed, *idle]).satisfiable)
+        return self.control.satisfiable([*assumed, *idle])
 
     def _solve(
         self, assumed: list[int], *, step: int, happening: Collection[clingo.Symbol]
@@ -98,13 +99,10 @@ class Transitions:
         if any(own not in self._occurs for own in happening):
             return None
         occurs = [number if own in happening else -number for own, number in self._occurs.items()]
-        found: list[World] = []
 
-        def keep(model: clingo.Model) -> None:
+        def world(model: clingo.Model) -> World:
             is_true = model.is_true
-            found.append(
-                frozenset(own for own, number in self._holds[step].items() if is_true(number))
-            )
+            return frozenset(own for own, number in self._holds[step].items() if is_true(number))
 
-        self.control.solve([*assumed, *occurs], on_model=keep)
+        found = self.control.solve([*assumed, *occurs], on_model=world)
         return found[-1] if found else None

@@ -9,8 +9,10 @@ import clingo
 from clingo import ast
 
 from seewhy.knowledge.axiom import Axiom, Condition, Literal, substitute, variables_in
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import at_step, body_at, fixed_rules, rule
 from seewhy.knowledge.ground import key_of, literal_of
+from seewhy.knowledge.grounding_size import axioms_size, grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import variable_tuple
 
@@ -56,11 +58,11 @@ class Instances:
 
     def __init__(self, knowledge: Knowledge) -> None:
         self.knowledge = knowledge
-        control = _grounded("\n".join(fixed_rules(knowledge)))
+        control = BoundedControl("\n".join(fixed_rules(knowledge)), size=grounding_size(knowledge))
         fixed = [
             str(atom.symbol)
             for name, arity in (("sort", 2), ("holds", 1))
-            for atom in control.symbolic_atoms.by_signature(name, arity)
+            for atom in control.by_signature(name, arity)
         ]
         self._fixed = " ".join(f"{own}." for own in fixed)
 
@@ -82,13 +84,12 @@ class Instances:
             return []
         facts = self._facts(state)
         signature = self.knowledge.signature
-        found = _grounded(
-            f"{facts}\n{rule(f'applies({variable_tuple(own)})', body_at(own, signature, '0'))}"
+        found = BoundedControl(
+            f"{facts}\n{rule(f'applies({variable_tuple(own)})', body_at(own, signature, '0'))}",
+            size=axioms_size([own], signature),
         )
         bindings = sorted(
-            atom.symbol.arguments[0]
-            for atom in found.symbolic_atoms.by_signature("applies", 1)
-            if atom.is_fact
+            atom.symbol.arguments[0] for atom in found.by_signature("applies", 1) if atom.is_fact
         )
         return [self._applied(own, binding, facts) for binding in bindings]
 
@@ -135,17 +136,8 @@ class Instances:
                 if fluents and not fluents[0].startswith("not "):
                     rules.append(rule(f"counted({fluents[0]})", body))
         if rules:
-            found = _grounded("\n".join([facts, *rules]))
-            yield from sorted(
-                atom.symbol.arguments[0] for atom in found.symbolic_atoms.by_signature("counted", 1)
-            )
-
-
-def _grounded(text: str) -> clingo.Control:
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-    control.add("base", [], text)
-    control.ground([("base", [])])
-    return control
+            found = BoundedControl("\n".join([facts, *rules]), size=axioms_size([axiom], signature))
+            yield from sorted(atom.symbol.arguments[0] for atom in found.by_signature("counted", 1))
 
 
 def unified(axiom: Axiom, literal: Literal | None, symbol: clingo.Symbol) -> Axiom | None:

@@ -8,8 +8,10 @@ from dataclasses import dataclass
 import clingo
 
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Literal
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import at_step, constraints, fixed_rules, gives_way, of_kind, rule
 from seewhy.knowledge.ground import fluent_of
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.history import History, Occurrence
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind, Signature
@@ -110,11 +112,9 @@ def _effects(knowledge: Knowledge, doings: set[Occurrence]) -> dict[str, frozens
                 body = [f"brings(A__, {literal})", *_apart_from_fluents(axiom, signature)]
                 lines.append(rule(f"brings(A__, {axiom.head})", body))
     lines.append("#defined brings/2. #defined done/1.")
-    control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-    control.add("base", [], "\n".join(lines))
-    control.ground([("base", [])])
+    control = BoundedControl("\n".join(lines), size=grounding_size(knowledge))
     found: dict[str, set[clingo.Symbol]] = {own: set() for own in actions}
-    for atom in control.symbolic_atoms.by_signature("brings", 2):
+    for atom in control.by_signature("brings", 2):
         action, effect = atom.symbol.arguments
         found[str(action)].add(fluent_of(effect))
     return {own: frozenset(fluents) for own, fluents in found.items()}

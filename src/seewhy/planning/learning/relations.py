@@ -8,7 +8,9 @@ from itertools import product
 
 import clingo
 
+from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import fixed_rules
+from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind, Signature
 
@@ -102,17 +104,14 @@ class Facts:
     """
 
     def __init__(self, knowledge: Knowledge) -> None:
-        control = clingo.Control(["--warn=none"], logger=lambda *_: None)
-        control.add("base", [], "\n".join(fixed_rules(knowledge)))
-        control.ground([("base", [])])
-        atoms = control.symbolic_atoms
+        control = BoundedControl("\n".join(fixed_rules(knowledge)), size=grounding_size(knowledge))
         self._known: dict[str, set[tuple[str, ...]]] = {}
-        for atom in atoms.by_signature("holds", 1):
+        for atom in control.by_signature("holds", 1):
             literal = atom.symbol.arguments[0]
             if literal.positive:
                 own = self._known.setdefault(literal.name, set())
                 own.add(tuple(map(str, literal.arguments)))
-        for atom in atoms.by_signature("sort", 2):
+        for atom in control.by_signature("sort", 2):
             sort, member = map(str, atom.symbol.arguments)
             self._known.setdefault(sort, set()).add((member,))
         self._parts: dict[tuple[str, tuple[int, ...]], set[tuple[str, ...]]] = {}

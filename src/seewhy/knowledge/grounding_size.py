@@ -1,0 +1,142 @@
+"""How large a program may become without variables, told from the sizes of its sorts."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from math import prod
+
+from clingo import ast
+
+from seewhy.knowledge.axiom import STRING, Axiom, variables_in
+from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.signature import Location, Predicate, Signature
+
+__all__ = ["GroundingSize", "axiom_instances", "axioms_size", "grounding_size"]
+
+_RANGE = re.compile(r"(-?\d+|[\w)])\s*\.\.\s*(-?\d+|[\w(])")
+_ANY_RANGE = 2**31  # a range between variables may be as long as numbers go
+_LARGEST = 10**18  # nothing depends on how much more it is
+
+
+@dataclass(frozen=True)
+class GroundingSize:
+    """A bound of what is grounded.
+
+    Attributes
+    ----------
+    instances : int
+        The instances of all axioms, fluents and actions.
+    largest : str
+        What has most of them, with its place, as errors begin.
+    """
+
+    instances: int = 0
+    largest: str = "the program"
+
+    def times(self, steps: int) -> GroundingSize:
+        """Return the size where all of it is there for every step, or scene."""
+        return GroundingSize(min(_LARGEST, self.instances * steps), self.largest)
+
+
+def grounding_size(knowledge: Knowledge) -> GroundingSize:
+    """Return how many instances the axioms, fluents and actions may have.
+
+    Every variable counts with all members of its smallest sort, whatever else is asked of it:
+    there are never more instances, and there may be far fewer.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> known = read_knowledge('''#sort n = 1..400. #static lt(n, n).
+    ... lt(A, B) if n(A), n(B), A < B.''')
+    >>> size = grounding_size(known)
+    >>> size.instances
+    160000
+    >>> size.largest
+    "knowledge.al:2:1: 'lt(A, B) if n(A), n(B), A < B.' has up to 160,000 instances"
+    """
+    signature = knowledge.signature
+    changing = [
+        own for own in signature.predicates.values() if own.kind.is_fluent or own.kind.is_action
+    ]
+    return _size(
+        [
+            *((_instances(own, signature), own.location, str(own)) for own in changing),
+            *_axioms(knowledge.axioms, signature),
+        ]
+    )
+
+
+def axioms_size(axioms: Iterable[Axiom], signature: Signature) -> GroundingSize:
+    """Return how many instances some axioms may have."""
+    return _size([*_axioms(axioms, signature)])
+
+
+def _axioms(axioms: Iterable[Axiom], signature: Signature) -> Iterator[tuple[int, Location, str]]:
+    for axiom in axioms:
+        yield axiom_instances(axiom, signature), axiom.location, str(axiom)
+
+
+def _size(parts: Sequence[tuple[int, Location, str]]) -> GroundingSize:
+    if not parts:
+        return GroundingSize()
+    most, place, what = max(parts, key=lambda part: part[0])
+    return GroundingSize(
+        min(_LARGEST, sum(count for count, _, _ in parts)),
+        f"{place}: '{what}' has up to {min(_LARGEST, most):,} instances",
+    )
+
+
+def _instances(predicate: Predicate, signature: Signature) -> int:
+    return prod(_members(sort, signature) for sort in predicate.sorts)
+
+
+def _members(sort: str, signature: Signature) -> int:
+    """The members of a sort; that of the picture has one, or a few in a batch."""
+    return len(signature.sorts[sort].members or "1")
+
+
+def axiom_instances(axiom: Axiom, signature: Signature) -> int:
+    """Return how many instances an axiom may have: those of its variables and ranges."""
+    domains: dict[str, int] = {}
+    texts = [str(axiom.action or ""), str(axiom.head), *(own.text for own in axiom.body)]
+    for text in filter(None, texts):
+        for name, arguments in _atoms(text):
+            sorts = (name,) if name in signature.sorts else signature.predicates[name].sorts
+            for argument, sort in zip(arguments, sorts, strict=True):
+                for variable in variables_in(argument):
+                    members = _members(sort, signature)
+                    domains[variable] = min(members, domains.get(variable, members))
+    ranges = [length for text in texts for length in _range_lengths(text)]
+    return min(_LARGEST, prod([*domains.values(), *ranges]))
+
+
+def _range_lengths(text: str) -> Iterator[int]:
+    for match in _RANGE.finditer(STRING.sub("", text)):
+        first, last = match.groups()
+        if all(end.lstrip("-").isdigit() for end in (first, last)):
+            yield max(1, int(last) - int(first) + 1)
+        else:
+            yield _ANY_RANGE
+
+
+@lru_cache(maxsize=4096)
+def _atoms(text: str) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """The atoms of a head or condition, those inside of aggregates included."""
+    found: list[ast.AST] = []
+    ast.parse_string(f":- {text}.", found.append)
+    atoms: list[tuple[str, tuple[str, ...]]] = []
+
+    class Collect(ast.Transformer):
+        def visit_SymbolicAtom(self, atom: ast.AST) -> ast.AST:  # noqa: N802
+            symbol = atom.symbol
+            while symbol.ast_type is ast.ASTType.UnaryOperation:
+                symbol = symbol.argument
+            atoms.append((symbol.name, tuple(map(str, symbol.arguments))))
+            return atom
+
+    Collect().visit(found[1])
+    return tuple(atoms)
