@@ -211,7 +211,8 @@ ERRORS = {
     ),
     "missing full stop after a declaration": (
         "#sort x\n#static q(x).",
-        f"1:1: {FORMS}'#sort x #static q(x).'",
+        "2:1: '#static' cannot stand inside of a statement; remove it, or end the statement before "
+        "it with a full stop",
     ),
     "full stop alone": (
         "raining..x",
@@ -331,7 +332,8 @@ ERRORS = {
     ),
     "theory atom": (
         "stable(S) if lean(S), &sum { 1 } > 2.",
-        "1:23: no definition found for theory atom: sum/0; remove it",
+        "1:23: '&sum { 1 } > 2' is no condition; write a literal, a comparison, or a count of "
+        "literals",
     ),
     "another directive": (
         "#const n = 3.",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
 from itertools import product
 from math import prod
 from typing import Any
@@ -17,11 +18,17 @@ from seewhy.dialogue.question import Questions
 from seewhy.domain import Domain
 from seewhy.errors import DatasetError, KnowledgeError
 from seewhy.evaluation import AxiomRecord, axiom_records
+from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.consistency import never_applies
+from seewhy.knowledge.grounding_size import grounding_size
+from seewhy.knowledge.odd_loop import OddLoops
 from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
 
 MOST_VECTORS = 20_000
+MANY_INSTANCES = 5_000
+"""So many instances of axioms are said: grounding them takes a noticeable time."""
+_LOOKED_AT = 50  # feature vectors without an answer set, for the reasons why
 
 
 @dataclass(frozen=True)
@@ -63,18 +70,33 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
     answer_templates(domain)
     reasoner = Reasoner(domain.knowledge, domain.schema)
     vectors = feature_vectors(domain)
-    counted = Counter(decision.verdict.value for decision in reasoner.decide_all(vectors))
-    if counted[Verdict.NO_ANSWER_SET.value] == len(vectors):
-        raise KnowledgeError(
-            f"{domain.knowledge.file}: no picture has an answer set: some axiom needs, through "
-            "'not', that its own conclusion is not believed; look for 'p if not p'"
-        )
+    decisions = reasoner.decide_all(vectors)
+    counted = Counter(decision.verdict.value for decision in decisions)
+    without = [
+        own
+        for own, decision in zip(vectors, decisions, strict=True)
+        if decision.verdict is Verdict.NO_ANSWER_SET
+    ]
+    loops = _odd_loops(domain, without)
+    if loops and len(without) == len(vectors):
+        raise KnowledgeError(f"{_said_odd(loops[0])}, so that no picture has an answer set")
     if domain.source is not None:
         check_source(domain)
     warnings = [
-        f"{axiom.location}: no feature vector satisfies the conditions of '{axiom}'"
-        for axiom in never_applies(domain.knowledge, domain.schema)
+        f"{_said_odd(loop)}, so that {len(without)} of {len(vectors)} feature vectors have no "
+        "answer set"
+        for loop in loops
     ]
+    # Where there is no answer set, no axiom applies; that is for the loop to answer for.
+    apart = {own.identifier for loop in loops for own in loop}
+    sound = tuple(own for own in domain.knowledge.axioms if own.identifier not in apart)
+    warnings += [
+        f"{axiom.location}: no feature vector satisfies the conditions of '{axiom}'"
+        for axiom in never_applies(replace(domain.knowledge, axioms=sound), domain.schema)
+    ]
+    size = grounding_size(domain.knowledge)
+    if size.instances >= MANY_INSTANCES:
+        warnings.append(f"{size.largest}; every question waits for them")
     covered = {q.feature for q in questions.all if q.feature}
     warnings += [
         f"no question asks about the feature '{key}'"
@@ -110,6 +132,29 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
             "decided_rightly": float(np.mean(decided)) if decided else 0.0,
         }
     )
+
+
+def _odd_loops(domain: Domain, vectors: Sequence[FeatureVector]) -> list[tuple[Axiom, ...]]:
+    """The odd loops behind feature vectors without an answer set, each once."""
+    if not vectors:
+        return []
+    loops = OddLoops(domain.knowledge, domain.schema)
+    found: dict[tuple[str, ...], tuple[Axiom, ...]] = {}
+    for vector in vectors[:_LOOKED_AT]:
+        loop = loops.of(vector)
+        found.setdefault(tuple(own.identifier for own in loop), loop)
+    return list(found.values())
+
+
+def _said_odd(loop: Sequence[Axiom]) -> str:
+    """An odd loop in words, with the place of its first axiom."""
+    (first, *others) = loop
+    also = "".join(f" and '{own}' (line {own.location.line})" for own in others)
+    if not others:
+        needs = "needs, through 'not', that its own conclusion is not believed"
+    else:
+        needs = "need, through 'not', that what they conclude is not believed"
+    return f"{first.location}: '{first}'{also} {needs}"
 
 
 def feature_vectors(domain: Domain, *, most: int = MOST_VECTORS) -> list[FeatureVector]:

@@ -64,6 +64,7 @@ app.command("experiment")(experiment.experiment)
 def main() -> None:
     """Run a command; errors that are the user's to mend end with one sentence and code 2."""
     from seewhy.errors import SeeWhyError
+    from seewhy.knowledge.abandoned import still_working
 
     # PyTorch's modules last until the end. Looking for garbage among them then takes ten times
     # as long as an answer.
@@ -78,10 +79,10 @@ def main() -> None:
         sys.stdout.flush()
     except SeeWhyError as problem:
         complain(str(problem))
-        sys.exit(2)
+        code = 2
     except _UsageError as problem:
         _complain_of_usage(problem)
-        sys.exit(2)
+        code = 2
     except KeyboardInterrupt:
         code = _INTERRUPTED
     except BrokenPipeError:
@@ -91,10 +92,15 @@ def main() -> None:
     except OSError as problem:
         where = f"{problem.filename}: " if problem.filename else ""
         complain(f"{where}{problem.strerror or problem}; check the path, its rights and the disk")
-        sys.exit(2)
+        code = 2
     if code == _INTERRUPTED:
         complain("interrupted; what is finished is kept, the same command goes on from there")
-    sys.exit(code if isinstance(code, int) else 0)
+    status = code if isinstance(code, int) else 0
+    if still_working():
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+    sys.exit(status)
 
 
 def _require_output() -> None:

@@ -97,6 +97,18 @@ class Batch:
         schema, signature = self.schema, knowledge.signature
         yield from sort_facts(signature, schema, scenes=self.names)
         denied = _denied_features(knowledge, schema)
+
+        def of(literal: Literal, name: str) -> Literal:
+            """The literal about the scene, said of one of the copies."""
+            sorts = signature.predicates[literal.predicate].sorts
+            return replace(
+                literal,
+                arguments=tuple(
+                    name if sort == schema.scene else argument
+                    for argument, sort in zip(literal.arguments, sorts, strict=True)
+                ),
+            )
+
         for name in self.names:
             for feature, values in schema.features.items():
                 choices = "; ".join(
@@ -105,11 +117,11 @@ class Batch:
                 yield f"1 {{ {choices} }} 1."
                 for value, literal in values.items():
                     seen = f"observed({name}, {feature}, {value})"
-                    yield f"holds({self._of(literal, name)}) :- {seen}."
+                    yield f"holds({of(literal, name)}) :- {seen}."
                     if feature in denied:
                         for other, own in values.items():
                             if other != value:
-                                yield f"holds({self._of(own.complement, name)}) :- {seen}."
+                                yield f"holds({of(own.complement, name)}) :- {seen}."
         for axiom in knowledge.axioms:
             yield from axiom_rules(axiom, signature)
         yield from self._conflicts(signature)
@@ -117,7 +129,7 @@ class Batch:
         width = len(self.classes) + 1
         for scene, name in enumerate(self.names):
             for position, literal in enumerate(schema.classes.values()):
-                yield f"#show {scene * width + position} : holds({self._of(literal, name)})."
+                yield f"#show {scene * width + position} : holds({of(literal, name)})."
             yield f"#show {scene * width + width - 1} : conflict({name})."
 
     def _conflicts(self, signature: Signature) -> Iterator[str]:
@@ -131,12 +143,6 @@ class Batch:
                 f"conflict({own}) :- holds({predicate.name}{inside}), "
                 f"holds(-{predicate.name}{inside}){guard}."
             )
-
-    def _of(self, literal: Literal, name: str) -> Literal:
-        return replace(
-            literal,
-            arguments=tuple(name if a == self.schema.scene else a for a in literal.arguments),
-        )
 
 
 def speaks_of_one_scene(knowledge: Knowledge, schema: SceneSchema) -> bool:

@@ -21,10 +21,11 @@ import clingo
 
 from seewhy.errors import ReasoningError
 from seewhy.knowledge import ground_process
+from seewhy.knowledge.abandoned import abandon
 from seewhy.knowledge.ground_process import Request
 from seewhy.knowledge.grounding_size import GroundingSize
 
-__all__ = ["BoundedControl", "OutOfTimeError", "still_working"]
+__all__ = ["BoundedControl", "OutOfTimeError"]
 
 SMALL = 500_000
 """So many instances are grounded within about a second, and need no process of their own."""
@@ -45,15 +46,6 @@ _REMEDY = "give its sorts fewer members, or write it with fewer variables"
 
 _Result = TypeVar("_Result")
 _Read = TypeVar("_Read")
-_working: set[threading.Thread] = set()
-
-
-def still_working() -> bool:
-    """Whether a call of clingo that was given up goes on in a thread.
-
-    A process that then ends the usual way ends while clingo works, and crashes.
-    """
-    return any(thread.is_alive() for thread in tuple(_working))
 
 
 class OutOfTimeError(ReasoningError):
@@ -262,7 +254,7 @@ class BoundedControl:
                 self._control.interrupt()
                 if not done.wait(_GRACE):
                     self._abandoned = thread
-                    _working.add(thread)
+                    abandon(thread)
         (result,) = outcome
         if isinstance(result, BaseException):
             raise result

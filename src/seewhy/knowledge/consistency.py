@@ -6,18 +6,23 @@ import clingo
 
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Axiom, AxiomKind
-from seewhy.knowledge.grounding import Grounding
+from seewhy.knowledge.ground import key_of
+from seewhy.knowledge.grounding import Grounding, Search
 from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import program_text
-from seewhy.knowledge.scene import SceneSchema
+from seewhy.knowledge.scene import FeatureVector, SceneSchema
+
+_SCENES = 1_000
+"""The scenes that are looked at for one that an exception makes consistent."""
 
 
 def check_consistency(knowledge: Knowledge, schema: SceneSchema) -> None:
     """Refuse axioms that contradict others on every scene that they apply to.
 
     Axioms that contradict each other on some scenes only are knowledge that is incomplete: those
-    scenes are left undecided. An axiom that never applies without a contradiction is a mistake.
+    scenes are left undecided. An axiom that never applies without a contradiction is a mistake,
+    unless the contradiction is one that a default gives way to.
 
     Raises
     ------
@@ -28,7 +33,7 @@ def check_consistency(knowledge: Knowledge, schema: SceneSchema) -> None:
     for axiom in knowledge.axioms:
         if axiom.kind is AxiomKind.DEFAULT or not probe.can_fire(axiom, strict=False):
             continue
-        if not probe.can_fire(axiom, strict=True):
+        if not probe.can_fire(axiom, strict=True) and not probe.overrules(axiom):
             other = probe.opponent(axiom)
             against = (
                 f"the axiom in line {other.location.line} ('{other}') concludes the opposite"
@@ -61,36 +66,69 @@ class _Probe:
 
     def __init__(self, knowledge: Knowledge, schema: SceneSchema, *, also: str = "") -> None:
         self.knowledge = knowledge
+        self.schema = schema
         text = program_text(knowledge, schema, exceptions=True, firings=True)
         self.grounding = Grounding(
             text + also + "used(I) :- fires(I, V).\n", schema, size=grounding_size(knowledge)
         )
-        self.used = self.grounding.with_predicate("used")
-        self.exceptions = self.grounding.with_predicate("exception")
+        self.used = self.grounding.with_predicate("used", 1)
+        self.exceptions = self.grounding.with_predicate("exception", 2)
 
     def can_fire(self, axiom: Axiom, *, strict: bool) -> bool:
-        return self._model(axiom, strict=strict) is not None
+        """Whether an axiom's conditions hold in some answer set; ``strict``: a consistent one."""
+        assumed = self._assumed(axiom, strict=strict)
+        return assumed is not None and self.grounding.satisfiable(assumed)
 
-    def _model(self, axiom: Axiom, *, strict: bool) -> list[clingo.Symbol] | None:
+    def overrules(self, axiom: Axiom) -> bool:
+        """Whether an axiom that contradicts others can be heeded by giving up a default.
+
+        So it is where its conditions hold in some scene that is consistent with an exception.
+        Where more scenes would have to be looked at than are worth it, it counts as such.
+        """
+        assumed = self._assumed(axiom, strict=False)
+        if not self.exceptions or assumed is None:
+            return False
+        found = self.grounding.solve(assumed, Search(models=_SCENES), on_model=self._scene)
+        scenes = dict.fromkeys(found)
+        return len(found) == _SCENES or any(
+            self.grounding.satisfiable([*self.grounding.assume(scene), self.grounding.strict])
+            for scene in scenes
+        )
+
+    def _scene(self, model: clingo.Model) -> FeatureVector:
+        return tuple(
+            next(
+                value
+                for value in (None, *values)
+                if model.is_true(self.grounding.observed(feature, value))
+            )
+            for feature, values in self.schema.features.items()
+        )
+
+    def _assumed(self, axiom: Axiom, *, strict: bool) -> list[int] | None:
         literal = self.used.get(clingo.Function("used", [clingo.Function(axiom.identifier)]))
         if literal is None:
             return None
         if strict:  # what is consistent once a default is given up can be used
-            return self.grounding.first_model([literal, self.grounding.strict])
-        none = [-exception for exception in self.exceptions.values()]
-        return self.grounding.first_model([literal, -self.grounding.strict, *none])
+            return [literal, self.grounding.strict]
+        return [
+            literal,
+            -self.grounding.strict,
+            *(-exception for exception in self.exceptions.values()),
+        ]
 
     def opponent(self, axiom: Axiom) -> Axiom | None:
         """An axiom that fires with this one and concludes the opposite."""
         concluded: dict[str, set[str]] = {own.identifier: set() for own in self.knowledge.axioms}
         denied: set[str] = set()
         axioms = {own.identifier: own for own in self.knowledge.axioms}
-        for symbol in self._model(axiom, strict=False) or []:
+        assumed = self._assumed(axiom, strict=False) or []
+        for symbol in self.grounding.first_model(assumed) or []:
             if symbol.name == "fires":
-                own = axioms[symbol.arguments[0].name]
+                other = axioms[symbol.arguments[0].name]
                 values = map(str, symbol.arguments[1].arguments)
-                head = own.head.substitute(dict(zip(own.variables, values, strict=True)))
-                concluded[own.identifier].add(str(clingo.parse_term(str(head))))
-                if own is axiom:
-                    denied.add(str(clingo.parse_term(str(head.complement))))
+                head = other.head.substitute(dict(zip(other.variables, values, strict=True)))
+                concluded[other.identifier].add(key_of(head))
+                if other is axiom:
+                    denied.add(key_of(head.complement))
         return next((axioms[name] for name, heads in concluded.items() if heads & denied), None)

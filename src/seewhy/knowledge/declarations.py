@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import clingo
 
 from seewhy.errors import KnowledgeError
+from seewhy.knowledge.axiom import STRING
 from seewhy.knowledge.signature import Location, Predicate, PredicateKind, Sort
 from seewhy.knowledge.statements import Statement, one_line
 from seewhy.nearest import did_you_mean
 
 _NAME = r"_*[a-z][A-Za-z0-9_]*"
+_NAMES = re.compile(_NAME)
 _SORT = re.compile(rf"#sort\s+({_NAME})\s*(?:=\s*(\S.*))?$", re.DOTALL)
 _UNION = re.compile(rf"{_NAME}(?:\s*\+\s*{_NAME})*$")
 _RANGE = re.compile(r"(-?\d+)\s*\.\.\s*(-?\d+)$")
@@ -26,6 +28,8 @@ _KINDS = {
 }
 _DIRECTIVES = ("#sort", "#static", "#fluent", "#action")
 _MOST_MEMBERS = 10_000
+_WORDS = ("not", "if", "causes")
+_FIRST_WORDS = ("default", "impossible")
 
 
 class Declarations:
@@ -46,10 +50,16 @@ class Declarations:
         word = statement.text.split()[0]
         if word == "#sort":
             sort = _read_sort(statement, self.sorts)
+            _refuse_reserved(sort.name, "sort", (*_WORDS, *_FIRST_WORDS), statement)
+            for name in sorted(set().union(*map(_names_in, sort.members or ()))):
+                _refuse_reserved(name, f"member of sort '{sort.name}'", _WORDS, statement)
             self._refuse_second(sort.name, sort.location)
             self.sorts[sort.name] = sort
         elif word in _DIRECTIVES:
             predicate = _read_predicate(statement, self.sorts)
+            _refuse_reserved(
+                predicate.name, predicate.kind.value, (*_WORDS, *_FIRST_WORDS), statement
+            )
             self._refuse_second(predicate.name, predicate.location)
             self.predicates[predicate.name] = predicate
         else:
@@ -65,6 +75,25 @@ class Declarations:
                 f"{location}: '{name}' is declared a second time (first at "
                 f"{known[name].location}); remove one of the two or rename it"
             )
+
+
+def _refuse_reserved(name: str, what: str, words: Iterable[str], statement: Statement) -> None:
+    """Refuse the language's own words, and names such as the programs give to what they add."""
+    if name in words:
+        raise KnowledgeError(
+            f"{statement.location}: '{name}' is a word of the language and cannot be the name of "
+            f"a {what}; call it otherwise, '{name}_it' for instance"
+        )
+    if name.endswith("__"):
+        raise KnowledgeError(
+            f"{statement.location}: '{name}' is no name of a {what}: names that end in '__' are "
+            f"kept for what is added to the knowledge; call it '{name.rstrip('_')}'"
+        )
+
+
+def _names_in(member: str) -> set[str]:
+    """The names that a term is made of, those in texts left out."""
+    return set(_NAMES.findall(STRING.sub("", member)))
 
 
 def _read_sort(statement: Statement, sorts: Mapping[str, Sort]) -> Sort:
@@ -103,8 +132,7 @@ def _read_sort(statement: Statement, sorts: Mapping[str, Sort]) -> Sort:
 
 
 def _read_range(first: str, last: str, name: str, statement: Statement) -> tuple[str, ...]:
-    # Nothing reads numbers of more than nine digits: clingo's have 32 bits.
-    if max(len(first), len(last)) > 10 or int(last) - int(first) >= _MOST_MEMBERS:
+    if int(last) - int(first) >= _MOST_MEMBERS:
         raise KnowledgeError(
             f"{statement.location}: sort '{name}' would have more than {_MOST_MEMBERS} members "
             f"({first}..{last}); axioms are tried with each of them, give a smaller range"

@@ -10,6 +10,7 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.language import read_literal
 from seewhy.knowledge.signature import Location, Predicate, Signature
+from seewhy.knowledge.statements import NumberError
 from seewhy.nearest import did_you_mean
 
 Kind = OneOf["fluent", "action"]
@@ -37,6 +38,8 @@ def read_ground_literal(
     start = f"{place}: " if place else ""
     try:
         literal = read_literal(text.strip())
+    except NumberError as problem:
+        raise NumberError(f"{start}{problem}") from None
     except KnowledgeError:
         raise KnowledgeError(
             f"{start}'{text.strip()}' is no {of}; write one such as {_example(signature, of)}"

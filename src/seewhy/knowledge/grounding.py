@@ -8,6 +8,7 @@ from typing import NamedTuple, TypeVar
 import clingo
 
 from seewhy.knowledge.bounded_control import BoundedControl
+from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.grounding_size import GroundingSize
 from seewhy.knowledge.program import UNKNOWN
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
@@ -51,22 +52,35 @@ class Grounding:
         self.schema = schema
         self._control = BoundedControl(program, size=size, arguments=arguments)
         self._search: Search | None = None
-        # An atom that turned out to have no rule is listed still, with the literal 0.
-        self._literals = {str(a.symbol): a.literal for a in self._control.atoms if a.literal}
-        self._predicates: dict[str, dict[clingo.Symbol, int]] = {}
+        self._predicates: dict[tuple[str, int], dict[clingo.Symbol, int]] = {}
         self._observed = tuple(
             {
-                None: self._literals[f"observed({feature},{UNKNOWN})"],
-                **{v: self._literals[f"observed({feature},{v})"] for v in literals},
+                value: self._needed(f"observed({feature}, {UNKNOWN if value is None else value})")
+                for value in (None, *literals)
             }
             for feature, literals in schema.features.items()
         )
-        self.strict = self._literals["strict"]
+        self.strict = self._needed("strict")
         self.classes = tuple(
-            (name, self._literals[atom])
+            (name, number)
             for name, literal in schema.classes.items()
-            if (atom := f"holds({literal})".replace(", ", ",")) in self._literals
+            if (number := self.literal(f"holds({key_of(literal)})")) is not None
         )
+
+    def observed(self, feature: str, value: str | None) -> int:
+        """Return the solver literal that says what value of a feature was seen."""
+        return self._observed[list(self.schema.features).index(feature)][value]
+
+    def literal(self, atom: str) -> int | None:
+        """Return the solver literal of an atom; None where it can never hold."""
+        # An atom that turned out to have no rule is listed still, with the literal 0.
+        found = self._control.atoms[clingo.parse_term(atom)]
+        return found.literal or None if found is not None else None
+
+    def _needed(self, atom: str) -> int:
+        found = self.literal(atom)
+        assert found is not None, f"the program has no {atom}"
+        return found
 
     def assume(self, vector: FeatureVector) -> list[int]:
         """Return the solver literals that say what the features of a scene are.
@@ -100,15 +114,19 @@ class Grounding:
                 self._search = search
             return self._control.solve(assumptions, on_model=on_model)
 
-    def with_predicate(self, name: str) -> dict[clingo.Symbol, int]:
+    def with_predicate(self, name: str, arity: int) -> dict[clingo.Symbol, int]:
         """Return the atoms of a predicate with their solver literals."""
-        if name not in self._predicates:
-            self._predicates[name] = {
+        if (name, arity) not in self._predicates:
+            self._predicates[name, arity] = {
                 atom.symbol: atom.literal
-                for atom in self._control.atoms
-                if atom.literal and atom.symbol.name == name and atom.symbol.arguments
+                for atom in self._control.by_signature(name, arity)
+                if atom.literal
             }
-        return self._predicates[name]
+        return self._predicates[name, arity]
+
+    def satisfiable(self, assumptions: Iterable[int]) -> bool:
+        """Whether there is an answer set."""
+        return bool(self.solve(assumptions, FIRST, on_model=lambda _: True))
 
     def first_model(self, assumptions: Iterable[int]) -> list[clingo.Symbol] | None:
         """Return the true atoms of the first answer set found, or None if there is none."""

@@ -14,7 +14,7 @@ from seewhy.knowledge.axiom import STRING, Axiom, variables_in
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Location, Predicate, Signature
 
-__all__ = ["GroundingSize", "axiom_instances", "axioms_size", "grounding_size"]
+__all__ = ["GroundingSize", "axiom_instances", "axioms_size", "grounding_size", "range_instances"]
 
 _RANGE = re.compile(r"(-?\d+|[\w)])\s*\.\.\s*(-?\d+|[\w(])")
 _ANY_RANGE = 2**31  # a range between variables may be as long as numbers go
@@ -110,17 +110,25 @@ def axiom_instances(axiom: Axiom, signature: Signature) -> int:
                 for variable in variables_in(argument):
                     members = _members(sort, signature)
                     domains[variable] = min(members, domains.get(variable, members))
-    ranges = [length for text in texts for length in _range_lengths(text)]
-    return min(_LARGEST, prod([*domains.values(), *ranges]))
+    return min(_LARGEST, prod([*domains.values(), *map(range_instances, texts)]))
 
 
-def _range_lengths(text: str) -> Iterator[int]:
+def range_instances(text: str) -> int:
+    """Return how many instances a term or condition has for its ranges.
+
+    Examples
+    --------
+    >>> range_instances("on(1..3, 1..4)")
+    12
+    """
+    instances = 1
     for match in _RANGE.finditer(STRING.sub("", text)):
         first, last = match.groups()
-        if all(end.lstrip("-").isdigit() for end in (first, last)):
-            yield max(1, int(last) - int(first) + 1)
+        if all(end.lstrip("-").isdecimal() for end in (first, last)):
+            instances *= max(1, int(last) - int(first) + 1)
         else:
-            yield _ANY_RANGE
+            instances *= _ANY_RANGE
+    return instances
 
 
 @lru_cache(maxsize=4096)

@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import clingo
 from clingo import ast
@@ -19,8 +20,9 @@ from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal
 from seewhy.knowledge.axiom_kinds import check_kinds
 from seewhy.knowledge.declarations import Declarations
+from seewhy.knowledge.number_range import check_numbers
 from seewhy.knowledge.signature import Signature, Sort
-from seewhy.knowledge.statements import Statement, one_line, statements
+from seewhy.knowledge.statements import NumberError, Statement, one_line, statements
 from seewhy.nearest import did_you_mean
 
 _WORD = re.compile(r"\"(?:[^\"\\]|\\.)*\"|[A-Za-z0-9_']+")
@@ -29,6 +31,7 @@ _FIRST_WORDS = {
     "default": AxiomKind.DEFAULT,
     "impossible": AxiomKind.EXECUTABILITY_CONDITION,
 }
+_HERE = re.compile(r"^:\d+:\d+: ")
 _UNSAFE = re.compile(r":(\d+):(\d+)(?:-[\d:]+)?: note: '(\S+)' is unsafe")
 
 
@@ -156,11 +159,19 @@ def read_axioms(
 def _read_axioms(
     rules: Sequence[Statement], signature: Signature, *, letter: str
 ) -> tuple[Axiom, ...]:
-    parsed = [(statement, *_parse_rule(statement)) for statement in rules]
-    axioms = tuple(
-        _read_axiom(statement, kind, rule, signature, f"{letter}{number}")
-        for number, (statement, kind, rule) in enumerate(parsed, start=1)
-    )
+    parsed: list[tuple[Statement, AxiomKind, ast.AST]] = []
+    read: list[Axiom] = []
+    for number, statement in enumerate(rules, start=1):
+        try:
+            kind, rule = _parse_rule(statement)
+            read.append(_read_axiom(statement, kind, rule, signature, f"{letter}{number}"))
+        except RecursionError:
+            raise KnowledgeError(
+                f"{statement.location}: the statement that begins here is nested too deeply; "
+                "write it as several"
+            ) from None
+        parsed.append((statement, kind, rule))
+    axioms = tuple(read)
     _check_safety(
         [
             (
@@ -195,7 +206,11 @@ def read_literal(text: str) -> Literal:
     found: list[ast.AST] = []
     try:
         (statement,) = statements(f"{text}.", file="")
+        if statement.text.startswith("#"):
+            raise ValueError(text)
         ast.parse_string(f"{statement.text}.", found.append, logger=lambda *_: None)
+    except NumberError as problem:
+        raise NumberError(_HERE.sub("", str(problem))) from None
     except (RuntimeError, ValueError):
         found = []
     rules = [node for node in found if node.ast_type is ast.ASTType.Rule]
@@ -217,6 +232,11 @@ def _parse_rule(statement: Statement) -> tuple[AxiomKind, ast.AST]:
     if words and words[0].group() in _FIRST_WORDS:
         kind = _FIRST_WORDS[words[0].group()]
         text = " " * words[0].end() + text[words[0].end() :]
+        if text.lstrip().startswith("#"):
+            raise KnowledgeError(
+                f"{location}: found '{statement.line}', expected a literal after "
+                f"'{words[0].group()}'"
+            )
     causes = [word for word in words if word.group() == "causes"]
     if len(causes) > 1 or (causes and kind is not AxiomKind.STATE_CONSTRAINT):
         other = "causes" if len(causes) > 1 else words[0].group()
@@ -280,7 +300,14 @@ def _read_axiom(
     variable_sorts: dict[str, Sort] = {}
     for atom in _atoms(rule):
         _check_atom(atom, signature, statement, variable_sorts)
-    body = tuple(_read_condition(element) for element in rule.body)
+    for variable in sorted({own.name for own in _nodes(rule, ast.ASTType.Variable)}):
+        if variable.endswith("__"):
+            raise KnowledgeError(
+                f"{statement.location}: '{variable}' is no variable: names that end in '__' are "
+                f"kept for what is added to the knowledge; call it '{variable.rstrip('_')}'"
+            )
+    check_numbers(rule, variable_sorts, statement)
+    body = tuple(_read_condition(element, statement) for element in rule.body)
     axiom = Axiom(
         identifier=identifier,
         kind=kind,
@@ -327,7 +354,23 @@ def _action_and_head(
     return head, head.complement
 
 
-def _read_condition(element: ast.AST) -> Condition:
+_CONDITIONS = (
+    ast.ASTType.SymbolicAtom,
+    ast.ASTType.Comparison,
+    ast.ASTType.BooleanConstant,
+    ast.ASTType.BodyAggregate,
+    ast.ASTType.Aggregate,
+)
+
+
+def _read_condition(element: ast.AST, statement: Statement) -> Condition:
+    inner = element.literal if element.ast_type is ast.ASTType.ConditionalLiteral else element
+    if inner.ast_type is not ast.ASTType.Literal or inner.atom.ast_type not in _CONDITIONS:
+        begin = element.location.begin
+        raise KnowledgeError(
+            f"{statement.place(begin.line, begin.column)}: '{element}' is no condition; write a "
+            "literal, a comparison, or a count of literals"
+        )
     if element.ast_type is not ast.ASTType.Literal:
         return Condition(text=str(element))
     text = _spaced(element)
@@ -358,17 +401,7 @@ def _single(node: ast.AST) -> Literal | None:
     head = _literal_of(node)
     if head is None or node.sign != ast.Sign.NoSign:
         return None
-    several: list[ast.AST] = []
-
-    class Find(ast.Transformer):
-        def visit_Interval(self, term: ast.AST) -> ast.AST:  # noqa: N802
-            several.append(term)
-            return term
-
-        visit_Pool = visit_Interval  # noqa: N815
-
-    Find().visit(node)
-    return None if several else head
+    return None if _nodes(node, ast.ASTType.Interval, ast.ASTType.Pool) else head
 
 
 def _literal_of(node: ast.AST) -> Literal | None:
@@ -388,17 +421,23 @@ def _literal_of(node: ast.AST) -> Literal | None:
     )
 
 
-def _atoms(node: ast.AST) -> Iterator[ast.AST]:
-    """All symbolic atoms of a rule, those inside aggregates included."""
+def _atoms(node: ast.AST) -> list[ast.AST]:
+    return _nodes(node, ast.ASTType.SymbolicAtom)
+
+
+def _nodes(node: ast.AST, *kinds: ast.ASTType) -> list[ast.AST]:
+    """The nodes of some kinds, those inside of such left out, in the order of the text."""
     found: list[ast.AST] = []
 
     class Collect(ast.Transformer):
-        def visit_SymbolicAtom(self, atom: ast.AST) -> ast.AST:  # noqa: N802
-            found.append(atom)
-            return atom
+        def visit(self, ast: ast.AST, *args: Any, **kwargs: Any) -> Any:
+            if ast.ast_type in kinds:
+                found.append(ast)
+                return ast
+            return super().visit(ast, *args, **kwargs)
 
     Collect().visit(node)
-    yield from found
+    return found
 
 
 def _body_atoms(rule: ast.AST) -> Iterator[ast.AST]:

@@ -196,7 +196,7 @@ class Reasoner:
     def _believed_with_exceptions(self, vector: FeatureVector) -> tuple[str, ...] | None:
         """Return the classes believed under every minimal set of exceptions."""
         explaining = self._explaining
-        atoms = explaining.with_predicate("exception")
+        atoms = explaining.with_predicate("exception", 2)
         believed: set[str] | None = None
         for chosen in self.minimal_exceptions(vector):
             fixed = [literal if s in chosen else -literal for s, literal in atoms.items()]
@@ -250,7 +250,7 @@ class Reasoner:
 
     def _first_answer_set(self, vector: FeatureVector) -> AnswerSet | None:
         explaining = self._explaining
-        exceptions = explaining.with_predicate("exception")
+        exceptions = explaining.with_predicate("exception", 2)
         none = [-literal for literal in exceptions.values()]
         assumed = explaining.assume(vector)
         trials = [[*assumed, explaining.strict, *none]]

@@ -10,7 +10,18 @@ from dataclasses import dataclass
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.signature import Location
 
+LARGEST = 2**31 - 1
+"""The largest number that there is, as clingo counts; the least is its opposite."""
+
 _BLANK_LINE = re.compile(r"[^\S\n]*(?:\n|$)")
+_NUMBER = re.compile(r"0[xX][0-9a-fA-F]+|0[oO][0-7]+|0[bB][01]+|[0-9]+")
+_DIRECTIVE = re.compile(r"#[A-Za-z_]\w*")
+_FUNCTIONS = ("#count", "#sum", "#min", "#max", "#true", "#false", "#inf", "#sup")
+"""What may begin with # inside of a statement; all else is clingo's own, and reads files."""
+
+
+class NumberError(KnowledgeError):
+    """A number is larger than numbers can be."""
 
 
 @dataclass(frozen=True)
@@ -125,7 +136,13 @@ class _Scan:
                 return Statement(
                     text="".join(text).lstrip(), sentence=" ".join(sentences), location=start
                 )
+            elif number := self.number():
+                _refuse_large(number, here)
+                start = start or here
+                text.append(self.take(len(number)))
             else:
+                if start is not None:
+                    self.refuse_directive(here)
                 character = self.take()
                 if character.isspace():
                     if (
@@ -145,6 +162,26 @@ class _Scan:
                 f"{start}: the statement that begins here does not end; add a full stop after it"
             )
         return None
+
+    def number(self) -> str | None:
+        """The number that stands here; what goes on a name is none."""
+        before = self.source[self.at - 1] if self.at else " "
+        found = _NUMBER.match(self.source, self.at)
+        if found is None or before.isalnum() or before in "_'":
+            return None
+        return found.group()
+
+    def refuse_directive(self, here: Location) -> None:
+        """Refuse what clingo would take for orders to itself."""
+        if found := _DIRECTIVE.match(self.source, self.at):
+            word = found.group()
+            if word not in _FUNCTIONS:
+                raise KnowledgeError(
+                    f"{here}: '{word}' cannot stand inside of a statement; remove it, or end the "
+                    "statement before it with a full stop"
+                )
+        elif self.looking_at("@"):
+            raise KnowledgeError(f"{here}: found '@'; knowledge runs no functions, remove it")
 
     def rest_of_line(self) -> str:
         end = self.source.find("\n", self.at)
@@ -167,6 +204,17 @@ class _Scan:
         if "\0" in self.source[self.at : at]:
             raise KnowledgeError(f"{start}: the text that begins here holds U+0000; remove it")
         return self.take(at + 1 - self.at)
+
+
+def _refuse_large(number: str, here: Location) -> None:
+    """Refuse a number that clingo would read as another one."""
+    # Longer ones need not be read, which takes long for thousands of digits.
+    plain = number.isdecimal()
+    if (len(number) > 40 and number.strip("0")) or int(number, 10 if plain else 0) > LARGEST:
+        shown = number if len(number) <= 40 else f"{number[:20]}…"
+        raise NumberError(
+            f"{here}: the number {shown} is too large; numbers go from -{LARGEST} to {LARGEST}"
+        )
 
 
 def _refuse_character(character: str, here: Location) -> None:

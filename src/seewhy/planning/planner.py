@@ -47,25 +47,27 @@ _EXPANSIONS = 20_000
 """The states that are looked at before answer sets take over: a second or two."""
 _OPEN_EXPANSIONS = 2_000
 """The same where not all is known, and no bound says which states are near to the goal."""
+_NOW = "now__"
+"""The parameter that stands for a step: clingo puts the step for every constant of its name."""
 _STEP_RULES = """
-#program state(t).
-at(t, t). at(t, always).
-holds(-F, t) :- fluent(defined, F), changes(F), not holds(F, t).
-:- holds(F, t), holds(-F, t), changes(F).
-above(F, t) :- next(E, F), holds(E, t).
-above(F, t) :- next(E, F), above(E, t).
-below(E, t) :- next(E, F), holds(F, t).
-below(E, t) :- next(E, F), below(F, t).
-holds(-F, t) :- above(F, t).
-holds(-F, t) :- below(F, t).
-#program step(t).
-1 { occurs(A, t-1) : can(A) } 1.
-holds(F, t) :- holds(F, t-1), inert(F), not holds(-F, t).
-holds(-F, t) :- holds(-F, t-1), inert(F), not holds(F, t).
-:- occurs(A, t-1), restricted(A, G), not holds(F, t-1) : allowed(A, G, F).
-:- occurs(A, t-1), needs(A, L), not holds(L, t-1).
-#program check(t).
-#external query(t).
+#program state(now__).
+at(now__, now__). at(now__, always).
+holds(-F, now__) :- fluent(defined, F), changes(F), not holds(F, now__).
+:- holds(F, now__), holds(-F, now__), changes(F).
+above(F, now__) :- next(E, F), holds(E, now__).
+above(F, now__) :- next(E, F), above(E, now__).
+below(E, now__) :- next(E, F), holds(F, now__).
+below(E, now__) :- next(E, F), below(F, now__).
+holds(-F, now__) :- above(F, now__).
+holds(-F, now__) :- below(F, now__).
+#program step(now__).
+1 { occurs(A, now__-1) : can(A) } 1.
+holds(F, now__) :- holds(F, now__-1), inert(F), not holds(-F, now__).
+holds(-F, now__) :- holds(-F, now__-1), inert(F), not holds(F, now__).
+:- occurs(A, now__-1), restricted(A, G), not holds(F, now__-1) : allowed(A, G, F).
+:- occurs(A, now__-1), needs(A, L), not holds(L, now__-1).
+#program check(now__).
+#external query(now__).
 """
 
 
@@ -355,27 +357,27 @@ def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iter
     yield "#defined next/2. #defined restricted/2. #defined allowed/3. #defined needs/2."
     yield "#defined can/1. #defined changes/1. #defined inert/1. #defined holds/1."
     yield _STEP_RULES
-    yield f":- query(t), not holds({REACHED}, t), not holds({REACHED}, always)."
-    yield "#program state(t)."
-    yield " ".join(f"holds({own}, t)." for own in sorted(copied))
+    yield f":- query({_NOW}), not holds({REACHED}, {_NOW}), not holds({REACHED}, always)."
+    yield f"#program state({_NOW})."
+    yield " ".join(f"holds({own}, {_NOW})." for own in sorted(copied))
     for axiom in constraints(knowledge):
         if axiom.identifier not in excluded and not gives_way(axiom, signature):
             head = axiom.head
             changes = f"changes({head if head.positive else head.complement})"
-            yield rule(f"holds({head}, t)", [*body_at(axiom, signature, "t"), changes])
-    yield "#program step(t)."
+            yield rule(f"holds({head}, {_NOW})", [*body_at(axiom, signature, _NOW), changes])
+    yield f"#program step({_NOW})."
     for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
         yield rule(
-            f"holds({axiom.head}, t)",
+            f"holds({axiom.head}, {_NOW})",
             [
-                f"occurs({axiom.action}, t-1)",
-                *body_at(axiom, signature, "t-1"),
+                f"occurs({axiom.action}, {_NOW}-1)",
+                *body_at(axiom, signature, f"{_NOW}-1"),
             ],
         )
     for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION):
-        happens = [f"occurs({axiom.action}, t-1)"]
+        happens = [f"occurs({axiom.action}, {_NOW}-1)"]
         if not simplified(axiom, signature):
-            yield rule("", [*happens, *body_at(axiom, signature, "t-1")])
+            yield rule("", [*happens, *body_at(axiom, signature, f"{_NOW}-1")])
         else:
             fluents = [
                 own
@@ -383,4 +385,4 @@ def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iter
                 if own.literal and signature.kind(own.literal.predicate).is_fluent
             ]
             if len(fluents) == 2:
-                yield rule("", [*happens, *body_at(axiom, signature, "t-1", always=False)])
+                yield rule("", [*happens, *body_at(axiom, signature, f"{_NOW}-1", always=False)])

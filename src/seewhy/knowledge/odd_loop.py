@@ -1,0 +1,81 @@
+"""Axioms through which a literal needs, by ``not``, that it is not believed itself.
+
+Such an odd loop leaves no answer set, wherever its conditions hold.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import clingo
+
+from seewhy.knowledge.axiom import Axiom, Condition
+from seewhy.knowledge.grounding import Grounding
+from seewhy.knowledge.grounding_size import grounding_size
+from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.program import program_text
+from seewhy.knowledge.scene import FeatureVector, SceneSchema
+
+__all__ = ["OddLoops"]
+
+_KEPT = "kept__"
+
+
+class OddLoops:
+    """Finds the axioms by which a scene has no answer set, contradictions apart.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> from seewhy.knowledge.language import read_axioms
+    >>> domain = load_domain("structure_stability")
+    >>> odd = "stable(S) if base(S, narrow), not stable(S)."
+    >>> known = replace(domain.knowledge, axioms=read_axioms(odd, domain.knowledge.signature))
+    >>> loops = OddLoops(known, domain.schema)
+    >>> [str(own) for own in loops.of(domain.vector({"base": "narrow"}))]
+    ['stable(S) if base(S, narrow), not stable(S).']
+    >>> loops.of(domain.vector({"base": "wide"}))
+    ()
+    """
+
+    def __init__(self, knowledge: Knowledge, schema: SceneSchema) -> None:
+        self.axioms = knowledge.axioms
+        guarded = [replace(own, body=(*own.body, _kept(own))) for own in knowledge.axioms]
+        choices = "".join(f"{{ holds({_kept(own)}) }}.\n" for own in knowledge.axioms)
+        text = program_text(replace(knowledge, axioms=tuple(guarded)), schema) + choices
+        self.grounding = Grounding(text, schema, size=grounding_size(knowledge))
+        self._literals = {
+            own.identifier: self.grounding.literal(f"holds({_kept(own)})") for own in self.axioms
+        }
+
+    def of(self, vector: FeatureVector) -> tuple[Axiom, ...]:
+        """Return axioms that leave no answer set together, and without any of them leave one.
+
+        There are none where the scene has an answer set, be it a contradictory one.
+        """
+        needed = list(self.axioms)
+        if self._has_answer_set(vector, needed):
+            return ()
+        for axiom in self.axioms:
+            fewer = [own for own in needed if own is not axiom]
+            if not self._has_answer_set(vector, fewer):
+                needed = fewer
+        return tuple(needed)
+
+    def _has_answer_set(self, vector: FeatureVector, axioms: list[Axiom]) -> bool:
+        kept = {own.identifier for own in axioms}
+        return self.grounding.satisfiable(
+            [
+                *self.grounding.assume(vector),
+                -self.grounding.strict,
+                *(
+                    literal if name in kept else -literal
+                    for name, literal in self._literals.items()
+                    if literal is not None
+                ),
+            ]
+        )
+
+
+def _kept(axiom: Axiom) -> Condition:
+    return Condition(str(clingo.Function(_KEPT, [clingo.Function(axiom.identifier)])))
