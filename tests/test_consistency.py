@@ -31,6 +31,10 @@ DEFEATED = World(
         Rule("p(S)", ("g(S, light)",)),
     )
 )
+# The second axiom never fires without a contradiction, and yet it is heeded: q gives way to it.
+YIELDS = World(
+    (Rule("p(S)", ("f(S)",)), Rule("-p(S)", ("q(S)",)), Rule("q(S)", ("f(S)",), default=True))
+)
 SIGNATURE = """\
 #sort tile.
 #sort mark = {dot, cross}.
@@ -55,14 +59,22 @@ def fires(world: World, rule: Rule, vector: FeatureVector, *, strict: bool) -> b
     return any(map(in_one_of, given_up if strict else ((),)))
 
 
+def is_consistent(world: World, vector: FeatureVector) -> bool:
+    """Whether a scene has an answer set without contradictions, defaults given up or not."""
+    defaults = [number for number, own in enumerate(world.rules) if own.default]
+    given_up = chain.from_iterable(combinations(defaults, n) for n in range(len(defaults) + 1))
+    return any(world.answer_sets(vector, own, contradictory=False) for own in given_up)
+
+
 def useless(world: World) -> list[int]:
-    """The axioms that fire in some scene, and never without a contradiction."""
+    """The axioms that fire in some scene, never consistently, and that no scene can give way to."""
     return [
         number
         for number, rule in enumerate(world.rules)
         if not rule.default
-        and any(fires(world, rule, vector, strict=False) for vector in world.vectors)
+        and (fired := [own for own in world.vectors if fires(world, rule, own, strict=False)])
         and not any(fires(world, rule, vector, strict=True) for vector in world.vectors)
+        and not any(is_consistent(world, vector) for vector in fired)
     ]
 
 
@@ -70,6 +82,7 @@ def useless(world: World) -> list[int]:
 @example(world=DEFEATED)
 @example(world=World((Rule("p(S)", ("f(S)",)), Rule("-p(S)", ("f(S)",)))))
 @example(world=World((Rule("-f(S)", ("f(S)",)),)))
+@example(world=YIELDS)
 @thorough
 def test_the_first_axiom_without_use_is_refused_and_no_other(world: World) -> None:
     wrong = useless(world)

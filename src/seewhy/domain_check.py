@@ -21,7 +21,7 @@ from seewhy.evaluation import AxiomRecord, axiom_records
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.consistency import never_applies
 from seewhy.knowledge.grounding_size import grounding_size
-from seewhy.knowledge.odd_loop import OddLoops
+from seewhy.knowledge.odd_loop import say_odd_loop
 from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
 
@@ -77,7 +77,7 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
         for own, decision in zip(vectors, decisions, strict=True)
         if decision.verdict is Verdict.NO_ANSWER_SET
     ]
-    loops = _odd_loops(domain, without)
+    loops = _odd_loops(reasoner, without)
     if loops and len(without) == len(vectors):
         raise KnowledgeError(f"{_said_odd(loops[0])}, so that no picture has an answer set")
     if domain.source is not None:
@@ -134,27 +134,18 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
     )
 
 
-def _odd_loops(domain: Domain, vectors: Sequence[FeatureVector]) -> list[tuple[Axiom, ...]]:
+def _odd_loops(reasoner: Reasoner, vectors: Sequence[FeatureVector]) -> list[tuple[Axiom, ...]]:
     """The odd loops behind feature vectors without an answer set, each once."""
-    if not vectors:
-        return []
-    loops = OddLoops(domain.knowledge, domain.schema)
     found: dict[tuple[str, ...], tuple[Axiom, ...]] = {}
     for vector in vectors[:_LOOKED_AT]:
-        loop = loops.of(vector)
+        loop = reasoner.odd_loop(vector)
         found.setdefault(tuple(own.identifier for own in loop), loop)
     return list(found.values())
 
 
 def _said_odd(loop: Sequence[Axiom]) -> str:
     """An odd loop in words, with the place of its first axiom."""
-    (first, *others) = loop
-    also = "".join(f" and '{own}' (line {own.location.line})" for own in others)
-    if not others:
-        needs = "needs, through 'not', that its own conclusion is not believed"
-    else:
-        needs = "need, through 'not', that what they conclude is not believed"
-    return f"{first.location}: '{first}'{also} {needs}"
+    return f"{loop[0].location}: {say_odd_loop(loop)}"
 
 
 def feature_vectors(domain: Domain, *, most: int = MOST_VECTORS) -> list[FeatureVector]:

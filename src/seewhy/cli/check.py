@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from seewhy.cli.options import DomainName, Json, Outside
-from seewhy.cli.screen import add_row, output, percent, print_json, say, table
+from seewhy.cli.screen import add_row, output, percent, print_json, say, share_of_cases, table
 
 
 def check(
@@ -52,7 +52,7 @@ def check(
     if report.axioms:
         rows = table("axiom", ">decides", ">right")
         for record in report.axioms:
-            add_row(rows, record.statement, str(record.decided), percent(record.accuracy))
+            add_row(rows, record.statement, str(record.decided), share_of_cases(record.accuracy))
         output().print(rows)
         say(
             f"decided: {percent(report.decided or 0.0)} of the scenes, "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from seewhy.cli.screen import add_row, output, percent, say, table
+from seewhy.cli.screen import add_row, output, percent, say, share_of_cases, table
 
 if TYPE_CHECKING:
     from seewhy.evaluation import Evaluation
@@ -147,14 +147,15 @@ def print_axioms(result: Evaluation, *, most: int = MOST) -> None:
     """
     axioms = list(result.axioms)
     if len(axioms) > most:
-        axioms.sort(key=lambda axiom: (axiom.accuracy, -axiom.decided))
+        axioms.sort(key=lambda own: (own.accuracy is None, own.accuracy or 0.0, -own.decided))
     rows = table("axiom", ">decides", ">right")
     for axiom in axioms[:most]:
-        add_row(rows, axiom.statement, str(axiom.decided), percent(axiom.accuracy))
+        add_row(rows, axiom.statement, str(axiom.decided), share_of_cases(axiom.accuracy))
     more = axioms[most:]
     if more:
         decided = sum(axiom.decided for axiom in more)
-        say_right = f"at least {percent(more[0].accuracy)}"
+        least = more[0].accuracy
+        say_right = share_of_cases(least) if least is None else f"at least {percent(least)}"
         add_row(rows, f"{len(more)} more", str(decided), say_right)
     output().print(rows)
 

@@ -114,6 +114,17 @@ def percent(share: float) -> str:
     return f"{100 * share:.1f} %"
 
 
+def share_of_cases(of: float | None) -> str:
+    """Return a share as a percentage; where there is nothing that it could be of, that.
+
+    Examples
+    --------
+    >>> share_of_cases(0.5), share_of_cases(None)
+    ('50.0 %', 'no case')
+    """
+    return "no case" if of is None else percent(of)
+
+
 def add_row(to: Table, *cells: str) -> None:
     """Add a row whose cells are shown as they are, without markup."""
     to.add_row(*(Text(harmless(cell)) for cell in cells))

@@ -15,6 +15,7 @@ from seewhy.knowledge.evidence import Evidence, evidence_of
 from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.occurrence import Occurrence
+from seewhy.knowledge.odd_loop import say_odd_loop
 from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.why import contradiction, justify
@@ -224,9 +225,12 @@ class ReasonedAnswers:
                     f"{others} other classes"
                 )
                 children.append(Node("others", text, Basis.ABSENCE, holds=False))
+        why = _UNDECIDED[verdict]
+        if verdict is Verdict.NO_ANSWER_SET:
+            why += f", since {say_odd_loop(self.reasoner.odd_loop(vector))}"
         return Node(
             literal="undecided",
-            text=f"the knowledge does not decide: {_UNDECIDED[verdict]}",
+            text=f"the knowledge does not decide: {why}",
             basis=Basis.ABSENCE,
             holds=False,
             children=tuple(children),

@@ -23,9 +23,9 @@ class AxiomRecord:
     right: int
 
     @property
-    def accuracy(self) -> float:
-        """The share of scenes on which the axiom is right; 1 where it never applied."""
-        return self.right / self.decided if self.decided else 1.0
+    def accuracy(self) -> float | None:
+        """Of the scenes that it decides, the share decided rightly; None where it decides none."""
+        return self.right / self.decided if self.decided else None
 
 
 def axiom_records(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from seewhy.domain import Domain
 from seewhy.induction.tree import PathCondition, TreePath
-from seewhy.wording import join_clauses, say_values
+from seewhy.wording import join_clauses, join_words, say_values
 
 
 def say_path(domain: Domain, path: TreePath) -> str:
@@ -28,7 +28,9 @@ def say_path(domain: Domain, path: TreePath) -> str:
         said = f"{domain.subject} is {label} unless something says otherwise"
     else:
         said = say_rule(domain, path.conditions, path.label)
-    return f"{said} {support.replace('%', ' %')}"
+    as_often = join_words([domain.classes[label].say for label in path.equals])
+    tied = f", and as often {as_often}" if as_often else ""
+    return f"{said}{tied} {support.replace('%', ' %')}"
 
 
 def say_rule(domain: Domain, conditions: Sequence[PathCondition], label: str) -> str:

@@ -49,12 +49,15 @@ class TreePath:
         The training scenes that end in the leaf.
     precision : float
         The share of them that are of the class.
+    equals : tuple of str
+        The other classes of which as many of them are; the path says the first of these classes.
     """
 
     conditions: tuple[PathCondition, ...]
     label: str
     support: int
     precision: float
+    equals: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -226,9 +229,13 @@ class DecisionTree:
                 kept = tuple(v for v in values if (v != value) == left)
             allowed[feature] = kept
         shares = nodes.shares[leaf]
+        label, *equals = (
+            name for name, own in zip(nodes.classes, shares, strict=True) if own == max(shares)
+        )
         return TreePath(
             conditions=tuple(PathCondition(f, values) for f, values in allowed.items()),
-            label=nodes.classes[int(np.argmax(shares))],
+            label=label,
+            equals=tuple(equals),
             support=nodes.support[leaf],
             precision=max(shares) / sum(shares),
         )

@@ -22,7 +22,7 @@ def check_consistency(knowledge: Knowledge, schema: SceneSchema) -> None:
 
     Axioms that contradict each other on some scenes only are knowledge that is incomplete: those
     scenes are left undecided. An axiom that never applies without a contradiction is a mistake,
-    unless the contradiction is one that a default gives way to.
+    unless something gives way to it: a default that is given up for instance.
 
     Raises
     ------
@@ -80,13 +80,14 @@ class _Probe:
         return assumed is not None and self.grounding.satisfiable(assumed)
 
     def overrules(self, axiom: Axiom) -> bool:
-        """Whether an axiom that contradicts others can be heeded by giving up a default.
+        """Whether an axiom that contradicts others is heeded: something gives way to it.
 
-        So it is where its conditions hold in some scene that is consistent with an exception.
-        Where more scenes would have to be looked at than are worth it, it counts as such.
+        So it is where it applies to some scene that has a consistent answer set, in which it does
+        not apply: one in which a default is given up, for instance. Where more scenes would have
+        to be looked at than are worth it, it counts as such.
         """
         assumed = self._assumed(axiom, strict=False)
-        if not self.exceptions or assumed is None:
+        if assumed is None:
             return False
         found = self.grounding.solve(assumed, Search(models=_SCENES), on_model=self._scene)
         scenes = dict.fromkeys(found)

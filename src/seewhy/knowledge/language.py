@@ -466,7 +466,8 @@ def _check_atom(
     elif symbol.name in signature.predicates:
         sorts = signature.predicates[symbol.name].sorts
     else:
-        known = [*signature.predicates, *signature.sorts]
+        names = [*signature.predicates, *signature.sorts]
+        known = [name for name in names if not name.endswith("__")]
         raise KnowledgeError(
             f"{here}: '{symbol.name}' is not declared; {did_you_mean(symbol.name, known)}"
         )

@@ -5,6 +5,7 @@ Such an odd loop leaves no answer set, wherever its conditions hold.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import clingo
@@ -16,7 +17,7 @@ from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import program_text
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 
-__all__ = ["OddLoops"]
+__all__ = ["OddLoops", "say_odd_loop"]
 
 _KEPT = "kept__"
 
@@ -75,6 +76,21 @@ class OddLoops:
                 ),
             ]
         )
+
+
+def say_odd_loop(loop: Sequence[Axiom]) -> str:
+    """Return what axioms that form an odd loop do, with their lines.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> say_odd_loop(read_knowledge("#static p. p if not p.").axioms)
+    "'p if not p.' (line 1) needs, through 'not', that its own conclusion is not believed"
+    """
+    said = " and ".join(f"'{own}' (line {own.location.line})" for own in loop)
+    if len(loop) == 1:
+        return f"{said} needs, through 'not', that its own conclusion is not believed"
+    return f"{said} need, through 'not', that what they conclude is not believed"
 
 
 def _kept(axiom: Axiom) -> Condition:

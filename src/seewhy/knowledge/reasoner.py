@@ -10,11 +10,12 @@ from typing import Literal as OneOf
 
 import clingo
 
-from seewhy.knowledge.axiom import AxiomKind
+from seewhy.knowledge.axiom import Axiom, AxiomKind
 from seewhy.knowledge.batch import SCENES, Batch, speaks_of_one_scene
 from seewhy.knowledge.grounding import Grounding, Search
 from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
 from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.odd_loop import OddLoops
 from seewhy.knowledge.program import program_text
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 
@@ -132,7 +133,8 @@ class Reasoner:
     @cached_property
     def _explaining(self) -> Grounding:
         text = program_text(self.knowledge, self.schema, exceptions=True, firings=True)
-        return Grounding(text, self.schema, size=self._size)
+        # Of several answer sets, the first found must not depend on what was asked before.
+        return Grounding(text, self.schema, size=self._size, arguments=["--heuristic=None"])
 
     def forget(self) -> None:
         """Drop everything remembered about scenes; the programs stay grounded."""
@@ -264,6 +266,14 @@ class Reasoner:
             if symbols is not None:
                 return _answer_set(symbols)
         return None
+
+    def odd_loop(self, vector: FeatureVector) -> tuple[Axiom, ...]:
+        """Return the axioms by which a scene has no answer set; see :class:`OddLoops`."""
+        return self._loops.of(vector)
+
+    @cached_property
+    def _loops(self) -> OddLoops:
+        return OddLoops(self.knowledge, self.schema)
 
     def believed(self, vector: FeatureVector) -> frozenset[clingo.Symbol]:
         """Return the literals of the preferred answer set; empty where there is none."""

@@ -6,9 +6,10 @@ import re
 from dataclasses import dataclass, replace
 
 from seewhy.errors import KnowledgeError, PlanningError
-from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.axiom import STRING, Axiom
 from seewhy.knowledge.language import Knowledge, read_axioms
 from seewhy.knowledge.signature import Location, Predicate, PredicateKind
+from seewhy.knowledge.statements import statements
 
 REACHED = "goal__"
 """The defined fluent that holds where the goal does."""
@@ -53,14 +54,29 @@ def read_goal(text: str, knowledge: Knowledge) -> Goal:
             f'the goal is empty; say what shall hold, such as "{example_fluent(knowledge)}"'
         )
     try:
+        _refuse_several(conditions)
         (axiom,) = read_axioms(
             f"{REACHED} if {conditions}.", with_goal(knowledge).signature, file="goal", letter="g"
         )
-    except (KnowledgeError, ValueError) as problem:
+    except KnowledgeError as problem:
         said = _PLACE.sub("", str(problem)).replace(f"{REACHED} if ", "")
         said = said.replace(_READS, "conditions are separated by commas")
         raise PlanningError(f"the goal '{conditions}' cannot be used: {said}") from None
     return Goal(text=conditions, axiom=axiom)
+
+
+def _refuse_several(conditions: str) -> None:
+    """Refuse what is not the conditions of one axiom, before it is read as such."""
+    plain = STRING.sub("", conditions)
+    if "%" in plain:
+        raise KnowledgeError("found '%', which begins a comment; remove it")
+    if re.search(r"(?<![\w'])(if|causes)(?![\w'])", plain):
+        raise KnowledgeError("found an axiom; give its conditions alone, separated by commas")
+    found = [*statements(f"{conditions}.", file="goal")]
+    if len(found) != 1:
+        raise KnowledgeError(
+            f"found {len(found)} statements; separate conditions by commas, not by full stops"
+        )
 
 
 def with_goal(knowledge: Knowledge, goal: Goal | None = None) -> Knowledge:
