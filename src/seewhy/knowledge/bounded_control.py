@@ -38,6 +38,7 @@ MEMORY = 4 * 2**30
 
 _CONFLICTS = 20_000
 """What a search may take before it goes on in a thread: some tenths of a second."""
+_OUT_OF_TIME = 24  # the signal of a process that took longer than it may
 _HEARD = 0.05  # seconds between two looks at the clock
 _GRACE = 0.5  # seconds for a search to end that was told to
 _SOON = 0.5  # seconds for a search before it goes on in a thread
@@ -247,7 +248,7 @@ class BoundedControl:
                 if _resident() - memory > MEMORY:
                     raise ReasoningError(
                         f"{self.size.largest}; {what} took more than "
-                        f"{MEMORY / 2**30:.0f} GiB of memory; {_REMEDY}"
+                        f"{MEMORY / 2**30:.2g} GiB of memory; {_REMEDY}"
                     )
         finally:
             if not done.is_set():
@@ -293,13 +294,14 @@ def _try_out(
     finally:
         process.kill()
         process.wait()
-    if code == 0:
-        return
-    took = {
-        ground_process.TOO_MANY_ATOMS: f"it comes to more than {MOST_ATOMS:,} atoms",
-        ground_process.OUT_OF_MEMORY: "grounding took more than "
-        f"{MEMORY / 2**30:.0f} GiB of memory",
-    }.get(code or 0, f"grounding took longer than {GROUNDING_SECONDS:.0f} s")
+    if code == ground_process.TOO_MANY_ATOMS:
+        took = f"it comes to more than {MOST_ATOMS:,} atoms"
+    elif code is None or code == -_OUT_OF_TIME:
+        took = f"grounding took longer than {GROUNDING_SECONDS:.0f} s"
+    elif code == ground_process.OUT_OF_MEMORY or code < 0:
+        took = f"grounding took more than {MEMORY / 2**30:.2g} GiB of memory"
+    else:
+        return  # done; or no process can be started here, and the clock alone bounds it
     raise ReasoningError(f"{size.largest}; {took}; {_REMEDY}")
 
 
