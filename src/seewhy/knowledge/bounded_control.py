@@ -8,20 +8,23 @@ for, so that bounds and Ctrl-C are heard.
 
 from __future__ import annotations
 
+import math
 import os
 import subprocess
 import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 import clingo
 
 from seewhy.errors import ReasoningError
 from seewhy.knowledge import ground_process
 from seewhy.knowledge.abandoned import abandon
+from seewhy.knowledge.deferred_interrupt import DeferredInterrupt
 from seewhy.knowledge.ground_process import Request
 from seewhy.knowledge.grounding_size import GroundingSize
 
@@ -36,8 +39,8 @@ SOLVING_SECONDS = 120.0
 MEMORY = 4 * 2**30
 """The bytes that grounding may take, and by which the process may grow in one search."""
 
-_CONFLICTS = 20_000
-"""What a search may take before it goes on in a thread: some tenths of a second."""
+_CONFLICTS = 5_000
+"""What a search may take before it goes on in a thread: a tenth of a second."""
 _OUT_OF_TIME = 24  # the signal of a process that took longer than it may
 _HEARD = 0.05  # seconds between two looks at the clock
 _GRACE = 0.5  # seconds for a search to end that was told to
@@ -47,6 +50,16 @@ _REMEDY = "give its sorts fewer members, or write it with fewer variables"
 
 _Result = TypeVar("_Result")
 _Read = TypeVar("_Read")
+
+
+@dataclass(frozen=True)
+class _Search(Generic[_Read]):
+    """What a search found, whether all was looked through, and how long it took."""
+
+    found: list[_Read]
+    ended: bool
+    interrupted: bool
+    seconds: float
 
 
 class OutOfTimeError(ReasoningError):
@@ -89,6 +102,7 @@ class BoundedControl:
         self.size = size
         self.lock = threading.RLock()
         self._abandoned: threading.Thread | None = None
+        self._conflicts = ""
         self._control = clingo.Control(["--warn=none", *arguments], logger=lambda *_: None)
         self._control.add("base", [], program)
         if size.instances > SMALL:
@@ -149,22 +163,24 @@ class BoundedControl:
             If the search takes longer than ``seconds``.
         """
         given = list(assumptions)
-        found: list[_Read] = []
-
-        def search() -> clingo.SolveResult:
-            found.clear()
-            return self._control.solve(given, on_model=lambda model: found.append(on_model(model)))
-
         with self.lock:
-            if self.size.instances <= SMALL and self._searched(given, on_model, found):
-                return found
-            self.configuration.solve_limit = "umax"
-            limit = SOLVING_SECONDS if seconds is None else seconds
-            result = self._watched(search, seconds=limit, what="the search for answer sets")
-            if result.unknown:
+            if self.size.instances <= SMALL:
+                self._limit(str(_CONFLICTS))
+                with DeferredInterrupt():
+                    search = self._checked(lambda: self._search(given, on_model, seconds=_SOON))
+                if search.ended or not self._limited(search):
+                    return search.found
+            self._limit("umax")
+            for _ in range(2):
+                search = self._watched(
+                    lambda: self._search(given, on_model),
+                    seconds=SOLVING_SECONDS if seconds is None else seconds,
+                    what="the search for answer sets",
+                )
+                if not search.interrupted:
+                    break
                 # An interruption that was meant for the call before; it is heard once.
-                self._watched(search, seconds=limit, what="the search for answer sets")
-        return found
+        return search.found
 
     def satisfiable(self, assumptions: Iterable[tuple[clingo.Symbol, bool] | int] = ()) -> bool:
         """Whether there is an answer set."""
@@ -188,29 +204,39 @@ class BoundedControl:
         found = self.models()
         return found[-1] if found else None
 
-    def _searched(
+    def _search(
         self,
         assumptions: Sequence[tuple[clingo.Symbol, bool] | int],
         on_model: Callable[[clingo.Model], _Read],
-        found: list[_Read],
-    ) -> bool:
-        """Search in this thread as long as nobody waits; whether that was long enough."""
+        *,
+        seconds: float = math.inf,
+    ) -> _Search[_Read]:
+        """Search, for a time that is looked at between two models."""
         begun = time.perf_counter()
-
-        def keep(model: clingo.Model) -> bool:
-            found.append(on_model(model))
-            return time.perf_counter() - begun < _SOON
-
-        self.configuration.solve_limit = str(_CONFLICTS)
-        result = self._checked(lambda: self._control.solve(assumptions, on_model=keep))
-        took = time.perf_counter() - begun
-        return bool(
-            result.exhausted
-            or (result.satisfiable and (took < _SOONER or (took < _SOON and not self._limited())))
+        found: list[_Read] = []
+        with self._control.solve(assumptions, yield_=True) as solving:
+            for model in solving:
+                found.append(on_model(model))
+                if time.perf_counter() - begun >= seconds:
+                    return _Search(found, ended=False, interrupted=False, seconds=seconds)
+            result = solving.get()
+        return _Search(
+            found,
+            ended=bool(result.exhausted),
+            interrupted=bool(result.interrupted),
+            seconds=time.perf_counter() - begun,
         )
 
-    def _limited(self) -> bool:
-        """Whether the last search ended since it had as many conflicts as it might."""
+    def _limit(self, conflicts: str) -> None:
+        if conflicts != self._conflicts:
+            self.configuration.solve_limit = self._conflicts = conflicts
+
+    def _limited(self, search: _Search[Any]) -> bool:
+        """Whether a search may have been cut short: it took its time, or all its conflicts."""
+        if search.interrupted or not search.found or search.seconds >= _SOON:
+            return True
+        if search.seconds < _SOONER:
+            return False
         conflicts: float = self._control.statistics["solving"]["solvers"]["conflicts"]
         return conflicts >= _CONFLICTS
 

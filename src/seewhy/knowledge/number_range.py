@@ -140,15 +140,16 @@ def _binary(term: ast.AST, known: Mapping[str, Bounds]) -> Bounds | None:
         case ast.BinaryOperator.Modulo:
             return -max(map(abs, right)), max(map(abs, right))
         case ast.BinaryOperator.Power:
-            return _power(max(map(abs, left)), right[1])
+            return _power(left, right[1])
     return None
 
 
-def _power(base: int, exponent: int) -> Bounds:
+def _power(left: Bounds, exponent: int) -> Bounds:
+    base = max(map(abs, left))
     if exponent <= 0 or base <= 1:
         return -1, 1
     most = min(base, _FAR) ** min(exponent, 200)
-    return _around([-most, most])
+    return _around([0 if left[0] >= 0 else -most, most])
 
 
 def _around(numbers: Iterable[int]) -> Bounds:
