@@ -10,7 +10,7 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.language import read_literal
 from seewhy.knowledge.signature import Location, Predicate, Signature
-from seewhy.knowledge.statements import NumberError
+from seewhy.knowledge.statements import NumberError, one_line
 from seewhy.nearest import did_you_mean
 
 Kind = OneOf["fluent", "action"]
@@ -42,7 +42,7 @@ def read_ground_literal(
         raise NumberError(f"{start}{problem}") from None
     except KnowledgeError:
         raise KnowledgeError(
-            f"{start}'{text.strip()}' is no {of}; write one such as {_example(signature, of)}"
+            f"{start}'{one_line(text)}' is no {of}; write one such as {_example(signature, of)}"
         ) from None
     known = {own.name: own for own in _of_kind(signature, of)}
     predicate = known.get(literal.predicate)

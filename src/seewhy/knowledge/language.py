@@ -217,7 +217,7 @@ def read_literal(text: str) -> Literal:
     literal = _head_of(rules[0]) if len(rules) == 1 and not rules[0].body else None
     if literal is None:
         raise KnowledgeError(
-            f"'{text}' is not a literal; write one such as stable(S) or -stable(S)"
+            f"'{one_line(text)}' is not a literal; write one such as stable(S) or -stable(S)"
         )
     return literal
 
