@@ -295,3 +295,13 @@ def test_a_tree_of_other_features_is_refused(tmp_path: Path) -> None:
 )
 def test_a_path_as_a_sentence(structures: Domain, path: TreePath, text: str) -> None:
     assert say_path(structures, path) == text
+
+
+def test_a_leaf_of_equal_classes_says_all_of_them(structures: Domain) -> None:
+    vector = structures.vector({"base": "wide"})
+    tree = DecisionTree({key: own.values for key, own in structures.features.items()})
+    tree.fit([vector, vector], ["unstable", "stable"], seed=0)
+    (path,) = tree.paths()
+    assert path.equals == tuple(own for own in ("stable", "unstable") if own != path.label)
+    said = say_path(structures, path)
+    assert f"and as often {path.equals[0]} (0 of 4 features tested, 50 % of 2 structures)" in said

@@ -20,14 +20,12 @@ from seewhy.errors import DatasetError, KnowledgeError
 from seewhy.evaluation import AxiomRecord, axiom_records
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.consistency import never_applies
-from seewhy.knowledge.grounding_size import grounding_size
+from seewhy.knowledge.grounding_size import large_grounding
 from seewhy.knowledge.odd_loop import say_odd_loop
 from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
 
 MOST_VECTORS = 20_000
-MANY_INSTANCES = 5_000
-"""So many instances of axioms are said: grounding them takes a noticeable time."""
 _LOOKED_AT = 50  # feature vectors without an answer set, for the reasons why
 
 
@@ -94,9 +92,7 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
         f"{axiom.location}: no feature vector satisfies the conditions of '{axiom}'"
         for axiom in never_applies(replace(domain.knowledge, axioms=sound), domain.schema)
     ]
-    size = grounding_size(domain.knowledge)
-    if size.instances >= MANY_INSTANCES:
-        warnings.append(f"{size.largest}; every question waits for them")
+    warnings += filter(None, [large_grounding(domain.knowledge)])
     covered = {q.feature for q in questions.all if q.feature}
     warnings += [
         f"no question asks about the feature '{key}'"

@@ -14,9 +14,18 @@ from seewhy.knowledge.axiom import STRING, Axiom, variables_in
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Location, Predicate, Signature
 
-__all__ = ["GroundingSize", "axiom_instances", "axioms_size", "grounding_size", "range_instances"]
+__all__ = [
+    "GroundingSize",
+    "axiom_instances",
+    "axioms_size",
+    "grounding_size",
+    "large_grounding",
+    "range_instances",
+]
 
 _RANGE = re.compile(r"(-?\d+|[\w)])\s*\.\.\s*(-?\d+|[\w(])")
+MANY_INSTANCES = 5_000
+"""So many instances of axioms are said: grounding them takes a noticeable time."""
 _ANY_RANGE = 2**31  # a range between variables may be as long as numbers go
 _LARGEST = 10**18  # nothing depends on how much more it is
 
@@ -68,6 +77,14 @@ def grounding_size(knowledge: Knowledge) -> GroundingSize:
             *_axioms(knowledge.axioms, signature),
         ]
     )
+
+
+def large_grounding(knowledge: Knowledge) -> str | None:
+    """Return what its author may want to know of knowledge that takes long to ground."""
+    size = grounding_size(knowledge)
+    if size.instances < MANY_INSTANCES:
+        return None
+    return f"{size.largest}; every question waits for them"
 
 
 def axioms_size(axioms: Iterable[Axiom], signature: Signature) -> GroundingSize:

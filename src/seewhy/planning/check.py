@@ -11,6 +11,7 @@ from seewhy.errors import KnowledgeError, PlanningError
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Literal
 from seewhy.knowledge.dynamics import constraints, gives_way, of_kind
 from seewhy.knowledge.ground import complement_of
+from seewhy.knowledge.grounding_size import large_grounding
 from seewhy.knowledge.history import Observation, Occurrence, read_history
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Location, PredicateKind, Signature
@@ -48,6 +49,7 @@ def check_change(domain: PlanningDomain) -> tuple[str, ...]:
     check.effects()
     start = _start(domain)
     return (
+        *filter(None, [large_grounding(domain.knowledge)]),
         *check.defaults(),
         *check.needless_laws(),
         *check.several_outcomes(),
