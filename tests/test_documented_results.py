@@ -20,7 +20,8 @@ QUESTIONS = ("answers", "answers_strict", "explanations_strict", "explanations_s
 
 TABLES: list[tuple[str, str, str, list[tuple[str, str]]]] = [
     ("docs/results.md", "### Structures", "structures/vqa",
-     [*(("accuracy", own) for own in CLASSIFY), *((key, own) for key in QUESTIONS for own in ASKED)]),
+     [*(("accuracy", own) for own in CLASSIFY),
+      *((key, own) for key in QUESTIONS for own in ASKED)]),
     ("docs/results.md", "**How the classes came", "structures/reading",
      [("accuracy", own) for own in READ]),
     ("docs/results.md", "### Traffic signs", "signs/vqa-with_class",
