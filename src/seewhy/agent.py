@@ -41,7 +41,7 @@ from seewhy.reading import (
     reading_rule,
 )
 from seewhy.refusal import KNOWN_SHARE, refusal_threshold
-from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
+from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, FeatureReading, Reply
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -690,6 +690,24 @@ class Agent:
         pixels = as_picture(image, size=self.picture_size, fit=self.domain.pictures.fit)
         return self.classify_all(pixels[None])[0]
 
+    def classify_values(self, features: Mapping[str, str]) -> Classification:
+        """Classify what is said to be shown instead of seen, as if it were sure.
+
+        ``features`` are named values; those left out are not known.
+
+        Examples
+        --------
+        >>> import seewhy
+        >>> agent = seewhy.Agent(seewhy.load_domain("structure_stability"))
+        >>> agent.classify_values({"block_displaced": "yes"}).label
+        'unstable'
+        """
+        vector = self.domain.vector(features)
+        label, method, verdict = self._decide(vector)
+        told = {key: FeatureReading(value, 1.0) for key, value in features.items()}
+        ordered = {key: told[key] for key in self.domain.features if key in told}
+        return Classification(label, method, vector, ordered, verdict.value, told=True)
+
     def classify_all(self, pictures: np.ndarray[Any, Any]) -> list[Classification]:
         """Classify pictures, uint8 of shape (scenes, size, size, 3), of :attr:`picture_size`."""
         readings, scores = self._read_and_score(pictures)
@@ -855,10 +873,10 @@ class Agent:
         ----------
         image : path, Pillow image or array
         question : str
-            In the words of the domain's templates; spelling and word forms are forgiven.
+            In plain words, see docs/questions.md; spelling and word forms are forgiven.
         previous : Reply, optional
-            The answer that "please explain this answer" is about; without it, the
-            classification is explained.
+            The answer before, which "please explain this answer" and "and the base?" are about;
+            without it, the classification is explained.
 
         Raises
         ------
@@ -867,14 +885,28 @@ class Agent:
         PictureError
             If the image is no picture.
         """
-        understood = self.questions.understand(question)
-        return self.answer(self.classify(image), understood, previous=previous)
+        asked = previous.question if previous is not None else None
+        understood = self.questions.understand(question, previous=asked)
+        return self.answer(self.classify(image), understood, previous=previous, image=image)
 
     def answer(
-        self, scene: Classification, question: Question, *, previous: Reply | None = None
+        self,
+        scene: Classification,
+        question: Question,
+        *,
+        previous: Reply | None = None,
+        image: Picture | None = None,
     ) -> Reply:
-        """Answer an understood question about a classified scene."""
-        return self._answering.answer(scene, question, previous=previous)
+        """Answer an understood question about a classified scene.
+
+        Raises
+        ------
+        QuestionError
+            If it asks where something is seen or which pictures are similar, and there is no
+            ``image``.
+        """
+        look = None if image is None else _Looking(self, image, scene)
+        return self._answering.answer(scene, question, previous=previous, look=look)
 
     def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
         """Answer many questions about classified scenes; the recurrent network runs once for all.
@@ -985,3 +1017,16 @@ class Agent:
         agent.validation_scores = dict(model.validation_scores)
         agent.without = model.without
         return agent
+
+
+class _Looking:
+    """A picture that an agent can look at again."""
+
+    def __init__(self, agent: Agent, image: Picture, scene: Classification) -> None:
+        self._agent, self._image, self._scene = agent, image, scene
+
+    def where(self) -> Mapping[str, Where]:
+        return self._agent.where(self._image, scene=self._scene)
+
+    def nearest(self) -> Sequence[NearPicture]:
+        return self._agent.nearest(self._image)

@@ -61,6 +61,7 @@ class SceneClass:
     literal: Literal
     say: str
     words: tuple[str, ...]
+    verbs: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,7 @@ class Belief:
     say: str
     words: Mapping[str, str]
     literals: Mapping[str, Literal]
+    acts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -414,6 +416,7 @@ def _beliefs(file: DomainFile, knowledge: Knowledge, place: _Place) -> dict[str,
             literals=MappingProxyType(
                 {v: Literal(predicate=key, arguments=(scene, v)) for v in members}
             ),
+            acts=table.acts,
         )
     return beliefs
 
@@ -471,4 +474,5 @@ def _class(
         ),
         say=table.say,
         words=table.words or (table.say,),
+        verbs=table.verbs,
     )

@@ -315,6 +315,11 @@ class ClassTable(_Table):
         description="Words by which questions may name the class; where left out, what answers "
         "say.",
     )
+    verbs: tuple[Word, ...] = Field(
+        default=(),
+        description="Verbs by which questions may say that the picture is of the class, as in "
+        "`fall` for `will it fall?`.",
+    )
 
 
 class BeliefTable(_Table):
@@ -332,6 +337,11 @@ class BeliefTable(_Table):
     values: dict[str, Word] = Field(
         default={},
         description="How each value is said; where left out, as it stands in knowledge.al.",
+    )
+    acts: tuple[Word, ...] = Field(
+        default=(),
+        description="What somebody may ask whether to do, as in `turn left` for `can I turn "
+        "left?`; such a question is answered with the value.",
     )
 
 
@@ -371,7 +381,8 @@ class QuestionTable(_Table):
 
     asks: str = Field(
         description="What is asked: class, is_class, why_class, why_not_class, change_to_class, "
-        "difference_to_class, belief_value, feature_value, feature_is or explain.",
+        "difference_to_class, belief_value, feature_value, feature_is or explain; what else can be "
+        "asked (docs/questions.md) needs no templates.",
     )
     feature: str | None = Field(
         default=None,

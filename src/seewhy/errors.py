@@ -61,3 +61,7 @@ class PlanningError(SeeWhyError, ValueError):
 
 class ExperimentError(SeeWhyError, ValueError):
     """An experiment cannot be run as it was asked for, or its folder cannot be used."""
+
+
+class SpeechError(SeeWhyError, RuntimeError):
+    """An answer cannot be spoken: nothing that speaks is there, or it failed."""

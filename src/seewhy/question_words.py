@@ -11,6 +11,14 @@ CONTRACTIONS = {
     "don't": "do not", "won't": "will not", "can't": "can not", "cannot": "can not",
     "there's": "there is", "how's": "how is", "why's": "why is", "where's": "where is",
     "who's": "who is", "didn't": "did not", "didnt": "did not", "wasn't": "was not",
+    "wasnt": "was not", "weren't": "were not", "wouldn't": "would not", "wouldnt": "would not",
+    "couldn't": "could not", "couldnt": "could not", "shouldn't": "should not",
+    "mustn't": "must not", "hasn't": "has not", "hasnt": "has not", "haven't": "have not",
+    "hadn't": "had not", "dont": "do not", "wont": "will not", "cant": "can not",
+    "arent": "are not", "werent": "were not", "that's": "that is", "thats": "that is",
+    "i'm": "i am", "i'd": "i would", "you're": "you are", "they're": "they are",
+    "it'd": "it would", "it'll": "it will", "i've": "i have", "you've": "you have",
+    "wheres": "where is", "hows": "how is", "whos": "who is", "howmany": "how many",
 }  # fmt: skip
 
 

@@ -74,6 +74,8 @@ class Classification:
     otherwise : tuple of Classification
         What the scene may be as well, the most probable class first: those of which an asker is
         believed who presumes them (see :class:`seewhy.Agent`, ``trust``).
+    told : bool
+        Whether its features were named by somebody instead of seen.
     """
 
     label: str | None
@@ -85,6 +87,7 @@ class Classification:
     score: float | None = None
     class_seen: tuple[str, float] | None = None
     otherwise: tuple[Classification, ...] = ()
+    told: bool = False
 
     @property
     def least_certain(self) -> str:
@@ -92,7 +95,9 @@ class Classification:
         return min(self.features, key=lambda key: self.features[key].certainty)
 
     def read_in(self, justification: Node) -> Node:
-        """Return a justification that says how surely each feature was read."""
+        """Return a justification that says how surely each feature was read, unless it was told."""
+        if self.told:
+            return justification
         return justification.with_probabilities(
             {key: (own.value, own.probability) for key, own in self.features.items()},
             {key: own.overruled for key, own in self.features.items() if own.overruled},

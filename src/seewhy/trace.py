@@ -240,7 +240,7 @@ def trace(agent: Agent, image: Picture, question: str | None = None) -> Trace:
     """
     understood = None if question is None else agent.questions.understand(question)
     scene = agent.classify(image)
-    reply = None if understood is None else agent.answer(scene, understood)
+    reply = None if understood is None else agent.answer(scene, understood, image=image)
     return trace_of(agent, scene, asked=question, reply=reply)
 
 

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from seewhy.cli.cores import share_cores
-from seewhy.cli.options import Device, Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
+from seewhy.cli.options import (
+    Device,
+    Gate,
+    ImageFile,
+    Json,
+    KnownShare,
+    ModelFolder,
+    Reading,
+    Speak,
+    SpeechFile,
+)
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -27,6 +37,8 @@ def ask(
         bool,
         typer.Option("--nearest", help="Also name the pictures of training that are most like it."),
     ] = False,
+    speak: Speak = False,
+    speech: SpeechFile = None,
     device: Device = "auto",
     reading: Reading = None,
     gate: Gate = None,
@@ -36,7 +48,11 @@ def ask(
     """Answer a question about a picture, with the reasons."""
     share_cores()
     from seewhy.agent import Agent
+    from seewhy.speech import find_voice
 
+    # Where nothing speaks, that is said before the answer is worked out.
+    voices = [find_voice()] if speak else []
+    voices += [find_voice(speech)] if speech is not None else []
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     reply = agent.ask(image, question)
     if picture is not None:
@@ -48,12 +64,14 @@ def ask(
     near = agent.nearest(image) if nearest or json else ()
     if json:
         print_json({**reply.to_dict(), "nearest": [nearby.to_dict() for nearby in near]})
-        return
-    print_reply(reply)
-    if nearest:
+    else:
+        print_reply(reply)
+    if nearest and not json:
         say("most like it in training:" if near else "most like it in training: not kept")
         for nearby in near:
             say(f"  {nearby.to_text()}")
+    for voice in voices:
+        voice(reply.text)
 
 
 def print_reply(reply: Reply) -> None:

@@ -6,7 +6,16 @@ from typing import TYPE_CHECKING
 
 from seewhy.cli.conversation import converse
 from seewhy.cli.cores import share_cores
-from seewhy.cli.options import Device, Gate, ImageFile, Json, KnownShare, ModelFolder, Reading
+from seewhy.cli.options import (
+    Device,
+    Gate,
+    ImageFile,
+    Json,
+    KnownShare,
+    ModelFolder,
+    Reading,
+    Speak,
+)
 
 if TYPE_CHECKING:
     from seewhy.reply import Reply
@@ -15,6 +24,7 @@ if TYPE_CHECKING:
 def chat(
     model: ModelFolder,
     image: ImageFile,
+    speak: Speak = False,
     device: Device = "auto",
     reading: Reading = None,
     gate: Gate = None,
@@ -27,14 +37,18 @@ def chat(
     """
     share_cores()
     from seewhy.agent import Agent
+    from seewhy.speech import find_voice
 
+    voice = find_voice() if speak else None
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     scene = agent.classify(image)
     previous: Reply | None = None
 
     def answer(question: str) -> Reply:
         nonlocal previous
-        reply = agent.answer(scene, agent.questions.understand(question), previous=previous)
+        asked = previous.question if previous is not None else None
+        understood = agent.questions.understand(question, previous=asked)
+        reply = agent.answer(scene, understood, previous=previous, image=image)
         if reply.kind.form != "explain":
             previous = reply
         return reply
@@ -47,4 +61,5 @@ def chat(
             '"please explain this answer" explains the last one; an empty line ends.',
         ),
         json=json,
+        voice=voice,
     )

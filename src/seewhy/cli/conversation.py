@@ -20,11 +20,18 @@ class Spoken(Protocol):
     def to_dict(self) -> dict[str, Any]: ...
 
 
-def converse(answer: Callable[[str], Spoken], *, greeting: Sequence[str], json: bool) -> None:
+def converse(
+    answer: Callable[[str], Spoken],
+    *,
+    greeting: Sequence[str],
+    json: bool,
+    voice: Callable[[str], None] | None = None,
+) -> None:
     """Answer question after question until the input ends, or somebody at a terminal leaves.
 
     What is not understood is said, with the nearest questions, and the next one is read. A person
     at a terminal is greeted; with ``json`` every answer is one line of JSON.
+    A ``voice`` says each answer as well.
     """
     from seewhy.errors import QuestionError
 
@@ -55,3 +62,5 @@ def converse(answer: Callable[[str], Spoken], *, greeting: Sequence[str], json: 
             print_json(spoken.to_dict(), lines=False)
         else:
             say(spoken.text)
+        if voice is not None:
+            voice(spoken.text)

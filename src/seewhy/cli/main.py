@@ -18,6 +18,7 @@ from seewhy.cli import (
     check,
     classify,
     data,
+    decide,
     demo,
     evaluate,
     experiment,
@@ -50,6 +51,7 @@ app.command("learn")(learn.learn)
 app.command("axioms")(axioms.axioms)
 app.command("ask")(ask.ask)
 app.command("chat")(chat.chat)
+app.command("decide")(decide.decide)
 app.command("classify")(classify.classify)
 app.command("trace")(trace.trace)
 app.command("new")(new.new)

@@ -24,6 +24,12 @@ Outside = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Seed = Annotated[int, typer.Option("--seed", min=0, help="Settles every random choice.")]
 
+Speak = Annotated[bool, typer.Option("--speak", help="Also say the answer aloud.")]
+SpeechFile = Annotated[
+    Path | None,
+    typer.Option("--speech", metavar="FILE.wav", help="Also write the spoken answer to this file."),
+]
+
 Eyes = Annotated[
     str | None,
     typer.Option(

@@ -210,7 +210,8 @@ def _say_required(domain: Domain, alternatives: tuple[Changes, ...], *, subject:
 def _say_belief(domain: Domain, question: Question, kind: AnswerType) -> dict[str, str]:
     own = domain.beliefs.get(question.predicate or "")
     if own is None:
-        return {"belief": "", "name": "", "value": ""}
+        name = domain.features[question.feature].name if question.feature else ""
+        return {"belief": "", "name": name, "value": ""}
     value = join_words([own.words.get(value, value) for value in kind.values])
     said = own.say.replace("{it}", domain.subject).replace("{value}", value)
     return {"belief": said, "name": own.name, "value": value}

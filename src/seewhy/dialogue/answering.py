@@ -11,11 +11,14 @@ from seewhy.dialogue.certainty import certainty_of, least_sure, least_sure_told
 from seewhy.dialogue.narration import narrate
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
+from seewhy.dialogue.telling import Look, Told, tell
+from seewhy.dialogue.weighing import Weighing
 from seewhy.domain import Domain
 from seewhy.domain_tables import CLASS
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree, TreePath
 from seewhy.knowledge.justification import Basis, Node
+from seewhy.knowledge.scene import FeatureVector
 from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
 from seewhy.wording import say_literal
 
@@ -58,11 +61,24 @@ class Answering:
     trust: float = 0.0
 
     def answer(
-        self, scene: Classification, question: Question, *, previous: Reply | None = None
+        self,
+        scene: Classification,
+        question: Question,
+        *,
+        previous: Reply | None = None,
+        look: Look | None = None,
     ) -> Reply:
-        """Answer an understood question about a classified scene."""
+        """Answer an understood question about a classified scene.
+
+        Raises
+        ------
+        QuestionError
+            If it asks where something is seen or what looks alike, and there is no ``look``.
+        """
         if question.asks is Asks.EXPLAIN:
             return self._explain(scene, question, previous)
+        if not question.is_of_templates:
+            return self._told(scene, question, previous, look)
         spoken_of = self._spoken_of(scene, question)
         kind, justification = self._answer(spoken_of, question)
         justification = spoken_of.read_in(justification)
@@ -98,6 +114,56 @@ class Answering:
             ]
             learned_answers(self.domain, self.answerer, learned)  # remembers them
         return [self.answer(scene, question) for scene, question in asked]
+
+    def _told(
+        self, scene: Classification, question: Question, previous: Reply | None, look: Look | None
+    ) -> Reply:
+        """Answer what domains have no templates for."""
+        why = scene.read_in(self._why(scene))
+        told = self._told_of(scene, question, why, previous, look)
+        justification = scene.read_in(told.justification)
+        return Reply(
+            question,
+            told.text,
+            scene.method,
+            justification,
+            told.kind,
+            scene,
+            None,
+            told.least_sure,
+        )
+
+    def _told_of(
+        self,
+        scene: Classification,
+        question: Question,
+        why: Node,
+        previous: Reply | None,
+        look: Look | None,
+    ) -> Told:
+        if scene.verdict == UNKNOWN and question.asks not in _OF_UNKNOWN_PICTURES:
+            kind = AnswerType("unknown")
+            words = word_answer(self.domain, question, kind, vector=scene.vector, label=None)
+            return Told(kind, words, why)
+        if question.asks in _WEIGHED:
+            weighing = Weighing(self.domain, self.reasoned, self.tree, self._tree_why)
+            return weighing.weigh(scene, question, why=why, previous=previous)
+        return tell(self.domain, self.reasoned, scene, question, why=why, look=look)
+
+    def _why(self, scene: Classification) -> Node:
+        """Why a scene is of its class, or of none."""
+        if scene.verdict == UNKNOWN:
+            return self._unknown(scene)
+        if scene.label is None:
+            return self.reasoned.undecided(scene.vector)
+        if scene.method == "knowledge":
+            return self.reasoned.why_class(scene.vector, scene.label)
+        return self._tree_node(scene, scene.label, self.tree.path(scene.vector))
+
+    def _tree_why(self, vector: FeatureVector, label: str) -> Node:
+        """Why the tree takes a scene of some features for one of a class."""
+        supposed = Classification(label, "tree", vector, {}, "")
+        return self._tree_node(supposed, label, self.tree.path(vector))
 
     def _spoken_of(self, scene: Classification, question: Question) -> Classification:
         """What the answer to a question speaks of, which the question may presume."""
@@ -257,4 +323,8 @@ def believed(scene: Classification, question: Question, *, trust: float) -> Clas
     return fitting[0] if fitting else scene
 
 
+_OF_UNKNOWN_PICTURES = {Asks.SIMILAR, Asks.HOW_SURE}
+_WEIGHED = {
+    Asks.WHAT_IF, Asks.CONTRAST, Asks.WHICH_RULE, Asks.HOW_SURE, Asks.WHAT_TO_CHECK,
+}  # fmt: skip
 _PRESUMES_ANOTHER = {Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS, Asks.DIFFERENCE_TO_CLASS}

@@ -32,7 +32,9 @@ SURE_FROM = 0.9
 PROBABLE_FROM = 0.65
 """From here on "probably", below "perhaps": of three such things two are so, or fewer."""
 
-_SAYS_NOTHING_SEEN = frozenset({"undecided", "unknown", "no_belief", "no_difference"})
+_SAYS_NOTHING_SEEN = frozenset(
+    {"undecided", "unknown", "no_belief", "no_difference", "feature_unknown"}
+)
 _ABOUT_A_FEATURE = frozenset({"value", "yes", "no"})
 _CONCLUDES = frozenset({"class", "yes_class", "no_class", "already", "same", "belief"})
 

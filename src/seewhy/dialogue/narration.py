@@ -39,7 +39,8 @@ def narrate(domain: Domain, reply: Reply) -> str:
         each = "each with a probability of at least" if len(sure) > 1 else "with a probability of"
         adverb = certainty_of(least_sure_told(None, reply.scene, justification)).adverb
         begun = f"{adverb} {seen}" if adverb else f"I see that {seen}"
-        parts.append(f"{begun} ({each} {min(sure):.2f})")
+        told = f"I was told that {seen}"
+        parts.append(told if reply.scene.told else f"{begun} ({each} {min(sure):.2f})")
     parts += _steps(justification, _Said(justification, _class_ground(reply)))
     if reply.kind.form == "no_belief":
         parts.append(justification.text)

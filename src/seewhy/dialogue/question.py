@@ -1,99 +1,40 @@
-"""A question in words becomes a query: a controlled vocabulary that forgives spelling."""
+"""A question in words becomes a query: by the domain's templates, or by the grammar."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from enum import StrEnum
-from functools import lru_cache
-from itertools import islice, product
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import replace
 
-import snowballstemmer
-from rapidfuzz import fuzz, process
-from rapidfuzz.distance import DamerauLevenshtein
-
+from seewhy.dialogue.asked import Asks, Query, Question
+from seewhy.dialogue.asking_back import Suggestions
+from seewhy.dialogue.following_up import completed
+from seewhy.dialogue.inflection import ARTICLES
+from seewhy.dialogue.meaning import Readings, aside_phrases, grammar_words
+from seewhy.dialogue.saying_questions import say_question
+from seewhy.dialogue.spelling import Spelling
+from seewhy.dialogue.templates import as_what, embedded, expanded
+from seewhy.dialogue.vocabulary import SUBJECTS, Vocabulary
 from seewhy.domain import Domain
-from seewhy.domain_tables import QuestionTable
-from seewhy.errors import DomainError, QuestionError
-from seewhy.nearest import did_you_mean
+from seewhy.errors import QuestionError
 from seewhy.question_words import CONTRACTIONS, words_of
-from seewhy.toml_file import line_of
+
+__all__ = ["Asks", "Query", "Question", "Questions"]
 
 LONGEST_QUESTION = 300
-"""Characters; nothing in a controlled vocabulary is nearly as long."""
-_MOST_READINGS = 256
+"""Characters; nothing that the grammar says is nearly as long."""
+_LONGEST_OPENING = 12
 
 
-class Asks(StrEnum):
-    """What a question asks for."""
-
-    CLASS = "class"
-    IS_CLASS = "is_class"
-    WHY_CLASS = "why_class"
-    WHY_NOT_CLASS = "why_not_class"
-    CHANGE_TO_CLASS = "change_to_class"
-    DIFFERENCE_TO_CLASS = "difference_to_class"
-    BELIEF_VALUE = "belief_value"
-    FEATURE_VALUE = "feature_value"
-    FEATURE_IS = "feature_is"
-    EXPLAIN = "explain"
-
-
-_ABOUT_A_CLASS = {
-    Asks.IS_CLASS, Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS,
-    Asks.DIFFERENCE_TO_CLASS,
-}  # fmt: skip
-_ABOUT_A_FEATURE = {Asks.FEATURE_VALUE, Asks.FEATURE_IS}
-_DROPPED = {"a", "an", "the", "any", "some"}
-_SUBJECT = {"it", "this", "that", "these", "those"}
-# Words that a question may have or lack without asking for anything else.
-_LIGHT = {
-    "is", "are", "be", "been", "being", "do", "does", "did", "it", "there", "here", "to", "of",
-    "in", "on", "at", "for", "so", "then", "now", "really", "actually", "currently", "exactly",
-    "would", "could", "can", "will", "should", "have", "has", "having", "you", "i", "me", "and",
-    "picture", "image", "photo", "shown", "see", "all", "just", "about", "get", "that", "which",
-    "with", "am", "was", "were", "need", "by", "also", "still",
-}  # fmt: skip
-_STEM = lru_cache(maxsize=16_384)(snowballstemmer.stemmer("english").stemWord)
-
-
-Query = tuple[str, str | None, str | None, str | None]
-"""What is asked, the class, the feature or static, and the value that it is about."""
-
-
-@dataclass(frozen=True)
-class Question:
-    """A question that was understood.
-
-    Attributes
-    ----------
-    asks : Asks
-    text : str
-        The question in the words of the domain's template.
-    label, feature, value, predicate : str or None
-        The class, the feature and the value, or the static that it is about.
-    words : tuple of str
-        Its normalised words, which the recurrent network reads.
-    """
-
-    asks: Asks
-    text: str
-    words: tuple[str, ...]
-    label: str | None = None
-    feature: str | None = None
-    value: str | None = None
-    predicate: str | None = None
-
-    @property
-    def query(self) -> Query:
-        """What is asked, without the wording; equal for questions that mean the same."""
-        return (self.asks.value, self.label, self.feature or self.predicate, self.value)
+_TAG = re.compile(r",\s*(right|correct|true|no|yes|okay|ok|huh|eh)\s*[.?!]*\s*$", re.IGNORECASE)
+"""What may follow a statement to make it a question: "it leans, right?"."""
 
 
 class Questions:
-    """The questions that a domain's templates can ask.
+    """The questions that can be asked about pictures of a domain.
+
+    A wording of the domain's templates means what its template says; every other one is read by
+    the grammar (dialogue/grammar.toml) over the words of the domain.
 
     Raises
     ------
@@ -106,334 +47,140 @@ class Questions:
     >>> questions = Questions(load_domain("structure_stability"))
     >>> questions.understand("WHAT makes this tower unstabel??").query
     ('why_class', 'unstable', None, None)
+    >>> questions.understand("would it still be stable if it leaned?").query
+    ('what_if', None, None, None, 'lean=yes')
     """
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
-        _check_words(domain)
-        self._subject = {_STEM(word) for word in (words_of(domain.subject)[-1], *_SUBJECT)}
-        self._synonyms = self._read_synonyms()
+        self._vocabulary = Vocabulary(domain)
         self._known: dict[tuple[str, ...], Question] = {}
-        spelling: set[str] = set(CONTRACTIONS) | _LIGHT | _SUBJECT | _DROPPED
-        for canonical, others in domain.questions.synonyms.items():
-            spelling.update(word for phrase in (canonical, *others) for word in words_of(phrase))
-        for question in self._expand(domain):
-            spelling.update(words_of(question.text))
+        for question in expanded(domain, self._vocabulary.for_templates):
             self._known.setdefault(question.words, question)
-        self._by_weighty: dict[frozenset[str], list[Question]] = {}
+        self._embedded: dict[tuple[str, ...], Question] = {}
+        for words, question in self._known.items():
+            for variant in embedded(words):
+                self._embedded.setdefault(variant, question)
+        self._by_query: dict[Query, Question] = {}
         for question in self._known.values():
-            self._by_weighty.setdefault(_weighty(question.words), []).append(question)
-        self._spelling = spelling
-        self._stems = frozenset(map(_STEM, spelling))
+            self._by_query.setdefault(question.query, question)
+        self._readings = Readings(domain, self._vocabulary.for_grammar)
+        self._spelling = Spelling(self._spelled())
+        self._suggestions = Suggestions(domain, tuple(self._known.values()))
 
     @property
     def all(self) -> tuple[Question, ...]:
-        """Every distinct wording that is understood exactly."""
+        """Every distinct wording of the domain's templates."""
         return tuple(self._known.values())
 
     def one_of_each(self) -> tuple[Question, ...]:
-        """The first wording of every distinct query, in the order of the templates."""
-        first: dict[Query, Question] = {}
-        for question in self._known.values():
-            first.setdefault(question.query, question)
-        return tuple(first.values())
+        """The first wording of every distinct query of the templates, in their order."""
+        return tuple(self._by_query.values())
 
-    def understand(self, text: str) -> Question:
+    def understand(self, text: str, *, previous: Question | None = None) -> Question:
         """Return the query that a question in words asks for.
 
         Case, punctuation, word forms, the domain's synonyms and typing errors are forgiven.
+
+        Parameters
+        ----------
+        text : str
+        previous : Question, optional
+            What was asked before, which a question may leave out: "and the base?".
 
         Raises
         ------
         QuestionError
             If the question is empty, too long or not understood; it names the nearest ones.
         """
-        if not text.strip():
-            raise QuestionError(
-                f"the question is empty; {self._suggest(self._examples())}",
-                nearest=self._examples(),
-            )
-        if len(text) > LONGEST_QUESTION:
-            raise QuestionError(
-                f"the question has {len(text)} characters, at most {LONGEST_QUESTION} are read; "
-                f"{self._suggest(self._examples())}",
-                nearest=self._examples(),
-            )
-        tokens = words_of(text)
-        if not any(re.search("[a-z]", token) for token in tokens):
-            raise QuestionError(
-                f"'{' '.join(text.split())}' has no word in the vocabulary's alphabet; "
-                f"{self._suggest(self._examples())}",
-                nearest=self._examples(),
-            )
-        readings = self._readings(tokens)
-        found = {
-            question.query: question
-            for words in map(self._normalise, readings)
-            if (question := self._known.get(words) or self._loosely(words)) is not None
-        }
-        # A typing error that could be mended into two different questions is asked back.
+        self._refuse_what_is_none(text)
+        readings = list(self._spelling.readings(words_of(_TAG.sub("", text))))
+        found: dict[Query, Question] = {}
+        for reading in readings:
+            for question in self._read(reading, previous):
+                found.setdefault(question.query, question)
+        # What could be two different questions is asked back.
         if len(found) != 1:
-            nearest = tuple(f"{own.text}?" for own in found.values())
-            nearest = nearest[:3] or self._nearest(readings[0])
+            nearest = tuple(dict.fromkeys(f"{question.text}?" for question in found.values()))[:3]
+            nearest = nearest or self._suggestions.nearest(readings[0])
             raise QuestionError(
-                f"'{' '.join(text.split())}' is not understood; {self._suggest(nearest)}",
+                f"'{' '.join(text.split())}' is not understood; {_suggest(nearest)}",
                 nearest=nearest,
             )
         return next(iter(found.values()))
 
-    def _loosely(self, words: tuple[str, ...]) -> Question | None:
-        """The question with the same weighty words, whatever their order, if there is one."""
-        weighty = _weighty(words)
-        if not weighty:
-            return None
-        queries: dict[Query, Question] = {}
-        best = -1.0
-        for question in self._by_weighty.get(weighty, ()):
-            # What a "not" denies is told by its place alone.
-            if "not" in weighty and _after_not(words) != _after_not(question.words):
-                continue
-            score = fuzz.ratio(" ".join(words), " ".join(question.words))
-            if score > best:
-                best, queries = score, {question.query: question}
-            elif score == best:
-                queries.setdefault(question.query, question)
-        return next(iter(queries.values())) if len(queries) == 1 else None
+    def _read(self, text: str, previous: Question | None) -> list[Question]:
+        """What a text without typing errors may ask."""
+        by_template = self._known.get(self._vocabulary.for_templates(text))
+        if by_template is not None and not (previous and by_template.asks is Asks.EXPLAIN):
+            return [by_template]
+        words = self._vocabulary.for_grammar(text)
+        if previous is not None:
+            follow_up = completed(self._readings, words, previous)
+            if follow_up:
+                return [self._worded(question) for question in follow_up]
+        by_template = by_template or self._embedded_in(text)
+        if by_template is not None:
+            return [by_template]
+        return [self._worded(question) for question in self._readings.read(words)]
 
-    def _readings(self, tokens: Sequence[str]) -> list[str]:
-        """The texts that the words may stand for, with unknown words mended."""
-        # A word is not mended into one that the question has already: "is the table stable".
-        spellings = [
-            [word for word in self._spellings(token) if word == token or word not in tokens]
-            or [token]
-            for token in tokens
-        ]
-        readings = product(*spellings)
-        return [" ".join(words) for words in islice(readings, _MOST_READINGS)]
+    def _embedded_in(self, text: str) -> Question | None:
+        """The template behind "tell me" and the like, or one with "what" for "which"."""
+        tokens = text.split()
+        for start in range(min(len(tokens), _LONGEST_OPENING)):
+            rest = self._vocabulary.for_templates(" ".join(tokens[start:]))
+            found = self._known.get(rest) if start else None
+            found = found or self._embedded.get(as_what(rest))
+            opening = self._vocabulary.for_grammar(" ".join(tokens[:start]))
+            if found is not None and self._readings.is_opening(opening):
+                return found
+        return None
 
-    def _spellings(self, token: str) -> list[str]:
-        """The words of the vocabulary that are nearest to a word that nobody knows."""
-        if token in self._spelling or len(token) < 4 or _STEM(token) in self._stems:
-            return [token]
-        allowed = 1 if len(token) < 7 else 2
-        close = process.extract(
-            token,
-            sorted(word for word in self._spelling if word[0] == token[0] or len(word) > 4),
-            scorer=DamerauLevenshtein.distance,
-            score_cutoff=allowed,
-            limit=None,
-        )
-        least = min((distance for _, distance, _ in close), default=0)
-        return [word for word, distance, _ in close if distance == least] or [token]
+    def _worded(self, question: Question) -> Question:
+        """A question of the grammar in the words of a template, or in its own."""
+        same = self._by_query.get(question.query)
+        if same is not None:
+            return same
+        text = say_question(self.domain, question)
+        return replace(question, text=text, words=self._vocabulary.for_templates(text))
 
-    def _nearest(self, text: str) -> tuple[str, ...]:
-        weighty = _weighty(self._normalise(text))
-        alike = [q for q in self._known.values() if not weighty.isdisjoint(q.words)]
-        texts = {question.text: question.query for question in alike or self._known.values()}
-        ranked = process.extract(text, list(texts), scorer=fuzz.token_set_ratio, limit=40)
-        chosen: dict[Query, str] = {}
-        for found, _, _ in ranked:
-            chosen.setdefault(texts[found], found)
-        return tuple(f"{found}?" for found in list(chosen.values())[:3])
+    def _spelled(self) -> set[str]:
+        """All words that a question can be made of, as they are written."""
+        domain = self.domain
+        spelled = set(CONTRACTIONS) | SUBJECTS | ARTICLES | self._vocabulary.spelled
+        spelled.update(grammar_words())
+        spelled.update(word for phrase in aside_phrases() for word in words_of(phrase))
+        for question in self._known.values():
+            spelled.update(words_of(question.text))
+        for scene_class in domain.classes.values():
+            for phrase in (*scene_class.words, scene_class.say, *scene_class.verbs):
+                spelled.update(words_of(phrase))
+        for feature in domain.features.values():
+            phrases = [feature.name, feature.key, *feature.values, *feature.change.values()]
+            phrases += [clause.replace("{it}", "it") for clause in feature.say.values()]
+            phrases += [word for words in feature.words.values() for word in words]
+            for phrase in phrases:
+                spelled.update(words_of(phrase))
+        for belief in domain.beliefs.values():
+            for phrase in (belief.name, *belief.words.values(), *belief.acts):
+                spelled.update(words_of(phrase))
+        return spelled
 
-    def _examples(self) -> tuple[str, ...]:
-        return tuple(f"{question.text}?" for question in self.one_of_each()[:3])
-
-    @staticmethod
-    def _suggest(questions: Sequence[str]) -> str:
-        return "ask for instance: " + " · ".join(questions)
-
-    def _read_synonyms(self) -> dict[str, list[tuple[tuple[str, ...], tuple[str, ...]]]]:
-        """First stem → the phrases that begin with it and what they stand for, longest first."""
-        pairs = [
-            (tuple(map(_STEM, words_of(other))), tuple(map(_STEM, words_of(canonical))))
-            for canonical, others in self.domain.questions.synonyms.items()
-            for other in others
-        ]
-        fillers = [(tuple(map(_STEM, words_of(f))), ()) for f in self.domain.questions.fillers]
-        by_first: dict[str, list[tuple[tuple[str, ...], tuple[str, ...]]]] = {}
-        for pair in sorted([*pairs, *fillers], key=lambda pair: -len(pair[0])):
-            by_first.setdefault(pair[0][0], []).append(pair)
-        return by_first
-
-    def _normalise(self, text: str) -> tuple[str, ...]:
-        stems = [_STEM(token) for token in words_of(text) if token not in _DROPPED]
-        position = 0
-        while position < len(stems):
-            for other, canonical in self._synonyms.get(stems[position], ()):
-                if tuple(stems[position : position + len(other)]) == other:
-                    stems[position : position + len(other)] = canonical
-                    position += len(canonical) - 1
-                    break
-            position += 1
-        words: list[str] = []
-        for stem in stems:
-            word = "it" if stem in self._subject else stem
-            if not (word == "it" and words and words[-1] == "it"):
-                words.append(word)
-        return tuple(words)
-
-    def _expand(self, domain: Domain) -> Iterator[Question]:
-        path = domain.folder / "questions.toml"
-        for number, table in enumerate(domain.questions.question):
-            place = f"{path}:{_line(path, number)}"
-            asks = _check_table(table, domain, place)
-            for pattern in table.patterns:
-                _check_pattern(pattern, place)
-                slots = _slots(table, asks, domain, pattern, place)
-                for variant in _optional(pattern):
-                    for filled in slots:
-                        text = variant.replace("{it}", domain.subject)
-                        text = text.replace("{class}", filled.word).replace("{value}", filled.word)
-                        if "not not" in text:
-                            continue  # a class that is worded as "not …" in a question with "not"
-                        yield Question(
-                            asks=asks,
-                            text=" ".join(text.split()),
-                            words=self._normalise(text),
-                            label=filled.label,
-                            feature=table.feature,
-                            value=filled.value,
-                            predicate=table.predicate,
-                        )
-
-
-def _check_pattern(pattern: str, place: str) -> None:
-    """Raise a DomainError where a pattern has an unknown slot or brackets that do not pair."""
-    plain = re.sub(r"\{(it|class|value)\}", "word", pattern)
-    if "{" in plain or "}" in plain:
-        raise DomainError(
-            f"{place}: '{pattern}' has a slot that does not exist; there are {{it}}, {{class}} and "
-            "{value}"
-        )
-    if re.search(r"[\[\]]", re.sub(r"\[[^\[\]]*\]", "", plain)):
-        raise DomainError(
-            f"{place}: the brackets of '{pattern}' do not pair; [...] is what may be left out"
-        )
-
-
-def _check_words(domain: Domain) -> None:
-    """Raise a DomainError where a subject, synonym or filler is not made of words."""
-    if not words_of(domain.subject):
-        raise DomainError(
-            f"{domain.folder / 'domain.toml'}: subject = '{domain.subject}' has no word; "
-            'write one such as "the apple"'
-        )
-    questions = domain.questions
-    phrases = {f"synonyms of '{key}'": (key, *own) for key, own in questions.synonyms.items()}
-    phrases["fillers"] = tuple(questions.fillers)
-    for where, own in phrases.items():
-        for phrase in own:
-            if not words_of(phrase):
-                raise DomainError(
-                    f"{domain.folder / 'questions.toml'}: '{phrase}' in the {where} has no word; "
-                    "remove it"
-                )
-
-
-_LIGHT_STEMS = frozenset(_STEM(word) for word in _LIGHT)
-
-
-def _weighty(words: Sequence[str]) -> frozenset[str]:
-    """The normalised words that tell what is asked."""
-    return frozenset(words) - _LIGHT_STEMS
-
-
-def _after_not(words: Sequence[str]) -> tuple[str, ...]:
-    """The word behind every "not"."""
-    return tuple(
-        next((w for w in words[n + 1 :] if w not in _LIGHT_STEMS), "")
-        for n, word in enumerate(words)
-        if word == "not"
-    )
-
-
-def _optional(pattern: str) -> Iterator[str]:
-    """Every reading of a pattern with its [optional] parts left in or out."""
-    parts = re.split(r"\[([^\]]*)\]", pattern)
-    fixed, optional = parts[::2], parts[1::2]
-    for chosen in product((True, False), repeat=len(optional)):
-        filled = [part if keep else "" for part, keep in zip(optional, chosen, strict=True)]
-        yield "".join(a + b for a, b in zip(fixed, [*filled, ""], strict=True))
-
-
-@dataclass(frozen=True)
-class _Slot:
-    """A word for the slot of a pattern and what it stands for."""
-
-    word: str = ""
-    label: str | None = None
-    value: str | None = None
-
-
-def _slots(
-    table: QuestionTable, asks: Asks, domain: Domain, pattern: str, place: str
-) -> list[_Slot]:
-    """All ways to fill the slots of a pattern."""
-    if "{class}" in pattern:
-        if asks not in _ABOUT_A_CLASS:
-            raise DomainError(f"{place}: '{pattern}' names {{class}}, but asks '{asks}'; remove it")
-        return [
-            _Slot(word=word, label=key) for key, own in domain.classes.items() for word in own.words
-        ]
-    if asks in _ABOUT_A_CLASS:
-        raise DomainError(f"{place}: '{pattern}' asks about a class; name it as {{class}}")
-    if "{value}" in pattern:
-        if table.feature is None or asks is not Asks.FEATURE_IS or table.value is not None:
-            raise DomainError(
-                f"{place}: '{pattern}' names {{value}}; that goes with asks = 'feature_is', a "
-                "feature, and no value of its own"
+    def _refuse_what_is_none(self, text: str) -> None:
+        """Raise a QuestionError where a text is no question at all."""
+        problem = None
+        if not text.strip():
+            problem = "the question is empty"
+        elif len(text) > LONGEST_QUESTION:
+            problem = (
+                f"the question has {len(text)} characters, at most {LONGEST_QUESTION} are read"
             )
-        feature = domain.features[table.feature]
-        return [
-            _Slot(word=word, value=value)
-            for value in feature.values
-            for word in feature.words[value]
-        ]
-    if asks is Asks.FEATURE_IS and table.value is None:
-        raise DomainError(f"{place}: '{pattern}' needs {{value}}, or the question a 'value'")
-    return [_Slot(value=table.value)]
+        elif not any(re.search("[a-z]", token) for token in words_of(text)):
+            problem = f"'{' '.join(text.split())}' has no word in the vocabulary's alphabet"
+        if problem is not None:
+            examples = tuple(f"{question.text}?" for question in self.one_of_each()[:3])
+            raise QuestionError(f"{problem}; {_suggest(examples)}", nearest=examples)
 
 
-def _check_table(table: QuestionTable, domain: Domain, place: str) -> Asks:
-    if table.asks not in set(Asks):
-        raise DomainError(
-            f"{place}: asks = '{table.asks}' is not known; "
-            f"{did_you_mean(table.asks, [a.value for a in Asks])}"
-        )
-    asks = Asks(table.asks)
-    if asks in _ABOUT_A_FEATURE and table.feature is None:
-        raise DomainError(f"{place}: asks = '{asks}' needs a feature; add feature = \"…\"")
-    if asks not in _ABOUT_A_FEATURE and table.feature is not None:
-        raise DomainError(f"{place}: asks = '{asks}' is about no feature; remove 'feature'")
-    if asks is Asks.BELIEF_VALUE and table.predicate is None:
-        raise DomainError(f"{place}: asks = '{asks}' needs a static; add predicate = \"…\"")
-    if asks is not Asks.BELIEF_VALUE and table.predicate is not None:
-        raise DomainError(f"{place}: asks = '{asks}' is about no static; remove 'predicate'")
-    if table.predicate is not None and table.predicate in domain.features:
-        raise DomainError(
-            f"{place}: '{table.predicate}' is a feature; ask for it with asks = "
-            f"'{Asks.FEATURE_VALUE}' and feature = \"{table.predicate}\""
-        )
-    if table.predicate is not None and table.predicate not in domain.beliefs:
-        raise DomainError(
-            f"{place}: '{table.predicate}' is no static of knowledge.al that gives "
-            f"'{domain.scene}' a value; {did_you_mean(table.predicate, domain.beliefs)}"
-        )
-    if table.feature is not None and table.feature not in domain.features:
-        raise DomainError(
-            f"{place}: '{table.feature}' is no feature of domain.toml; "
-            f"{did_you_mean(table.feature, domain.features)}"
-        )
-    if table.value is not None:
-        values = domain.features[table.feature].values if table.feature else ()
-        if table.value not in values:
-            raise DomainError(
-                f"{place}: '{table.value}' is no value of '{table.feature}'; "
-                f"{did_you_mean(table.value, values)}"
-            )
-    return asks
-
-
-def _line(path: Path, number: int) -> int:
-    return line_of(path.read_text(encoding="utf-8"), ["question", str(number)])
+def _suggest(questions: Sequence[str]) -> str:
+    return "ask for instance: " + " · ".join(questions)

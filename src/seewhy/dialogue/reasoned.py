@@ -141,6 +141,8 @@ class ReasonedAnswers:
         form = "value"
         if question.asks is Asks.FEATURE_IS:
             form = "yes" if value == question.value else "no"
+        if value is None:
+            form = "feature_unknown"
         node = self.seen(vector, feature)
         return ReasonedAnswer(AnswerType(form, (feature,)), node)
 

@@ -30,6 +30,11 @@ MATTERS = 0.01
 _FAR = 1e-4  # what is far away counts this little, but not nothing
 _CELLS = 32  # squares each way in which a map is told
 _LINE = 0.5  # an overlay has a line around all that counts half as much as the best place
+_PLACES = (
+    ("in the upper left", "at the top", "in the upper right"),
+    ("on the left", "in the middle", "on the right"),
+    ("in the lower left", "at the bottom", "in the lower right"),
+)
 _RED = (214.0, 39.0, 40.0)
 
 Picture = npt.NDArray[np.uint8]
@@ -80,6 +85,33 @@ class Where:
     def matters(self) -> bool:
         """Whether some place matters, so that the map marks it."""
         return self.lost >= MATTERS
+
+    @property
+    def place(self) -> str:
+        """The place that counts most, in words.
+
+        The middle of the map's mass tells it, in thirds of the picture; a map of which more than
+        half counts at least half as much as its best place has no place.
+
+        Examples
+        --------
+        >>> corner = np.zeros((9, 9), dtype=np.float32)
+        >>> corner[:3, 6:] = 1
+        >>> Where("lean", "yes", 0.98, 0.61, corner).place
+        'in the upper right'
+        >>> Where("lean", "yes", 0.98, 0.61, np.ones((9, 9), dtype=np.float32)).place
+        'all over the picture'
+        """
+        if (self.map >= _LINE).mean() > _LINE:
+            return "all over the picture"
+        mass = np.where(self.map >= _LINE, self.map, 0.0).astype(np.float64)
+        if not mass.any():
+            return "all over the picture"
+        side = len(self.map)
+        middles = (np.arange(side) + 0.5) / side
+        down = float((mass.sum(axis=1) * middles).sum() / mass.sum())
+        across = float((mass.sum(axis=0) * middles).sum() / mass.sum())
+        return _PLACES[min(int(3 * down), 2)][min(int(3 * across), 2)]
 
     def to_text(self) -> str:
         """Return in words how much the marked place matters.

@@ -1,0 +1,113 @@
+"""`seewhy decide`: what the knowledge says of named values, without a picture or a model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from seewhy.cli.options import DomainName, Json
+from seewhy.cli.screen import print_json, say
+
+if TYPE_CHECKING:
+    from seewhy.domain import Domain
+    from seewhy.reply import Reply
+
+
+def decide(
+    domain: DomainName,
+    values: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[FEATURE=VALUE]...",
+            help="What a picture would show, as in colour=brown; what is left out is not known.",
+        ),
+    ] = None,
+    ask: Annotated[
+        list[str] | None,
+        typer.Option("--ask", help="Also answer this question; may be given several times."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Reason about named values, so that rules can be tried before anything is trained."""
+    from seewhy.agent import Agent
+    from seewhy.dialogue.question import Asks, Question
+    from seewhy.domain import load_domain
+
+    loaded = load_domain(domain)
+    agent = Agent(loaded)
+    scene = agent.classify_values(named_values(loaded, values or ()))
+    reply = agent.answer(scene, Question(Asks.CLASS, "what is it", ()))
+    replies: list[Reply] = []
+    for question in ask or ():
+        before = replies[-1] if replies else None
+        asked = before.question if before else None
+        understood = agent.questions.understand(question, previous=asked)
+        replies.append(agent.answer(scene, understood, previous=before))
+    if json:
+        told = {"features": loaded.named(scene.vector), "class": scene.label}
+        print_json(
+            {
+                "domain": loaded.name,
+                **told,
+                "verdict": scene.verdict,
+                "justification": reply.justification.to_dict(),
+                "answers": [
+                    {
+                        "question": f"{own.question.text}?",
+                        "text": own.text,
+                        "justification": own.justification.to_dict(),
+                    }
+                    for own in replies
+                ],
+            }
+        )
+        return
+    label = "not decided" if scene.label is None else loaded.classes[scene.label].say
+    say(f"class: {label}")
+    say("because:")
+    for line in reply.justification.to_text().splitlines():
+        say(f"  {line}")
+    for question, own in zip(ask or (), replies, strict=True):
+        say()
+        say(question)
+        say(own.text)
+
+
+def named_values(domain: Domain, assignments: Sequence[str]) -> dict[str, str]:
+    """Return feature → value of assignments such as ``colour=brown``.
+
+    Raises
+    ------
+    DomainError
+        If one is none, names no feature or value, or a feature that another names as well.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> named_values(load_domain("structure_stability"), ["base=wide", "lean=no"])
+    {'base': 'wide', 'lean': 'no'}
+    """
+    from seewhy.errors import DomainError
+    from seewhy.nearest import did_you_mean
+
+    found: dict[str, str] = {}
+    for assignment in assignments:
+        name, sign, value = assignment.partition("=")
+        name, value = name.strip(), value.strip()
+        if not sign:
+            raise DomainError(
+                f"'{assignment}' gives no value; write FEATURE=VALUE, as in "
+                f"{next(iter(domain.features))}={next(iter(domain.features.values())).values[0]}"
+            )
+        if name not in domain.features:
+            raise DomainError(
+                f"'{name}' is no feature of {domain.name}; {did_you_mean(name, domain.features)}"
+            )
+        values = domain.features[name].values
+        if value not in values:
+            raise DomainError(f"'{value}' is no value of '{name}'; {did_you_mean(value, values)}")
+        if found.setdefault(name, value) != value:
+            raise DomainError(f"'{name}' is given twice, {found[name]} and {value}; leave one out")
+    return found

@@ -1,0 +1,82 @@
+"""What is asked back where a question is not understood: the nearest ones, of the same kind."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rapidfuzz import fuzz, process
+
+from seewhy.dialogue.asked import Asks, Query, Question
+from seewhy.dialogue.inflection import lemma
+from seewhy.dialogue.saying_questions import PLAIN_WORDINGS
+from seewhy.domain import Domain
+from seewhy.question_words import words_of
+
+__all__ = ["Suggestions"]
+
+_QUESTION_WORDS = ("why", "what", "which", "who", "where", "how", "when")
+_WHETHER = "whether"
+_NOT_TELLING = {
+    "is", "are", "the", "a", "an", "it", "to", "of", "in", "on", "do", "does", "you", "i",
+    "there", "for", "and", "be", "this", "that", "would",
+}  # fmt: skip
+_MOST = 3
+
+
+class Suggestions:
+    """Chooses questions that are near to one that is not understood.
+
+    Those that ask with the same question word and deny as much as it does, about something that it
+    names, come first; then those that deny as much about that; then those with the same question
+    word.
+    """
+
+    def __init__(self, domain: Domain, questions: Sequence[Question]) -> None:
+        self.domain = domain
+        by_text = {question.text: question for question in questions}
+        for asks, text in PLAIN_WORDINGS.items():
+            if asks in (Asks.CLASS, Asks.EXPLAIN):
+                continue
+            by_text.setdefault(text, Question(asks, text, ()))
+        self._by_kind: dict[tuple[str, bool], dict[str, Query]] = {}
+        by_text = {text: own for text, own in by_text.items() if words_of(text).count("not") < 2}
+        for text, question in by_text.items():
+            self._by_kind.setdefault(_kind(text), {}).setdefault(text, question.query)
+        self._all = {text: question.query for text, question in by_text.items()}
+
+    def nearest(self, text: str) -> tuple[str, ...]:
+        """Return at most three questions that are understood, the nearest first."""
+        kind = _kind(text)
+        same = self._by_kind.get(kind, {})
+        as_denying = {
+            own: query
+            for (_, denies), pool in self._by_kind.items()
+            if denies == kind[1]
+            for own, query in pool.items()
+        }
+        chosen: dict[Query, str] = {}
+        about = _about(text)
+        for pool in (_sharing(same, about), _sharing(as_denying, about), same, self._all):
+            if len(chosen) >= _MOST or (chosen and pool is self._all):
+                break
+            ranked = process.extract(text, list(pool), scorer=fuzz.token_set_ratio, limit=40)
+            for found, _, _ in ranked:
+                chosen.setdefault(pool[found], found)
+        return tuple(f"{found}?" for found in list(chosen.values())[:_MOST])
+
+
+def _about(text: str) -> frozenset[str]:
+    """The words that tell what a question is about."""
+    return frozenset(map(lemma, set(words_of(text)) - _NOT_TELLING - set(_QUESTION_WORDS)))
+
+
+def _sharing(questions: dict[str, Query], about: frozenset[str]) -> dict[str, Query]:
+    return {text: query for text, query in questions.items() if about & _about(text)}
+
+
+def _kind(text: str) -> tuple[str, bool]:
+    """The question word, and whether something is denied."""
+    words = words_of(text)
+    asked = next((word for word in words if word in _QUESTION_WORDS), _WHETHER)
+    asked = "what" if asked == "which" else asked
+    return asked, "not" in words or "no" in words

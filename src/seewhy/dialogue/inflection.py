@@ -1,0 +1,52 @@
+"""Words without their inflection: "leaning" and "leant" are one, "is" and "was" are two."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import snowballstemmer
+
+__all__ = ["ARTICLES", "lemma"]
+
+ARTICLES = frozenset({"a", "an", "the", "any", "some"})
+"""Words that change nothing of what is asked about a picture."""
+
+# Auxiliaries tell the tense, and words of one syllable are no inflections of each other.
+_AS_THEY_ARE = {
+    "is", "are", "was", "were", "be", "been", "being", "am", "do", "does", "did", "have", "has",
+    "had", "having", "will", "would", "can", "could", "may", "might", "must", "shall", "should",
+    "this", "these", "that", "those", "it", "its", "his", "her", "i", "you", "we", "one", "ones",
+    "no", "not", "nor", "none", "nothing", "as", "us", "left", "people", "sure",
+}  # fmt: skip
+_IRREGULAR = {
+    "leant": "lean", "stood": "stand", "fell": "fall", "fallen": "fall", "gave": "give",
+    "given": "give", "made": "make", "built": "build", "saw": "see", "seen": "see",
+    "shown": "show", "knew": "know", "known": "know", "thought": "think", "said": "say",
+    "told": "tell", "found": "find", "took": "take", "taken": "take", "bent": "bend",
+    "broke": "break", "broken": "break", "meant": "mean", "kept": "keep", "held": "hold",
+    "grew": "grow", "grown": "grow", "hid": "hide", "hidden": "hide", "began": "begin",
+    "became": "become", "came": "come", "went": "go", "gone": "go", "chose": "choose",
+    "chosen": "choose", "drew": "draw", "drawn": "draw", "written": "write", "wrote": "write",
+    "worn": "wear", "wore": "wear", "sat": "sit", "lay": "lie", "lain": "lie", "lying": "lie",
+    "torn": "tear", "persons": "person", "children": "child", "feet": "foot", "men": "man",
+    "women": "woman", "building": "building", "based": "based",
+}  # fmt: skip
+_STEM = lru_cache(maxsize=16_384)(snowballstemmer.stemmer("english").stemWord)
+
+
+def lemma(word: str) -> str:
+    """Return what the inflections of a word have in common.
+
+    Examples
+    --------
+    >>> [lemma(word) for word in ("leaning", "leant", "blocks", "is", "was")]
+    ['lean', 'lean', 'block', 'is', 'was']
+    >>> lemma("stable") == lemma("stability")
+    False
+    """
+    if word in _AS_THEY_ARE:
+        return word
+    stem = str(_STEM(word))
+    # "Narrower" compares, which "narrow" does not.
+    compares = word.endswith(("er", "est")) and not stem.endswith(("er", "est"))
+    return _IRREGULAR.get(word) or (word if compares else stem)

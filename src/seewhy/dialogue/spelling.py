@@ -1,0 +1,83 @@
+"""Typing errors: what is no word becomes the nearest word of the vocabulary."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
+from importlib import resources
+from itertools import islice, product
+
+from rapidfuzz import process
+from rapidfuzz.distance import DamerauLevenshtein
+
+from seewhy.dialogue.inflection import lemma
+
+__all__ = ["Spelling", "english_words"]
+
+_MOST_READINGS = 64
+
+
+@cache
+def english_words() -> frozenset[str]:
+    """Return common English words: whoever writes one of them means it.
+
+    Examples
+    --------
+    >>> "suitable" in english_words(), "unstabel" in english_words()
+    (True, False)
+    """
+    text = resources.files("seewhy.dialogue").joinpath("english_words.txt")
+    return frozenset(text.read_text(encoding="utf-8").split())
+
+
+class Spelling:
+    """Mends words that are neither in a vocabulary nor English.
+
+    Examples
+    --------
+    >>> spelling = Spelling(["stable", "unstable", "table", "lean"])
+    >>> list(spelling.readings(["suitable", "unstabel", "learn", "ustable"]))
+    ['suitable unstable learn stable', 'suitable unstable learn unstable']
+    """
+
+    def __init__(self, vocabulary: Iterable[str]) -> None:
+        self._known = frozenset(vocabulary)
+        self._lemmas = frozenset(map(lemma, self._known))
+        self._sorted = sorted(word for word in self._known if len(word) > 2)
+
+    def readings(self, words: Sequence[str]) -> Iterator[str]:
+        """Yield the texts that words may stand for; the words themselves where nothing is amiss."""
+        # A word is not mended into one that the question has already: "is the table stable".
+        spellings = [
+            [found for found in self._spellings(word) if found == word or found not in words]
+            or [word]
+            for word in words
+        ]
+        for chosen in islice(product(*spellings), _MOST_READINGS):
+            yield " ".join(chosen)
+
+    def _spellings(self, word: str) -> list[str]:
+        if len(word) < 3 or word in self._known or lemma(word) in self._lemmas:
+            return [word]
+        if word in english_words() or not word.isalpha():
+            return [word]
+        if len(word) == 3:
+            turned = {word[1] + word[0] + word[2], word[0] + word[2] + word[1]}
+            return sorted(turned & self._known)[:1] or [word]
+        allowed = 1 if len(word) < 7 else 2
+        close = process.extract(
+            word,
+            [known for known in self._sorted if known[0] == word[0] or len(known) > 4],
+            scorer=DamerauLevenshtein.distance,
+            score_cutoff=allowed,
+            limit=None,
+        )
+        least = min((distance for _, distance, _ in close), default=0)
+        return [found for found, distance, _ in close if distance == least] or self._parts(word)
+
+    def _parts(self, word: str) -> list[str]:
+        """Two known words that were written as one, or the word."""
+        for cut in range(3, len(word) - 2):
+            if word[:cut] in self._known and word[cut:] in self._known:
+                return [f"{word[:cut]} {word[cut:]}"]
+        return [word]

@@ -1,0 +1,198 @@
+"""The question templates of a domain: patterns with slots, and every wording that they make."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+
+from seewhy.dialogue.asked import Asks, Question
+from seewhy.domain import Domain
+from seewhy.domain_tables import QuestionTable
+from seewhy.errors import DomainError
+from seewhy.nearest import did_you_mean
+from seewhy.toml_file import line_of
+
+__all__ = ["as_what", "embedded", "expanded"]
+
+_ABOUT_A_CLASS = {
+    Asks.IS_CLASS, Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS,
+    Asks.DIFFERENCE_TO_CLASS,
+}  # fmt: skip
+_ABOUT_A_FEATURE = {Asks.FEATURE_VALUE, Asks.FEATURE_IS}
+_ASKED_BY_TEMPLATES = tuple(asks for asks in Asks if Question(asks, "", ()).is_of_templates)
+
+
+def expanded(domain: Domain, normalise: Callable[[str], tuple[str, ...]]) -> Iterator[Question]:
+    """Yield every wording of a domain's templates, in their order.
+
+    Raises
+    ------
+    DomainError
+        Where a template names something that the domain does not have.
+    """
+    path = domain.folder / "questions.toml"
+    for number, table in enumerate(domain.questions.question):
+        place = f"{path}:{_line(path, number)}"
+        asks = _check_table(table, domain, place)
+        for pattern in table.patterns:
+            _check_pattern(pattern, place)
+            slots = _slots(table, asks, domain, pattern, place)
+            for variant in _optional(pattern):
+                for filled in slots:
+                    text = variant.replace("{it}", domain.subject)
+                    text = text.replace("{class}", filled.word).replace("{value}", filled.word)
+                    if "not not" in text:
+                        continue  # a class that is worded as "not …" in a question with "not"
+                    yield Question(
+                        asks=asks,
+                        text=" ".join(text.split()),
+                        words=normalise(text),
+                        label=filled.label,
+                        feature=table.feature,
+                        value=filled.value,
+                        predicate=table.predicate,
+                    )
+
+
+def as_what(words: tuple[str, ...]) -> tuple[str, ...]:
+    """Return words in which "which" asks like "what".
+
+    Examples
+    --------
+    >>> as_what(("which", "shape", "is", "it"))
+    ('what', 'shape', 'is', 'it')
+    """
+    return tuple("what" if word == "which" else word for word in words)
+
+
+def embedded(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
+    """Yield a template's normalised words as they stand behind "tell me", and by themselves.
+
+    Examples
+    --------
+    >>> list(embedded(("what", "colour", "is", "it")))
+    [('what', 'colour', 'is', 'it'), ('what', 'colour', 'it', 'is')]
+    >>> list(embedded(("what", "is", "colour", "of", "it")))[1]
+    ('colour', 'of', 'it')
+    """
+    words = as_what(words)
+    yield words
+    if words[:1] != ("what",) and words[:1] != ("how",):
+        return
+    for position in range(len(words) - 1):
+        if words[position : position + 2] == ("is", "it"):
+            rest = words[position + 2 :]
+            yield (*words[:position], "it", "is", *rest)
+        if words[position : position + 2] == ("doe", "it"):
+            said = ("has" if word == "have" else word for word in words[position + 2 :])
+            yield (*words[:position], "it", *said)
+    if words[:2] == ("what", "is") and "of" in words[3:]:
+        yield words[2:]
+
+
+def _check_pattern(pattern: str, place: str) -> None:
+    """Raise a DomainError where a pattern has an unknown slot or brackets that do not pair."""
+    plain = re.sub(r"\{(it|class|value)\}", "word", pattern)
+    if "{" in plain or "}" in plain:
+        raise DomainError(
+            f"{place}: '{pattern}' has a slot that does not exist; there are {{it}}, {{class}} and "
+            "{value}"
+        )
+    if re.search(r"[\[\]]", re.sub(r"\[[^\[\]]*\]", "", plain)):
+        raise DomainError(
+            f"{place}: the brackets of '{pattern}' do not pair; [...] is what may be left out"
+        )
+
+
+def _optional(pattern: str) -> Iterator[str]:
+    """Every reading of a pattern with its [optional] parts left in or out."""
+    parts = re.split(r"\[([^\]]*)\]", pattern)
+    fixed, optional = parts[::2], parts[1::2]
+    for chosen in product((True, False), repeat=len(optional)):
+        filled = [part if keep else "" for part, keep in zip(optional, chosen, strict=True)]
+        yield "".join(a + b for a, b in zip(fixed, [*filled, ""], strict=True))
+
+
+@dataclass(frozen=True)
+class _Slot:
+    """A word for the slot of a pattern and what it stands for."""
+
+    word: str = ""
+    label: str | None = None
+    value: str | None = None
+
+
+def _slots(
+    table: QuestionTable, asks: Asks, domain: Domain, pattern: str, place: str
+) -> list[_Slot]:
+    """All ways to fill the slots of a pattern."""
+    if "{class}" in pattern:
+        if asks not in _ABOUT_A_CLASS:
+            raise DomainError(f"{place}: '{pattern}' names {{class}}, but asks '{asks}'; remove it")
+        return [
+            _Slot(word=word, label=key) for key, own in domain.classes.items() for word in own.words
+        ]
+    if asks in _ABOUT_A_CLASS:
+        raise DomainError(f"{place}: '{pattern}' asks about a class; name it as {{class}}")
+    if "{value}" in pattern:
+        if table.feature is None or asks is not Asks.FEATURE_IS or table.value is not None:
+            raise DomainError(
+                f"{place}: '{pattern}' names {{value}}; that goes with asks = 'feature_is', a "
+                "feature, and no value of its own"
+            )
+        feature = domain.features[table.feature]
+        return [
+            _Slot(word=word, value=value)
+            for value in feature.values
+            for word in feature.words[value]
+        ]
+    if asks is Asks.FEATURE_IS and table.value is None:
+        raise DomainError(f"{place}: '{pattern}' needs {{value}}, or the question a 'value'")
+    return [_Slot(value=table.value)]
+
+
+def _check_table(table: QuestionTable, domain: Domain, place: str) -> Asks:
+    if table.asks not in _ASKED_BY_TEMPLATES:
+        raise DomainError(
+            f"{place}: asks = '{table.asks}' is not known; "
+            f"{did_you_mean(table.asks, [own.value for own in _ASKED_BY_TEMPLATES])}"
+        )
+    asks = Asks(table.asks)
+    if asks in _ABOUT_A_FEATURE and table.feature is None:
+        raise DomainError(f"{place}: asks = '{asks}' needs a feature; add feature = \"…\"")
+    if asks not in _ABOUT_A_FEATURE and table.feature is not None:
+        raise DomainError(f"{place}: asks = '{asks}' is about no feature; remove 'feature'")
+    if asks is Asks.BELIEF_VALUE and table.predicate is None:
+        raise DomainError(f"{place}: asks = '{asks}' needs a static; add predicate = \"…\"")
+    if asks is not Asks.BELIEF_VALUE and table.predicate is not None:
+        raise DomainError(f"{place}: asks = '{asks}' is about no static; remove 'predicate'")
+    if table.predicate is not None and table.predicate in domain.features:
+        raise DomainError(
+            f"{place}: '{table.predicate}' is a feature; ask for it with asks = "
+            f"'{Asks.FEATURE_VALUE}' and feature = \"{table.predicate}\""
+        )
+    if table.predicate is not None and table.predicate not in domain.beliefs:
+        raise DomainError(
+            f"{place}: '{table.predicate}' is no static of knowledge.al that gives "
+            f"'{domain.scene}' a value; {did_you_mean(table.predicate, domain.beliefs)}"
+        )
+    if table.feature is not None and table.feature not in domain.features:
+        raise DomainError(
+            f"{place}: '{table.feature}' is no feature of domain.toml; "
+            f"{did_you_mean(table.feature, domain.features)}"
+        )
+    if table.value is not None:
+        values = domain.features[table.feature].values if table.feature else ()
+        if table.value not in values:
+            raise DomainError(
+                f"{place}: '{table.value}' is no value of '{table.feature}'; "
+                f"{did_you_mean(table.value, values)}"
+            )
+    return asks
+
+
+def _line(path: Path, number: int) -> int:
+    return line_of(path.read_text(encoding="utf-8"), ["question", str(number)])

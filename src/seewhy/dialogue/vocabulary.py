@@ -1,0 +1,147 @@
+"""The words of questions in one domain: synonyms, what may be left out, inflections."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import snowballstemmer
+
+from seewhy.dialogue.inflection import ARTICLES, lemma
+from seewhy.dialogue.meaning import aside_phrases
+from seewhy.domain import Domain
+from seewhy.errors import DomainError
+from seewhy.question_words import words_of
+
+__all__ = ["SUBJECTS", "Vocabulary"]
+
+SUBJECTS = frozenset({"it", "this", "that", "these", "those"})
+"""Words that stand for what a picture shows."""
+
+_STEM = lru_cache(maxsize=16_384)(snowballstemmer.stemmer("english").stemWord)
+_Pair = tuple[tuple[str, ...], tuple[str, ...]]
+
+
+class Vocabulary:
+    """What questions in one domain are made of.
+
+    Raises
+    ------
+    DomainError
+        Where a subject, a synonym or a filler is not made of words.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> words = Vocabulary(load_domain("structure_stability"))
+    >>> words.for_grammar("Is the tower tilting, please?")
+    ('is', 'structur', 'lean')
+    >>> words.for_templates("Is the tower tilting, please?")
+    ('is', 'it', 'lean')
+    """
+
+    def __init__(self, domain: Domain) -> None:
+        _check_words(domain)
+        questions = domain.questions
+        self._subject = {_STEM(word) for word in (words_of(domain.subject)[-1], *SUBJECTS)}
+        pairs = [
+            (words_of(other), words_of(canonical))
+            for canonical, others in questions.synonyms.items()
+            for other in others
+        ]
+        fillers = [words_of(filler) for filler in questions.fillers]
+        self.spelled = frozenset(
+            word for pair in pairs for words in pair for word in words
+        ) | frozenset(word for words in fillers for word in words)
+        self._for_templates = _by_first(
+            [(_stems(other), _stems(canonical)) for other, canonical in pairs]
+            + [(_stems(filler), ()) for filler in fillers]
+        )
+        self._synonyms = _by_first(
+            [(_lemmas(other), _lemmas(canonical)) for other, canonical in pairs]
+        )
+        self._aside = _by_first([(_lemmas(words_of(phrase)), ()) for phrase in aside_phrases()])
+        self._fillers = sorted(map(_lemmas, fillers), key=len, reverse=True)
+
+    def for_templates(self, text: str) -> tuple[str, ...]:
+        """Return the words of a text as templates and the recurrent network read them."""
+        stems = [_STEM(token) for token in words_of(text) if token not in ARTICLES]
+        stems = _replaced(stems, self._for_templates)
+        words: list[str] = []
+        for stem in stems:
+            word = "it" if stem in self._subject else stem
+            if not (word == "it" and words and words[-1] == "it"):
+                words.append(word)
+        return tuple(words)
+
+    def for_grammar(self, text: str) -> tuple[str, ...]:
+        """Return the words of a text without inflections, synonyms and what may be left out."""
+        words = [
+            part for word in words_of(text) for part in _of_owner(word) if part not in ARTICLES
+        ]
+        words = _replaced(list(map(lemma, words)), self._synonyms)
+        return self._unfilled(tuple(_replaced(words, self._aside)))
+
+    def _unfilled(self, words: tuple[str, ...]) -> tuple[str, ...]:
+        """Words without the domain's fillers around them; "how do you know" is none inside."""
+        for filler in self._fillers:
+            if filler and words[: len(filler)] == filler:
+                return self._unfilled(words[len(filler) :])
+            if filler and words[-len(filler) :] == filler:
+                return self._unfilled(words[: -len(filler)])
+        return words
+
+
+def _of_owner(word: str) -> tuple[str, ...]:
+    """ "The tower's base" is its base."""
+    return (word[:-2], "its") if word.endswith("'s") else (word,)
+
+
+def _stems(words: Sequence[str]) -> tuple[str, ...]:
+    return tuple(map(_STEM, words))
+
+
+def _lemmas(words: Sequence[str]) -> tuple[str, ...]:
+    return tuple(lemma(word) for word in words if word not in ARTICLES)
+
+
+def _by_first(pairs: Sequence[_Pair]) -> dict[str, list[_Pair]]:
+    """First word → the phrases that begin with it and what they stand for, longest first."""
+    found: dict[str, list[_Pair]] = {}
+    for pair in sorted(pairs, key=lambda pair: -len(pair[0])):
+        if pair[0]:
+            found.setdefault(pair[0][0], []).append(pair)
+    return found
+
+
+def _replaced(words: list[str], phrases: dict[str, list[_Pair]]) -> list[str]:
+    """The words with phrases replaced by what they stand for."""
+    words = list(words)
+    position = 0
+    while position < len(words):
+        for phrase, instead in phrases.get(words[position], ()):
+            if tuple(words[position : position + len(phrase)]) == phrase:
+                words[position : position + len(phrase)] = instead
+                position += len(instead) - 1
+                break
+        position += 1
+    return words
+
+
+def _check_words(domain: Domain) -> None:
+    """Raise a DomainError where a subject, synonym or filler is not made of words."""
+    if not words_of(domain.subject):
+        raise DomainError(
+            f"{domain.folder / 'domain.toml'}: subject = '{domain.subject}' has no word; "
+            'write one such as "the apple"'
+        )
+    questions = domain.questions
+    phrases = {f"synonyms of '{key}'": (key, *own) for key, own in questions.synonyms.items()}
+    phrases["fillers"] = tuple(questions.fillers)
+    for where, own in phrases.items():
+        for phrase in own:
+            if not words_of(phrase):
+                raise DomainError(
+                    f"{domain.folder / 'questions.toml'}: '{phrase}' in the {where} has no word; "
+                    "remove it"
+                )

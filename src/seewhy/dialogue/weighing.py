@@ -1,0 +1,258 @@
+"""Answers that weigh: what if, rather than, how sure, by which rule, and what to check."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from seewhy.dialogue.answer import AnswerType
+from seewhy.dialogue.asked import Asks, Question, Statement
+from seewhy.dialogue.certainty import SURE_FROM, Ground, least_sure
+from seewhy.dialogue.reasoned import ReasonedAnswers
+from seewhy.dialogue.telling import Told
+from seewhy.domain import Domain
+from seewhy.domain_tables import CLASS
+from seewhy.induction.sentence import say_path
+from seewhy.induction.tree import DecisionTree
+from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.justification import Basis, Node
+from seewhy.knowledge.scene import FeatureVector
+from seewhy.reply import Classification, Reply
+from seewhy.wording import join_clauses, join_words, say_features, sentence
+
+__all__ = ["Weighing"]
+
+
+@dataclass(frozen=True)
+class Weighing:
+    """Weighs one scene against others that it might be.
+
+    Attributes
+    ----------
+    domain : Domain
+    reasoned : ReasonedAnswers
+    tree : DecisionTree
+    tree_node : callable
+        The justification of a class that the tree gives a scene.
+    """
+
+    domain: Domain
+    reasoned: ReasonedAnswers
+    tree: DecisionTree
+    tree_node: Callable[[FeatureVector, str], Node]
+
+    def weigh(
+        self, scene: Classification, question: Question, *, why: Node, previous: Reply | None
+    ) -> Told:
+        """Answer a question that weighs; ``why`` is the justification of the scene's class."""
+        match question.asks:
+            case Asks.WHAT_IF:
+                return self._what_if(scene, question.statements)
+            case Asks.CONTRAST:
+                return self._contrast(scene, *question.statements, why=why)
+            case Asks.WHICH_RULE:
+                return self._which_rule(scene, previous.justification if previous else why)
+            case Asks.HOW_SURE:
+                return self._how_sure(scene, question, why=why, previous=previous)
+            case _:
+                return self._to_check(scene, why=why)
+
+    def _decided(self, vector: FeatureVector) -> tuple[str | None, Node]:
+        """The class of a scene, and why."""
+        label = self.reasoned.reasoner.decide(vector).label
+        if label is not None:
+            return label, self.reasoned.why_class(vector, label)
+        if self.tree.fitted:
+            label = self.tree.classify(vector)
+            return label, self.tree_node(vector, label)
+        return None, self.reasoned.undecided(vector)
+
+    def _what_if(self, scene: Classification, supposed: Sequence[Statement]) -> Told:
+        """The class if some features had other values, and its reasons."""
+        domain = self.domain
+        values = domain.named(scene.vector)
+        changes = {own.feature or "": own.value or "" for own in supposed}
+        already = all(values[key] == value for key, value in changes.items())
+        vector = domain.vector({**values, **changes})
+        label, node = self._decided(vector)
+        ordered = [key for key in domain.features if key in changes]
+        clauses = [domain.features[key].say[changes[key]] for key in ordered]
+        condition = join_clauses(clauses, subject=domain.subject)
+        kind = AnswerType("what_if", tuple(ordered), (tuple(changes.items()),))
+        begun = f"{condition} as it is" if already else f"if {condition}"
+        if label is None:
+            link = "and then " if already else ""
+            return Told(kind, sentence(f"{begun}, {link}I cannot tell what it is"), node)
+        # "It is still stable": said where the class was known before and stays.
+        still = "still " if label == scene.label and not already else ""
+        reasons = [key for key in node.features() if key not in changes]
+        named = any("{it}" in clause for clause in clauses)
+        because = say_features(domain, vector, reasons, subject="it")
+        link = " and" if already else ""
+        it = "it" if named else domain.subject
+        text = f"{begun},{link} {it} is {still}{domain.classes[label].say}"
+        if because:
+            text += f", since {because}"
+        return Told(kind, sentence(text), node, _least_of(scene, [*reasons], but=changes))
+
+    def _contrast(
+        self, scene: Classification, first: Statement, other: Statement, *, why: Node
+    ) -> Told:
+        """Why one class or value, and not another."""
+        domain = self.domain
+        if first.label is None:
+            return self._contrast_values(scene, first, other)
+        kind = AnswerType("contrast", why.features())
+        if scene.label != first.label:
+            taken = "not decided" if scene.label is None else domain.classes[scene.label].say
+            text = f"{domain.subject} is not {domain.classes[first.label].say}: it is {taken}"
+            because = say_features(domain, scene.vector, why.features(), subject="it")
+            return Told(
+                kind, sentence(f"{text}, since {because}" if because else text), why,
+                least_sure(kind, scene, why),
+            )  # fmt: skip
+        asked = Question(Asks.WHY_NOT_CLASS, "", (), label=other.label)
+        refused = self.reasoned.kind(asked, scene.vector, first.label)
+        because = say_features(domain, scene.vector, why.features(), subject="it")
+        text = f"{domain.subject} is {domain.classes[first.label].say}"
+        if because:
+            text += f", since {because}"
+        against = [key for key in refused.mentions if key not in why.features()]
+        said = say_features(domain, scene.vector, against, subject="it")
+        if said:
+            text += f"; it is not {domain.classes[other.label or ''].say}, since {said}"
+        elif refused.form == "against" and not refused.mentions:
+            text += f"; nothing that is known concludes {domain.classes[other.label or ''].say}"
+        return Told(kind, sentence(text), why, least_sure(kind, scene, why))
+
+    def _contrast_values(self, scene: Classification, first: Statement, other: Statement) -> Told:
+        """Why one value of a feature is seen, and not another."""
+        domain, key = self.domain, first.feature or ""
+        node = self.reasoned.seen(scene.vector, key)
+        kind = AnswerType("contrast", (key,))
+        value = domain.named(scene.vector)[key]
+        if value is None:
+            return Told(kind, sentence(f"I do not know: {node.text}"), node)
+        if scene.told:
+            but = "" if value == first.value else "but "
+            return Told(kind, sentence(f"{but}I was told that {node.text}"), node)
+        reading = scene.features[key]
+        text = f"I see that {node.text}, with a probability of {reading.probability:.2f}"
+        if value == first.value:
+            instead = domain.features[key].say[other.value or ""].replace("{it}", "it")
+            text += f"; that {instead} has at most {1.0 - reading.probability:.2f}"
+        else:
+            text = f"but {text}"
+        return Told(kind, sentence(text), node, Ground(key, value, reading.probability))
+
+    def _which_rule(self, scene: Classification, why: Node) -> Told:
+        """The axioms behind an answer, or the tree's path."""
+        kind = AnswerType("which_rule", why.features())
+        if any(node.basis is Basis.TREE for node in why.walk()):
+            path = self.tree.path(scene.vector)
+            text = f"no rule of the knowledge decides it; the tree's: {say_path(self.domain, path)}"
+            return Told(kind, sentence(text), why)
+        axioms = dict.fromkeys(
+            node.axiom for node in why.walk() if node.axiom is not None and node.holds
+        )
+        said = [_say_axiom(axiom) for axiom in axioms if axiom.body]
+        if not said:
+            return Told(kind, sentence(f"none: {why.text}"), why)
+        return Told(kind, sentence(f"by {join_words(said)}"), why)
+
+    def _how_sure(
+        self, scene: Classification, question: Question, *, why: Node, previous: Reply | None
+    ) -> Told:
+        """How probable a value, the class or the last answer is."""
+        domain = self.domain
+        if question.feature is not None:
+            return self._sure_of_value(scene, question.feature)
+        label = question.label
+        if label is not None and scene.label is not None and label != scene.label:
+            other = next((own for own in scene.otherwise if own.label == label), None)
+            said = f"I take {domain.subject} to be {domain.classes[scene.label].say}"
+            if other is not None and other.probability is not None:
+                said += f"; that it is {domain.classes[label].say} has a probability of "
+                said += f"{other.probability:.2f}"
+            return Told(AnswerType("how_sure"), sentence(said), why)
+        if previous is not None and label is None:
+            ground, node = previous.least_sure, previous.justification
+        else:
+            ground, node = least_sure(AnswerType("class"), scene, why), why
+        return Told(AnswerType("how_sure"), sentence(self._say_sure(scene, ground)), node, ground)
+
+    def _say_sure(self, scene: Classification, ground: Ground | None) -> str:
+        if scene.label is None:
+            return "I cannot tell what it is, so there is nothing to be sure of"
+        if scene.told:
+            return "I am as sure as of what I was told"
+        if ground is None:
+            return "I am sure: nothing that it rests on is uncertain"
+        about = "class" if ground.feature == CLASS else self.domain.features[ground.feature].name
+        sure = "I am sure" if ground.probability >= SURE_FROM else "I am not sure"
+        return (
+            f"{sure}: the least sure is the {about}, with a probability of {ground.probability:.2f}"
+        )
+
+    def _sure_of_value(self, scene: Classification, feature: str) -> Told:
+        node = self.reasoned.seen(scene.vector, feature)
+        kind = AnswerType("how_sure", (feature,))
+        if self.domain.named(scene.vector)[feature] is None:
+            return Told(kind, sentence(f"I am not: {node.text}"), node)
+        if scene.told:
+            return Told(kind, sentence(f"I was told that {node.text}"), node)
+        reading = scene.features[feature]
+        ground = Ground(feature, reading.value, reading.probability)
+        text = f"that {node.text} has a probability of {reading.probability:.2f}"
+        return Told(kind, sentence(text), node, ground)
+
+    def _to_check(self, scene: Classification, *, why: Node) -> Told:
+        """What would change the class if it were otherwise, the least sure first."""
+        domain = self.domain
+        values = domain.named(scene.vector)
+        unknown = [key for key, value in values.items() if value is None]
+        kind = AnswerType("to_check", why.features())
+        if unknown:
+            names = join_words([f"the {domain.features[key].name}" for key in unknown])
+            return Told(kind, sentence(f"check {names}, which I do not know"), why)
+        by_sureness = sorted(scene.features, key=lambda key: scene.features[key].probability)
+        for key in by_sureness:
+            for value in domain.features[key].values:
+                if value == values[key]:
+                    continue
+                label, _ = self._decided(domain.vector({**values, key: value}))
+                if label is None or label == scene.label:
+                    continue
+                text = f"check the {domain.features[key].name} first"
+                probability = scene.features[key].probability
+                if not scene.told:
+                    text += f": it is seen with a probability of {probability:.2f}"
+                otherwise = domain.features[key].say[value].replace("{it}", domain.subject)
+                named = "{it}" in domain.features[key].say[value]
+                it = "it" if named else domain.subject
+                text += f"; if {otherwise}, {it} is {domain.classes[label].say}"
+                ground = Ground(key, values[key] or "", probability)
+                return Told(kind, sentence(text), self.reasoned.seen(scene.vector, key), ground)
+        least = by_sureness[0]
+        text = "nothing by itself would change the class"
+        if not scene.told:
+            text += f"; the least sure is the {domain.features[least].name} "
+            text += f"({scene.features[least].probability:.2f})"
+        return Told(kind, sentence(text), why)
+
+
+def _say_axiom(axiom: Axiom) -> str:
+    file = axiom.location.file.replace("\\", "/").rsplit("/", 1)[-1]
+    return f'the rule "{axiom.text}" ({file}:{axiom.location.line})'
+
+
+def _least_of(
+    scene: Classification, features: Sequence[str], *, but: dict[str, str]
+) -> Ground | None:
+    """The least sure of what is seen and not supposed."""
+    grounds = [
+        Ground(key, scene.features[key].value, scene.features[key].probability)
+        for key in features
+        if key in scene.features and key not in but
+    ]
+    return min(grounds, key=lambda ground: ground.probability, default=None)

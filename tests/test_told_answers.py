@@ -1,0 +1,357 @@
+"""Questions that no template words: golden answers, in a bundled domain and in a user's own."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from conftest import Run, seen
+from seewhy.agent import Agent
+from seewhy.dialogue.telling import Look
+from seewhy.domain import load_domain
+from seewhy.errors import QuestionError, SpeechError
+from seewhy.perception.familiarity import NearPicture, TrainingPicture
+from seewhy.perception.where import Where
+from seewhy.reply import Reply
+from seewhy.speech import find_voice
+
+HAND = {
+    "domain.toml": """\
+[domain]
+name = "hands"
+title = "Hands"
+scene = "hand"
+subject = "the hand"
+eyes = "none"
+"""
+    + "".join(
+        f"""
+[features.{finger}]
+name = "{finger.replace("_", " ")}"
+
+[features.{finger}.values]
+yes = {{ say = "the {finger.replace("_", " ")} is stretched", words = ["stretched"] }}
+no = {{ say = "the {finger.replace("_", " ")} is folded", words = ["folded"] }}
+"""
+        for finger in ("thumb", "index_finger", "middle_finger")
+    )
+    + """
+[classes.fist]
+literal = "fist(H)"
+say = "a fist"
+
+[classes.open]
+literal = "-fist(H)"
+say = "open"
+""",
+    "knowledge.al": """\
+#sort hand.
+#static thumb(hand).
+#static index_finger(hand).
+#static middle_finger(hand).
+#static fist(hand).
+
+%% a hand of which every finger is folded is a fist
+fist(H) if -thumb(H), -index_finger(H), -middle_finger(H).
+
+%% a hand with a stretched middle finger is open
+-fist(H) if middle_finger(H).
+""",
+    "questions.toml": '[[question]]\nasks = "is_class"\npatterns = ["is {it} {class}"]\n',
+}
+
+
+@pytest.fixture(scope="module")
+def hands(tmp_path_factory: pytest.TempPathFactory) -> Agent:
+    folder = tmp_path_factory.mktemp("hands")
+    for name, text in HAND.items():
+        (folder / name).write_text(text)
+    return Agent(load_domain(folder))
+
+
+@pytest.fixture(scope="module")
+def agent() -> Agent:
+    return Agent(load_domain("structure_stability"))
+
+
+TOLD = {
+    "what if the base were narrow?": "If the structure has a narrow base, it is still unstable, "
+    "since a block is displaced.",
+    "what if no block were displaced?": "If no block is displaced, the structure is stable, since "
+    "it has a wide base, and it is standing straight.",
+    "what if a block were displaced?": "A block is displaced as it is, and the structure is "
+    "unstable.",
+    "what if it leaned and no block were displaced?": "If the structure leans to one side, and no "
+    "block is displaced, I cannot tell what it is.",
+    "how sure are you?": "I am sure: the least sure is the displaced block, with a probability of "
+    "0.90.",
+    "are you sure that it leans?": "That the structure is standing straight has a probability of "
+    "0.90.",
+    "which rule did you use?": 'By the rule "a block that is not balanced on the one below it '
+    'falls" (knowledge.al:11).',
+    "what should I check?": "Check the displaced block first: it is seen with a probability of "
+    "0.90; if no block is displaced, the structure is stable.",
+    "why is a block displaced?": "I see that a block is displaced, with a probability of 0.90.",
+    "why is the base narrow?": "But I see that the structure has a wide base, with a probability "
+    "of 0.90.",
+    "why is the base not narrow?": "I see that the structure has a wide base, with a probability "
+    "of 0.90.",
+    "why unstable rather than stable?": "The structure is unstable, since a block is displaced.",
+    "why stable rather than unstable?": "The structure is not stable: it is unstable, since a "
+    "block is displaced.",
+    "why four blocks rather than three?": "I see that the structure has four blocks, with a "
+    "probability of 0.90; that it has three blocks has at most 0.10.",
+    "is it leaning and is a block displaced?": "No, the structure is standing straight, and a "
+    "block is displaced.",
+    "does it lean or is a block displaced?": "Yes, a block is displaced.",
+    "is it neither leaning nor narrow at the base?": "Yes, the structure has a wide base, and it "
+    "is standing straight.",
+    "describe it": "The structure has four blocks and a wide base, it is standing straight, and a "
+    "block is displaced; the structure is unstable.",
+    "can't you tell me is it stable?": "No, the structure is unstable.",
+    "what can make it stable?": "To make the structure stable, put the displaced block back in "
+    "place.",
+    "what could make it stable?": "To make the structure stable, put the displaced block back in "
+    "place.",
+}
+
+
+@pytest.mark.parametrize(("question", "answer"), TOLD.items())
+def test_structures_are_told_of(agent: Agent, question: str, answer: str) -> None:
+    scene = seen(agent, "4", "wide", "no", "yes")
+    if question == "is it neither leaning nor narrow at the base?":
+        answer = "Yes, the structure is standing straight, and it has a wide base."
+    assert agent.answer(scene, agent.questions.understand(question)).text == answer
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"),
+    [
+        ("how many fingers are stretched?", "1 of 3 is stretched: the middle finger."),
+        ("which fingers are folded?", "The thumb and the index finger are folded."),
+        ("why is the thumb folded?", "I see that the thumb is folded, with a probability of 0.90."),
+        (
+            "what if the middle finger were folded?",
+            "If the middle finger is folded, the hand is a fist, since the thumb is folded, and "
+            "the index finger is folded.",
+        ),
+        ("is the thumb folded and the index finger stretched?", None),
+        ("is the thumb stretched?", "No, the thumb is folded."),
+        ("which hand is folded?", None),
+        ("why is the hand open?", "The middle finger is stretched."),
+    ],
+)
+def test_a_folder_without_templates_is_told_of(
+    hands: Agent, question: str, answer: str | None
+) -> None:
+    scene = seen(hands, "no", "no", "yes")
+    try:
+        text = hands.answer(scene, hands.questions.understand(question)).text
+    except QuestionError:
+        assert answer is None
+        return
+    assert answer is None or text == answer
+
+
+class Picture(Look):
+    """A picture in whose upper right corner the displaced block is seen."""
+
+    def where(self) -> dict[str, Where]:
+        corner = np.zeros((9, 9), dtype=np.float32)
+        corner[:3, 6:] = 1
+        return {"block_displaced": Where("block_displaced", "yes", 0.9, 0.6, corner)}
+
+    def nearest(self) -> list[NearPicture]:
+        return [NearPicture(TrainingPicture("7.png", "unstable", {}), 0.925)]
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"),
+    [
+        ("where is it displaced?", "A block is displaced, and I see it most of all in the upper "
+         "right."),
+        ("where is the lean?", "Nowhere: the structure is standing straight."),
+        ("why is a block displaced?", "I see that a block is displaced, with a probability of "
+         "0.90, most of all in the upper right."),
+        ("where is the base?", "The structure has a wide base, and no single place of the picture "
+         "tells it."),
+        ("are there similar pictures?", "Of the pictures of training, the most like it: 7.png "
+         "(unstable, alike to 0.93)."),
+    ],
+)  # fmt: skip
+def test_a_picture_is_looked_at_again(agent: Agent, question: str, answer: str) -> None:
+    scene = seen(agent, "4", "wide", "no", "yes")
+    asked = agent.questions.understand(question)
+    assert agent._answering.answer(scene, asked, look=Picture()).text == answer
+
+
+@pytest.mark.parametrize("question", ["where is it displaced?", "are there similar pictures?"])
+def test_without_a_picture_it_is_said_that_one_is_needed(agent: Agent, question: str) -> None:
+    with pytest.raises(QuestionError, match="and there is none; ask 'seewhy ask MODEL IMAGE'"):
+        agent.answer(seen(agent, "4", "wide", "no", "yes"), agent.questions.understand(question))
+
+
+def talk(agent: Agent, *questions: str) -> list[tuple[str | None, ...]]:
+    """What questions ask that are put one after the other."""
+    scene = seen(agent, "4", "wide", "no", "yes")
+    previous: Reply | None = None
+    found = []
+    for text in questions:
+        asked = agent.questions.understand(text, previous=previous.question if previous else None)
+        previous = agent.answer(scene, asked, previous=previous)
+        found.append(asked.query)
+    return found
+
+
+def test_what_was_just_spoken_of_may_be_left_out(agent: Agent) -> None:
+    assert talk(agent, "is it stable?", "and why?") == [
+        ("is_class", "stable", None, None),
+        ("explain", None, None, None),
+    ]
+    assert talk(agent, "is it stable?", "why not?")[1] == ("why_not_class", "stable", None, None)
+    assert talk(agent, "is it unstable?", "why not stable?")[1][:2] == ("why_not_class", "stable")
+    assert talk(agent, "how many blocks are there?", "and the base?")[1][:3:2] == (
+        "feature_value",
+        "base",
+    )
+    assert talk(agent, "how sure are you about the lean?", "and the base?")[1][:3:2] == (
+        "how_sure",
+        "base",
+    )
+    assert talk(agent, "what would make it stable?", "and unstable?")[1] == (
+        "change_to_class",
+        "unstable",
+        None,
+        None,
+    )
+    assert talk(agent, "what if the base were narrow?", "and if it leaned?")[1][-1] == "lean=yes"
+
+
+@pytest.mark.parametrize(
+    "text", ["and why?", "why not?", "and the base?", "which block is displaced?"]
+)
+def test_what_cannot_be_known_is_asked_back(agent: Agent, text: str) -> None:
+    with pytest.raises(QuestionError) as problem:
+        agent.questions.understand(text)
+    for nearest in problem.value.nearest:
+        agent.questions.understand(nearest)
+
+
+def test_what_is_asked_back_keeps_the_question_word_and_what_is_denied(agent: Agent) -> None:
+    with pytest.raises(QuestionError) as problem:
+        agent.questions.understand("why isn't it wobbly on Mondays?")
+    assert problem.value.nearest
+    assert all(own.startswith("why ") and " not " in own for own in problem.value.nearest)
+
+
+def test_a_driver_is_answered_from_what_the_sign_tells() -> None:
+    signs = Agent(load_domain("traffic_signs"))
+    scene = signs.classify_values(
+        {
+            "shape": "circle", "main_color": "white", "border_color": "red",
+            "background_image": "none", "primary_symbol": "left_turn",
+            "secondary_symbol": "none", "cross": "red",
+        }
+    )  # fmt: skip
+    assert scene.label == "no_left_turn"
+    for question in ("can I turn left?", "may I turn left here?", "am I allowed to turn left?"):
+        asked = signs.questions.understand(question)
+        assert signs.answer(scene, asked).text == "The driver must not turn left."
+    for question in ("can you turn left?", "why must I stop?", "when may I turn left?"):
+        with pytest.raises(QuestionError):
+            signs.questions.understand(question)
+
+
+# Named values ---------------------------------------------------------------------------------
+
+
+def test_named_values_are_decided(run: Run) -> None:
+    told = run(
+        "decide", "structure_stability", "block_displaced=yes", "--ask", "why is it unstable?"
+    )
+    assert (told.code, told.err) == (0, "")
+    assert told.out == (
+        "class: unstable\n"
+        "because:\n"
+        '  the structure is unstable: "a block that is not balanced on the one below it falls" '
+        "(knowledge.al:11)\n"
+        "  └─ a block is displaced\n"
+        "\n"
+        "why is it unstable?\n"
+        "A block is displaced.\n"
+    )
+    told = run("decide", "structure_stability", "base=wide", "--ask", "does it lean?", "--json")
+    found = json.loads(told.out)
+    assert found["features"] == {
+        "num_blocks": None, "base": "wide", "lean": None, "block_displaced": None,
+    }  # fmt: skip
+    assert found["answers"][0]["text"] == "Nothing is known of the lean."
+
+
+@pytest.mark.parametrize(
+    ("value", "complaint"),
+    [
+        ("bass=wide", "'bass' is no feature of structure_stability; did you mean 'base'?"),
+        ("base=wyde", "'wyde' is no value of 'base'; did you mean 'wide'?"),
+        ("base", "'base' gives no value; write FEATURE=VALUE, as in num_blocks=1"),
+    ],
+)
+def test_a_misspelt_value_is_named(run: Run, value: str, complaint: str) -> None:
+    told = run("decide", "structure_stability", value)
+    assert (told.code, told.out) == (2, "")
+    assert told.err == f"seewhy: {complaint}\n"
+
+
+def test_a_value_is_given_once(run: Run) -> None:
+    told = run("decide", "structure_stability", "base=wide", "base=narrow")
+    assert told.err == "seewhy: 'base' is given twice, wide and narrow; leave one out\n"
+
+
+# Speech ---------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def no_voice(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """A machine on which nothing speaks; a program put into the folder is found."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setitem(sys.modules, "pyttsx3", None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
+    return tmp_path
+
+
+@pytest.mark.usefixtures("no_voice")
+def test_where_nothing_speaks_it_is_said() -> None:
+    with pytest.raises(SpeechError, match="nothing that speaks is installed; install espeak-ng"):
+        find_voice()
+
+
+@pytest.mark.usefixtures("no_voice")
+def test_speech_is_written_as_wav() -> None:
+    with pytest.raises(SpeechError, match=r"give a name that ends in \.wav"):
+        find_voice(Path("answer.mp3"))
+
+
+def test_a_program_speaks(no_voice: Path) -> None:
+    program = no_voice / "espeak-ng"
+    program.write_text(f'#!/bin/sh\necho "$@" >{no_voice}/asked\n/bin/cat >>{no_voice}/asked\n')
+    program.chmod(0o755)
+    find_voice(no_voice / "answer.wav")("-stable")
+    assert (no_voice / "asked").read_text() == f"--stdin -w {no_voice}/answer.wav\n-stable"
+    program.write_text("#!/bin/sh\necho no sound card >&2\nexit 3\n")
+    with pytest.raises(SpeechError, match="espeak-ng could not speak: no sound card"):
+        find_voice()("stable")
+
+
+@pytest.mark.usefixtures("no_voice")
+def test_a_library_speaks(monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[str] = []
+    engine = SimpleNamespace(say=said.append, runAndWait=lambda: said.append("spoken"))
+    monkeypatch.setattr("importlib.util.find_spec", lambda _: object())
+    monkeypatch.setitem(sys.modules, "pyttsx3", SimpleNamespace(init=lambda: engine))
+    find_voice()("stable")
+    assert said == ["stable", "spoken"]
