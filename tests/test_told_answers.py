@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from conftest import Run, seen
+from conftest import Run, draw_tile, seen
 from seewhy.agent import Agent
 from seewhy.dialogue.telling import Look
 from seewhy.domain import load_domain
@@ -75,7 +75,7 @@ def hands(tmp_path_factory: pytest.TempPathFactory) -> Agent:
 
 
 @pytest.fixture(scope="module")
-def agent() -> Agent:
+def structures_agent() -> Agent:
     return Agent(load_domain("structure_stability"))
 
 
@@ -109,8 +109,8 @@ TOLD = {
     "is it leaning and is a block displaced?": "No, the structure is standing straight, and a "
     "block is displaced.",
     "does it lean or is a block displaced?": "Yes, a block is displaced.",
-    "is it neither leaning nor narrow at the base?": "Yes, the structure has a wide base, and it "
-    "is standing straight.",
+    "is it neither leaning nor narrow at the base?": "Yes, the structure is standing straight, "
+    "and it has a wide base.",
     "describe it": "The structure has four blocks and a wide base, it is standing straight, and a "
     "block is displaced; the structure is unstable.",
     "can't you tell me is it stable?": "No, the structure is unstable.",
@@ -122,11 +122,12 @@ TOLD = {
 
 
 @pytest.mark.parametrize(("question", "answer"), TOLD.items())
-def test_structures_are_told_of(agent: Agent, question: str, answer: str) -> None:
-    scene = seen(agent, "4", "wide", "no", "yes")
-    if question == "is it neither leaning nor narrow at the base?":
-        answer = "Yes, the structure is standing straight, and it has a wide base."
-    assert agent.answer(scene, agent.questions.understand(question)).text == answer
+def test_structures_are_told_of(structures_agent: Agent, question: str, answer: str) -> None:
+    scene = seen(structures_agent, "4", "wide", "no", "yes")
+    assert (
+        structures_agent.answer(scene, structures_agent.questions.understand(question)).text
+        == answer
+    )
 
 
 @pytest.mark.parametrize(
@@ -184,67 +185,87 @@ class Picture(Look):
          "(unstable, alike to 0.93)."),
     ],
 )  # fmt: skip
-def test_a_picture_is_looked_at_again(agent: Agent, question: str, answer: str) -> None:
-    scene = seen(agent, "4", "wide", "no", "yes")
-    asked = agent.questions.understand(question)
-    assert agent._answering.answer(scene, asked, look=Picture()).text == answer
+def test_a_picture_is_looked_at_again(structures_agent: Agent, question: str, answer: str) -> None:
+    scene = seen(structures_agent, "4", "wide", "no", "yes")
+    asked = structures_agent.questions.understand(question)
+    assert structures_agent._answering.answer(scene, asked, look=Picture()).text == answer
 
 
 @pytest.mark.parametrize("question", ["where is it displaced?", "are there similar pictures?"])
-def test_without_a_picture_it_is_said_that_one_is_needed(agent: Agent, question: str) -> None:
+def test_without_a_picture_it_is_said_that_one_is_needed(
+    structures_agent: Agent, question: str
+) -> None:
     with pytest.raises(QuestionError, match="and there is none; ask 'seewhy ask MODEL IMAGE'"):
-        agent.answer(seen(agent, "4", "wide", "no", "yes"), agent.questions.understand(question))
+        structures_agent.answer(
+            seen(structures_agent, "4", "wide", "no", "yes"),
+            structures_agent.questions.understand(question),
+        )
 
 
-def talk(agent: Agent, *questions: str) -> list[tuple[str | None, ...]]:
+def talk(structures_agent: Agent, *questions: str) -> list[tuple[str | None, ...]]:
     """What questions ask that are put one after the other."""
-    scene = seen(agent, "4", "wide", "no", "yes")
+    scene = seen(structures_agent, "4", "wide", "no", "yes")
     previous: Reply | None = None
     found = []
     for text in questions:
-        asked = agent.questions.understand(text, previous=previous.question if previous else None)
-        previous = agent.answer(scene, asked, previous=previous)
+        asked = structures_agent.questions.understand(
+            text, previous=previous.question if previous else None
+        )
+        previous = structures_agent.answer(scene, asked, previous=previous)
         found.append(asked.query)
     return found
 
 
-def test_what_was_just_spoken_of_may_be_left_out(agent: Agent) -> None:
-    assert talk(agent, "is it stable?", "and why?") == [
+def test_what_was_just_spoken_of_may_be_left_out(structures_agent: Agent) -> None:
+    assert talk(structures_agent, "is it stable?", "and why?") == [
         ("is_class", "stable", None, None),
         ("explain", None, None, None),
     ]
-    assert talk(agent, "is it stable?", "why not?")[1] == ("why_not_class", "stable", None, None)
-    assert talk(agent, "is it unstable?", "why not stable?")[1][:2] == ("why_not_class", "stable")
-    assert talk(agent, "how many blocks are there?", "and the base?")[1][:3:2] == (
+    assert talk(structures_agent, "is it stable?", "why not?")[1] == (
+        "why_not_class",
+        "stable",
+        None,
+        None,
+    )
+    assert talk(structures_agent, "is it unstable?", "why not stable?")[1][:2] == (
+        "why_not_class",
+        "stable",
+    )
+    assert talk(structures_agent, "how many blocks are there?", "and the base?")[1][:3:2] == (
         "feature_value",
         "base",
     )
-    assert talk(agent, "how sure are you about the lean?", "and the base?")[1][:3:2] == (
+    assert talk(structures_agent, "how sure are you about the lean?", "and the base?")[1][:3:2] == (
         "how_sure",
         "base",
     )
-    assert talk(agent, "what would make it stable?", "and unstable?")[1] == (
+    assert talk(structures_agent, "what would make it stable?", "and unstable?")[1] == (
         "change_to_class",
         "unstable",
         None,
         None,
     )
-    assert talk(agent, "what if the base were narrow?", "and if it leaned?")[1][-1] == "lean=yes"
+    assert (
+        talk(structures_agent, "what if the base were narrow?", "and if it leaned?")[1][-1]
+        == "lean=yes"
+    )
 
 
 @pytest.mark.parametrize(
     "text", ["and why?", "why not?", "and the base?", "which block is displaced?"]
 )
-def test_what_cannot_be_known_is_asked_back(agent: Agent, text: str) -> None:
+def test_what_cannot_be_known_is_asked_back(structures_agent: Agent, text: str) -> None:
     with pytest.raises(QuestionError) as problem:
-        agent.questions.understand(text)
+        structures_agent.questions.understand(text)
     for nearest in problem.value.nearest:
-        agent.questions.understand(nearest)
+        structures_agent.questions.understand(nearest)
 
 
-def test_what_is_asked_back_keeps_the_question_word_and_what_is_denied(agent: Agent) -> None:
+def test_what_is_asked_back_keeps_the_question_word_and_what_is_denied(
+    structures_agent: Agent,
+) -> None:
     with pytest.raises(QuestionError) as problem:
-        agent.questions.understand("why isn't it wobbly on Mondays?")
+        structures_agent.questions.understand("why isn't it wobbly on Mondays?")
     assert problem.value.nearest
     assert all(own.startswith("why ") and " not " in own for own in problem.value.nearest)
 
@@ -355,3 +376,20 @@ def test_a_library_speaks(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyttsx3", SimpleNamespace(init=lambda: engine))
     find_voice()("stable")
     assert said == ["stable", "spoken"]
+
+
+def test_the_commands_speak(run: Run, model_folder: Path, no_voice: Path) -> None:
+    image = no_voice / "tile.png"
+    draw_tile("blue", "no", 1).save(image)
+    told = run("ask", model_folder, image, "is it good?", "--speak")
+    assert (told.code, told.out) == (2, "")
+    assert told.err.startswith("seewhy: nothing that speaks is installed; install espeak-ng")
+    program = no_voice / "espeak-ng"
+    program.write_text(f"#!/bin/sh\n/bin/cat >>{no_voice}/spoken\n")
+    program.chmod(0o755)
+    told = run("chat", model_folder, image, "--speak", stdin="is it good?\nand why?\n")
+    assert told.code == 0
+    assert (no_voice / "spoken").read_text() == told.out.replace("\n", "")
+    told = run("ask", model_folder, image, "is it good?", "--speech", no_voice / "answer.wav")
+    assert told.code == 0
+    assert (no_voice / "spoken").read_text().endswith(told.out.splitlines()[0])
