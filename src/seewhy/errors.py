@@ -61,3 +61,7 @@ class PlanningError(SeeWhyError, ValueError):
 
 class ExperimentError(SeeWhyError, ValueError):
     """An experiment cannot be run as it was asked for, or its folder cannot be used."""
+
+
+class BusyError(SeeWhyError, BlockingIOError):
+    """Another run is writing the file or folder that was to be written."""

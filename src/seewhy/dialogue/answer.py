@@ -6,10 +6,12 @@ reasoning, so that both ways of answering are worded and scored alike.
 
 from __future__ import annotations
 
+import re
 import tomllib
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from urllib.parse import unquote
 
 from seewhy.dialogue.question import Question
 from seewhy.domain import Domain
@@ -46,6 +48,8 @@ class AnswerType:
     'change()[lean=no]'
     >>> AnswerType(form="belief", values=("stop",)).identifier
     'belief(){stop}'
+    >>> AnswerType(form="belief", values=('"a|b"',)).identifier
+    'belief(){"a%7Cb"}'
     """
 
     form: str
@@ -57,29 +61,49 @@ class AnswerType:
     def identifier(self) -> str:
         """The type as one string, the name of its output of the softmax."""
         alternatives = "".join(
-            f"[{'&'.join(f'{feature}={value}' for feature, value in change)}]"
+            f"[{'&'.join(f'{feature}={_escaped(value)}' for feature, value in change)}]"
             for change in self.changes
         )
-        believed = f"{{{'|'.join(self.values)}}}" if self.values else ""
+        believed = f"{{{'|'.join(map(_escaped, self.values))}}}" if self.values else ""
         return f"{self.form}({','.join(self.mentions)}){alternatives}{believed}"
 
     @staticmethod
     def parse(identifier: str) -> AnswerType:
-        """Return the type that an identifier names."""
-        form, rest = identifier.split("(", 1)
-        mentions, _, rest = rest.partition(")")
-        alternatives, _, believed = rest.partition("{")
+        """Return the type that an identifier names.
+
+        Raises
+        ------
+        ValueError
+            It names none.
+        """
+        found = _IDENTIFIER.fullmatch(identifier)
+        if found is None:
+            raise ValueError(f"'{identifier[:80]}' names no type of answer")
+        form, mentions, alternatives, believed = found.groups(default="")
         changes = tuple(
-            tuple((pair.split("=", 1)[0], pair.split("=", 1)[1]) for pair in part.split("&"))
-            for part in alternatives.strip("[]").split("][")
+            tuple(
+                (feature, unquote(value))
+                for feature, _, value in (pair.partition("=") for pair in part.split("&"))
+            )
+            for part in alternatives[1:-1].split("][")
             if part
         )
         return AnswerType(
             form,
             tuple(filter(None, mentions.split(","))),
             changes,
-            tuple(filter(None, believed.removesuffix("}").split("|"))),
+            tuple(unquote(value) for value in believed.split("|") if value),
         )
+
+
+_IDENTIFIER = re.compile(
+    r"(\w+)\(([^(){}\[\]&=|]*)\)((?:\[[^(){}\[\]|,]*\])*)(?:\{([^(){}\[\]&=,]*)\})?"
+)
+
+
+def _escaped(value: str) -> str:
+    """A value without the characters that divide an identifier."""
+    return re.sub(r"[%(){}\[\]&=|,]", lambda found: f"%{ord(found.group()):02X}", value)
 
 
 def word_answer(

@@ -110,7 +110,7 @@ def write(file: Path, fingerprint: str, position: Any, tensors: Mapping[str, Wei
         "position": json.dumps(asdict(position), sort_keys=True),
         "digest": _digest(flat),
     }
-    with whole_file(file) as temporary:
+    with whole_file(file, durable=False) as temporary:
         save_file(flat, temporary, metadata=header)
 
 
@@ -118,9 +118,6 @@ def read(
     file: Path, fingerprint: str, kind: type[Where]
 ) -> tuple[Where, dict[str, Weights]] | None:
     """What :func:`write` wrote, or None where there is nothing that could be gone on with."""
-    # A process killed while it wrote leaves its unfinished file behind.
-    for leftover in file.parent.glob(f".{file.stem}-*{file.suffix}"):
-        leftover.unlink(missing_ok=True)
     if not file.is_file():
         return None
     try:
@@ -132,7 +129,7 @@ def read(
             flat = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
         if _digest(flat) != header["digest"]:
             return None
-    except (SafetensorError, OSError, ValueError, KeyError, TypeError):
+    except (SafetensorError, OSError, ValueError, KeyError, TypeError, RecursionError):
         return None
     parts: dict[str, Weights] = {}
     for key, tensor in flat.items():
