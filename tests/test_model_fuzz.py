@@ -96,6 +96,7 @@ OTHER = st.one_of(
 
 def works_or_is_refused(folder: Path) -> None:
     """A model either answers or is refused in one sentence that names its folder."""
+    said = ""
     try:
         agent = Agent.load(folder)
         reply = agent.ask(draw_tile("red", "yes", 0), "why is it good?")
@@ -104,8 +105,8 @@ def works_or_is_refused(folder: Path) -> None:
         agent.tree.root()
     except SeeWhyError as problem:
         said = str(problem)
-        assert len(said.splitlines()) == 1, said
-        assert len(said) < 1200, said
+    assert len(said.splitlines()) <= 1
+    assert len(said) < 1200
 
 
 @pytest.fixture

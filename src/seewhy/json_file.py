@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import from_json
 
 from seewhy.errors import ModelError
+from seewhy.visible import visible
 
 __all__ = ["LARGEST", "Strict", "read_bytes", "read_json", "read_object"]
 
@@ -38,7 +39,7 @@ def read_json(path: Path, schema: type[Schema], *, remedy: str) -> Schema:
         return schema.model_validate_json(read_bytes(path, largest=LARGEST, remedy=remedy))
     except ValidationError as problem:
         first = problem.errors(include_url=False, include_input=False)[0]
-        where = ".".join(str(part)[:80] for part in first["loc"]) or "its text"
+        where = ".".join(map(visible, first["loc"])) or "its text"
         raise ModelError(f"{path} is damaged ({where}: {first['msg']}): {remedy}") from None
 
 

@@ -23,6 +23,7 @@ from seewhy.knowledge.reasoner import Minimality
 from seewhy.model_schema import ExperienceRows, Manifest, may_have, must_have
 from seewhy.perception.backbones import NONE
 from seewhy.reading import ReadingWeights
+from seewhy.visible import visible
 from seewhy.weights import LARGEST as LARGEST_WEIGHTS
 
 if TYPE_CHECKING:
@@ -162,7 +163,7 @@ def _read_model(folder: Path, *, device: str) -> Model:
         raise ModelError(f"{folder}: the model's domain cannot be read: {problem}") from None
     if domain.name != manifest.domain:
         raise ModelError(
-            f"{folder}: the model was trained for the domain '{manifest.domain[:80]}', but its "
+            f"{folder}: the model was trained for the domain '{visible(manifest.domain)}', but its "
             f"domain folder is '{domain.name}'; {_REMEDY}"
         )
     from seewhy.perception.domain_options import seen_values
@@ -302,8 +303,8 @@ def _read_manifest(folder: Path) -> Manifest:
     found = read_object(path, remedy=_REMEDY)
     if found.get("format") != FORMAT:
         raise ModelError(
-            f"{path}: the model has format {str(found.get('format'))[:20]}, this version reads "
-            f"{FORMAT}; {_REMEDY}"
+            f"{path}: the model has format {visible(found.get('format'), most=20)}, this version "
+            f"reads {FORMAT}; {_REMEDY}"
         )
     if found.pop("digest", None) != _digest_of(found):
         raise _changed(path)
@@ -313,7 +314,7 @@ def _read_manifest(folder: Path) -> Manifest:
 def _check_files(folder: Path, manifest: Manifest) -> None:
     for name in manifest.files.keys() - {*may_have(manifest)}:
         raise ModelError(
-            f"{folder / MANIFEST} is damaged (files: '{name[:80]}' is no file of a model): "
+            f"{folder / MANIFEST} is damaged (files: '{visible(name)}' is no file of a model): "
             f"{_REMEDY}"
         )
     for name in (*must_have(manifest), *manifest.files):

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from seewhy.errors import ModelError
 from seewhy.files import write_whole
 from seewhy.json_file import Strict, read_bytes, read_json, read_object
+from seewhy.visible import visible
 
 REMEDY = "train the model again, or copy its folder again from where it is whole"
 
@@ -61,8 +62,8 @@ def read_weights(
     found = read_object(described, remedy=REMEDY).get("format")
     if found != number:
         raise ModelError(
-            f"{described} has format {str(found)[:20]}, this version of SeeWhy reads {number}: "
-            "train the model again"
+            f"{described} has format {visible(found, most=20)}, this version of SeeWhy reads "
+            f"{number}: train the model again"
         )
     description = read_json(described, schema, remedy=REMEDY)
     content = read_bytes(weights, largest=LARGEST, remedy=REMEDY)
@@ -105,5 +106,5 @@ def check_tensors(
             continue
         raise ModelError(
             f"{weights} does not hold the weights that {described} describes "
-            f"({name[:80]} {wrong}): {REMEDY}"
+            f"({visible(name)} {wrong}): {REMEDY}"
         )

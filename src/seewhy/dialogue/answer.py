@@ -18,7 +18,9 @@ from seewhy.domain import Domain
 from seewhy.errors import DomainError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.nearest import did_you_mean
+from seewhy.slots import filled, wrong_slot
 from seewhy.toml_file import line_of
+from seewhy.visible import visible
 from seewhy.wording import join_words, say_features, sentence
 
 Changes = tuple[tuple[str, str], ...]
@@ -78,7 +80,7 @@ class AnswerType:
         """
         found = _IDENTIFIER.fullmatch(identifier)
         if found is None:
-            raise ValueError(f"'{identifier[:80]}' names no type of answer")
+            raise ValueError(f"'{visible(identifier)}' names no type of answer")
         form, mentions, alternatives, believed = found.groups(default="")
         changes = tuple(
             tuple(
@@ -140,20 +142,23 @@ def word_answer(
     subject = "it" if "{it}" in template else None
     asked = _say_asked(domain, question)
     reasons = say_features(domain, vector, kind.mentions, subject=subject)
-    said = template.format(
-        it=domain.subject,
-        reasons=reasons,
-        changes=_say_changes(domain, kind.changes),
-        asked=asked,
-        **{"class": domain.classes[label].say if label else "undecided"},
-        explanation=reasons,
-        scene=domain.scene.replace("_", " "),
-        # "A stop sign is octagonal; the sign is …" or "It is a stop sign when it is octagonal …".
-        required=_say_required(
-            domain, kind.changes, subject="it" if "{asked}" in template else asked
-        ),
-        probably=probably,
-        **_say_belief(domain, question, kind),
+    said = filled(
+        template,
+        {
+            "it": domain.subject,
+            "reasons": reasons,
+            "changes": _say_changes(domain, kind.changes),
+            "asked": asked,
+            "class": domain.classes[label].say if label else "undecided",
+            "explanation": reasons,
+            "scene": domain.scene.replace("_", " "),
+            # "A stop sign is octagonal; the sign is …", "It is a stop sign when it is octagonal …".
+            "required": _say_required(
+                domain, kind.changes, subject="it" if "{asked}" in template else asked
+            ),
+            "probably": probably,
+            **_say_belief(domain, question, kind),
+        },
     )
     return sentence(" ".join(said.split()))
 
@@ -200,14 +205,15 @@ def word_supposed(
     'I took the structure to be stable. If it is unstable, as you say: it leans.'
     """
     presumed = question.label == supposed
-    said = answer_templates(domain)["supposed" if presumed else "supposed_not"].format(
-        **{
+    said = filled(
+        answer_templates(domain)["supposed" if presumed else "supposed_not"],
+        {
             **dict.fromkeys(SLOTS, ""),
             "it": domain.subject,
             "asked": _say_asked(domain, question),
             "class": domain.classes[label if presumed else supposed].say,
             "explanation": f"{answer[:1].lower()}{answer[1:]}",
-        }
+        },
     )
     return sentence(said)
 
@@ -236,7 +242,7 @@ def _say_belief(domain: Domain, question: Question, kind: AnswerType) -> dict[st
     if own is None:
         return {"belief": "", "name": "", "value": ""}
     value = join_words([own.words.get(value, value) for value in kind.values])
-    said = own.say.replace("{it}", domain.subject).replace("{value}", value)
+    said = filled(own.say, {"it": domain.subject, "value": value})
     return {"belief": said, "name": own.name, "value": value}
 
 
@@ -283,12 +289,11 @@ def answer_templates(domain: Domain) -> dict[str, str]:
             raise DomainError(
                 f"{path}:{line}: '{form}' is no form of answer; {did_you_mean(form, defaults)}"
             )
-        try:
-            template.format(**dict.fromkeys(SLOTS, ""))
-        except (AttributeError, KeyError, IndexError, TypeError, ValueError):
+        wrong = wrong_slot(template, SLOTS)
+        if wrong is not None:
             line = line_of(path.read_text(encoding="utf-8"), ["answers", form])
             raise DomainError(
-                f"{path}:{line}: the answer '{form}' uses a slot that does not exist; there are "
+                f"{path}:{line}: the answer '{form}' has '{wrong}', which is no slot; there are "
                 f"{', '.join('{' + slot + '}' for slot in SLOTS)}"
-            ) from None
+            )
     return {**defaults, **domain.questions.answers}

@@ -7,8 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
-from itertools import islice, product
-from pathlib import Path
+from itertools import islice, product, zip_longest
 
 import snowballstemmer
 from rapidfuzz import fuzz, process
@@ -19,11 +18,19 @@ from seewhy.domain_tables import QuestionTable
 from seewhy.errors import DomainError, QuestionError
 from seewhy.nearest import did_you_mean
 from seewhy.question_words import CONTRACTIONS, words_of
-from seewhy.toml_file import line_of
+from seewhy.slots import filled, wrong_slot
+from seewhy.toml_file import lines_of_tables
+from seewhy.visible import visible
 
 LONGEST_QUESTION = 300
 """Characters; nothing in a controlled vocabulary is nearly as long."""
 _MOST_READINGS = 256
+
+MOST_OPTIONAL = 8
+"""Parts of a pattern that may be left out: so many make 256 wordings."""
+
+MOST_WORDINGS = 50_000
+"""Of all questions of a domain; the largest that is bundled has a fifth."""
 
 
 class Asks(StrEnum):
@@ -275,40 +282,59 @@ class Questions:
 
     def _expand(self, domain: Domain) -> Iterator[Question]:
         path = domain.folder / "questions.toml"
-        for number, table in enumerate(domain.questions.question):
-            place = f"{path}:{_line(path, number)}"
+        lines = lines_of_tables(path.read_text(encoding="utf-8-sig"), "question")
+        told: list[tuple[QuestionTable, Asks, str, list[_Slot]]] = []
+        wordings = 0
+        for table, line in zip_longest(domain.questions.question, lines, fillvalue=1):
+            if isinstance(table, int):
+                break  # what looks like one more heading stands in a text
+            place = f"{path}:{line}"
             asks = _check_table(table, domain, place)
             for pattern in table.patterns:
                 _check_pattern(pattern, place)
                 slots = _slots(table, asks, domain, pattern, place)
-                for variant in _optional(pattern):
-                    for filled in slots:
-                        text = variant.replace("{it}", domain.subject)
-                        text = text.replace("{class}", filled.word).replace("{value}", filled.word)
-                        if "not not" in text:
-                            continue  # a class that is worded as "not …" in a question with "not"
-                        yield Question(
-                            asks=asks,
-                            text=" ".join(text.split()),
-                            words=self._normalise(text),
-                            label=filled.label,
-                            feature=table.feature,
-                            value=filled.value,
-                            predicate=table.predicate,
-                        )
+                told.append((table, asks, pattern, slots))
+                wordings += len(slots) << pattern.count("[")
+                if wordings > MOST_WORDINGS:
+                    raise DomainError(
+                        f"{place}: with '{visible(pattern)}' there are {wordings:,} wordings of "
+                        f"questions, more than {MOST_WORDINGS:,}; leave out patterns or [...]"
+                    )
+        for table, asks, pattern, slots in told:
+            for variant in _optional(pattern):
+                for slot in slots:
+                    word = slot.word
+                    said = {"it": domain.subject, "class": word, "value": word}
+                    text = filled(variant, said)
+                    if "not not" in text:
+                        continue  # a class that is worded as "not …" in a question with "not"
+                    yield Question(
+                        asks=asks,
+                        text=" ".join(text.split()),
+                        words=self._normalise(text),
+                        label=slot.label,
+                        feature=table.feature,
+                        value=slot.value,
+                        predicate=table.predicate,
+                    )
 
 
 def _check_pattern(pattern: str, place: str) -> None:
     """Raise a DomainError where a pattern has an unknown slot or brackets that do not pair."""
-    plain = re.sub(r"\{(it|class|value)\}", "word", pattern)
-    if "{" in plain or "}" in plain:
+    if wrong_slot(pattern, ("it", "class", "value")) is not None:
         raise DomainError(
             f"{place}: '{pattern}' has a slot that does not exist; there are {{it}}, {{class}} and "
             "{value}"
         )
-    if re.search(r"[\[\]]", re.sub(r"\[[^\[\]]*\]", "", plain)):
+    brackets = "".join(re.findall(r"[\[\]]", pattern))
+    if brackets.replace("[]", ""):
         raise DomainError(
             f"{place}: the brackets of '{pattern}' do not pair; [...] is what may be left out"
+        )
+    if len(brackets) > 2 * MOST_OPTIONAL:
+        raise DomainError(
+            f"{place}: '{visible(pattern)}' has {len(brackets) // 2} parts that may be left out, "
+            f"more than {MOST_OPTIONAL}; write several patterns"
         )
 
 
@@ -353,8 +379,8 @@ def _optional(pattern: str) -> Iterator[str]:
     parts = re.split(r"\[([^\]]*)\]", pattern)
     fixed, optional = parts[::2], parts[1::2]
     for chosen in product((True, False), repeat=len(optional)):
-        filled = [part if keep else "" for part, keep in zip(optional, chosen, strict=True)]
-        yield "".join(a + b for a, b in zip(fixed, [*filled, ""], strict=True))
+        kept = [part if keep else "" for part, keep in zip(optional, chosen, strict=True)]
+        yield "".join(a + b for a, b in zip(fixed, [*kept, ""], strict=True))
 
 
 @dataclass(frozen=True)
@@ -433,7 +459,3 @@ def _check_table(table: QuestionTable, domain: Domain, place: str) -> Asks:
                 f"{did_you_mean(table.value, values)}"
             )
     return asks
-
-
-def _line(path: Path, number: int) -> int:
-    return line_of(path.read_text(encoding="utf-8"), ["question", str(number)])

@@ -11,6 +11,7 @@ import numpy.typing as npt
 import torch
 from pydantic import Field, field_validator, model_validator
 
+from seewhy.domain_tables import SCENE
 from seewhy.errors import DatasetError, ModelError
 from seewhy.json_file import Strict
 from seewhy.perception.backbones import load_backbone
@@ -34,9 +35,6 @@ HEADS, TUNED = "heads", "tuned layers"
 _PROJECTION = ("mean", "scale", "components")
 
 _CONSTANT = 3.0  # in the length that a picture's embedding has on average
-
-SCENE = "scene"
-"""What the whole picture's embedding is called among those of features."""
 
 Pictures = npt.NDArray[np.uint8]
 

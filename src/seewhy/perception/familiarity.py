@@ -14,6 +14,7 @@ from pydantic import Field, model_validator
 
 from seewhy.errors import ModelError
 from seewhy.json_file import Strict
+from seewhy.visible import visible
 from seewhy.weights import REMEDY, Described, check_tensors, read_weights, write_weights
 
 __all__ = [
@@ -254,9 +255,11 @@ class Familiarity:
         )
         import torch
 
-        for name in description.features:
-            if name not in widths:
-                raise ModelError(f"{described} is damaged ({name[:80]}: nothing sees it): {REMEDY}")
+        unseen = next((name for name in description.features if name not in widths), None)
+        if unseen is not None:
+            raise ModelError(
+                f"{described} is damaged ({visible(unseen)}: nothing sees it): {REMEDY}"
+            )
         expected = {
             name: torch.empty(sum(feature.counts), widths[name], dtype=torch.float16, device="meta")
             for name, feature in description.features.items()
