@@ -48,7 +48,7 @@ def whole_folder(folder: Path, *, replacing: bool = False) -> Iterator[Path]:
     >>> [file.name for file in target.iterdir()], [own.name for own in target.parent.iterdir()]
     (['a.txt'], ['notes'])
     """
-    target = Path(os.path.realpath(folder))
+    target = _place_of(folder)
     temporary = target.with_name(f".{target.name}-new")
     with locked(target, wait=True):
         _settle(target)
@@ -80,11 +80,16 @@ def settle_folder(folder: Path) -> None:
     >>> target.is_dir(), _aside(target).exists()
     (True, False)
     """
-    target = Path(os.path.realpath(folder))
+    target = _place_of(folder)
     if not target.exists() and _aside(target).is_dir():
         # Who may not write here reads that the folder is missing.
         with suppress(OSError), locked(target, wait=True):
             _settle(target)
+
+
+def _place_of(folder: Path) -> Path:
+    """The folder that a link leads to: it is replaced, and the link stays."""
+    return Path(os.path.realpath(folder)) if folder.is_symlink() or not folder.name else folder
 
 
 def _settle(target: Path) -> None:

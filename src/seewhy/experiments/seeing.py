@@ -38,6 +38,7 @@ from seewhy.pretraining import Pretrained, pretrained
 __all__ = ["Remembered", "Seen", "Shown", "class_network", "drawings", "pretrain", "see"]
 
 _FOLDER = "networks"
+_LARGEST = 2 << 30  # bytes that the file of a trial may be unpacked to
 _DRAWN, _FEATURES = "drawn", "features"
 
 Probabilities = Mapping[str, npt.NDArray[np.float64]]
@@ -113,6 +114,9 @@ def see(setting: Setting, trial: Trial) -> Seen:
                 _train(setting, trial, train, test, file)
     classes_shown = _classes_shown(setting, train)
     try:
+        with zipfile.ZipFile(file) as packed:
+            if sum(member.file_size for member in packed.infolist()) > _LARGEST:
+                raise ValueError("it would be unpacked to more than networks say of pictures")
         with np.load(file) as kept:
             numbers = dict(json.loads(str(kept["numbers"])))
             shown_train, shown_test = [

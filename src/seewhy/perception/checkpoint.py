@@ -18,6 +18,7 @@ from typing import Any, Literal, TypeVar
 import numpy as np
 import numpy.typing as npt
 import torch
+from pydantic import TypeAdapter
 from safetensors import SafetensorError, safe_open
 from safetensors.torch import save_file
 
@@ -125,7 +126,7 @@ def read(
             header = opened.metadata() or {}
             if header.get("fingerprint") != fingerprint:
                 return None
-            position = kind(**json.loads(header["position"]))
+            position = TypeAdapter(kind).validate_json(header["position"], strict=True)
             flat = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
         if _digest(flat) != header["digest"]:
             return None
