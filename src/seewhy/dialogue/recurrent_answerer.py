@@ -183,7 +183,7 @@ class RecurrentAnswerer:
             Description, number=FORMAT, weights=weights, described=described
         )
         with torch.device("meta"):
-            network = Network(description)
+            network = Network(description, drawn=False)
         check_tensors(tensors, network.state_dict(), weights=weights, described=described)
         network.load_state_dict(tensors, assign=True)
         return cls(network, description)

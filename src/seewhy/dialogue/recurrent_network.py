@@ -40,13 +40,23 @@ class Description(Described):
 
 
 class Network(nn.Module):
-    """Words and scene → LSTM → dense → logits of the answer types."""
+    """Words and scene → LSTM → dense → logits of the answer types.
 
-    def __init__(self, description: Description) -> None:
+    Words that are not ``drawn`` have no numbers yet: to draw them on the device "meta", PyTorch
+    imports for a second.
+    """
+
+    def __init__(self, description: Description, *, drawn: bool = True) -> None:
         super().__init__()
         d = description
         scene = sum(len(values) for values in d.features.values()) + len(d.labels)
-        self.embedding = nn.Embedding(len(d.words) + 2, d.embedding, padding_idx=PADDING)
+        words = len(d.words) + 2
+        self.embedding = nn.Embedding(
+            words,
+            d.embedding,
+            padding_idx=PADDING,
+            _weight=None if drawn else torch.empty(words, d.embedding),
+        )
         self.lstm = nn.LSTM(d.embedding + scene, d.width, num_layers=d.layers, batch_first=True)
         self.dense = nn.Linear(d.width + scene, d.width)
         self.logits = nn.Linear(d.width, len(d.answers))
