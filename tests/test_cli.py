@@ -564,12 +564,17 @@ def made(tmp_path: Path) -> Domain:
 def test_making_data_is_interrupted_and_goes_on(run: Run, made: Domain, tmp_path: Path) -> None:
     out = tmp_path / "pictures"
     command = ("data", "make", made.folder, "--out", out, "--count", 6, "--size", 16)
+    told = (
+        f"{made.folder}/pictures.py is a program, which now runs with your rights; run only those "
+        "of people whom you trust\n"
+    )
     (made.folder / "stop_4").touch()
     result = run(*command, "--workers", 1)
     assert result == Result(
         130,
         "",
-        "seewhy: interrupted; what is finished is kept, the same command goes on from there\n",
+        f"{told}seewhy: interrupted; what is finished is kept, the same command goes on from "
+        "there\n",
     )
     finished = {p.name: p.stat().st_mtime_ns for p in (out / "images").glob("*.png")}
     assert sorted(finished) == [f"00000{n}.png" for n in range(4)]
@@ -582,7 +587,7 @@ def test_making_data_is_interrupted_and_goes_on(run: Run, made: Domain, tmp_path
         "  bad: 33.3 %\n"
         "  100.0 % of them have an outcome that their features determine (the best that any "
         "classifier over the features can do)\n",
-        "",
+        told,
     )
     for name, time in finished.items():
         assert (out / "images" / name).stat().st_mtime_ns == time
