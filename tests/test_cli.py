@@ -107,6 +107,7 @@ def test_what_is_not_needed_is_not_imported(code: str) -> None:
 
 NOT_FOR_ANSWERS = (
     *("scipy", "sklearn", "skops", "joblib", "loky", "pandas", "pyarrow", "openpyxl"),
+    *("torch._dynamo", "sympy"),
     *("mujoco", "gymnasium", "jinja2", "matplotlib", "torchvision", "yaml", "defusedxml"),
 )
 
@@ -552,29 +553,32 @@ def draw(*, seed, index, size):
 
 
 @pytest.fixture
-def made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Domain]:
+def made(tmp_path: Path) -> Domain:
     """A domain of tiles with a source of pictures."""
-    (tmp_path / "modules").mkdir()
-    (tmp_path / "modules" / "tile_pictures.py").write_text(SOURCE)
-    monkeypatch.syspath_prepend(str(tmp_path / "modules"))
-    text = DOMAIN.replace("subject =", 'source = "tile_pictures"\nsubject =')
-    yield load_domain(write_domain(tmp_path / "tiles", domain=text))
-    sys.modules.pop("tile_pictures", None)
+    text = DOMAIN.replace("subject =", 'source = "pictures.py"\nsubject =')
+    folder = write_domain(tmp_path / "tiles", domain=text)
+    (folder / "pictures.py").write_text(SOURCE)
+    return load_domain(folder)
 
 
 def test_making_data_is_interrupted_and_goes_on(run: Run, made: Domain, tmp_path: Path) -> None:
     out = tmp_path / "pictures"
     command = ("data", "make", made.folder, "--out", out, "--count", 6, "--size", 16)
-    (tmp_path / "modules" / "stop_4").touch()
+    told = (
+        f"{made.folder}/pictures.py is a program, which now runs with your rights; run only those "
+        "of people whom you trust\n"
+    )
+    (made.folder / "stop_4").touch()
     result = run(*command, "--workers", 1)
     assert result == Result(
         130,
         "",
-        "seewhy: interrupted; what is finished is kept, the same command goes on from there\n",
+        f"{told}seewhy: interrupted; what is finished is kept, the same command goes on from "
+        "there\n",
     )
     finished = {p.name: p.stat().st_mtime_ns for p in (out / "images").glob("*.png")}
     assert sorted(finished) == [f"00000{n}.png" for n in range(4)]
-    (tmp_path / "modules" / "stop_4").unlink()
+    (made.folder / "stop_4").unlink()
     result = run(*command, "--workers", 1)
     assert result == Result(
         0,
@@ -583,7 +587,7 @@ def test_making_data_is_interrupted_and_goes_on(run: Run, made: Domain, tmp_path
         "  bad: 33.3 %\n"
         "  100.0 % of them have an outcome that their features determine (the best that any "
         "classifier over the features can do)\n",
-        "",
+        told,
     )
     for name, time in finished.items():
         assert (out / "images" / name).stat().st_mtime_ns == time

@@ -25,7 +25,7 @@ from PIL import Image, ImageDraw
 from conftest import Run
 from seewhy.data.dataset import Dataset
 from seewhy.domain import load_domain
-from seewhy.experiments.claims import claimed
+from seewhy.locks import locked
 from seewhy.perception import fitting_eyes, training
 
 EXPERIMENTS = Path(__file__).parents[1] / "experiments"
@@ -414,7 +414,7 @@ def test_a_trial_that_somebody_else_runs_is_left_to_them(tmp_path: Path) -> None
         raise AssertionError("it was run")
 
     trial = Trial("hands", "x", 10, 0)
-    with claimed(trials.trial_file(tmp_path, trial)):
+    with locked(trials.trial_file(tmp_path, trial)):
         assert trials.run_trial(tmp_path, trial, System("x", "x", "x", never), never) is None
 
 

@@ -73,9 +73,8 @@ def folder(tmp_path: Path) -> Path:
             "domain.toml",
             "seewhy.domains.structure_stability.source",
             "nowhere.py",
-            "domain.toml: source = 'nowhere.py' must be a module that can be imported, or a file "
-            "of this folder, and have a function draw(seed=, index=, size=) (No such file or "
-            "directory)",
+            "domain.toml: source = 'nowhere.py' must be a file of this folder that has a function "
+            "draw(seed=, index=, size=) (No such file or directory)",
         ),
     ],
 )

@@ -32,7 +32,6 @@ from seewhy.errors import ExperimentError
 from seewhy.experiments import coupling, drawing, running
 from seewhy.experiments.axioms import agreement, explanations, incomplete, learned_again
 from seewhy.experiments.catalogue import NAMES, experiment
-from seewhy.experiments.claims import claimed
 from seewhy.experiments.conclusions import conclude, summary
 from seewhy.experiments.drawing import divide, in_fold, load_pictures, pool_of, require_enough
 from seewhy.experiments.effort import Effort, efforts
@@ -45,6 +44,7 @@ from seewhy.experiments.vqa import annotator
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.learning import AnnotatedScenes
+from seewhy.locks import locked
 
 SMALL = ("--trials", 2, "--sizes", "20,30", "--tested", 15, "--jobs", 1)
 EXPLAINED = ("explanations_strict", "explanations_sufficient")
@@ -340,10 +340,10 @@ def test_one_process_draws_the_pictures_of_a_folder(
     pool = tmp_path / "pictures"
     made: list[bool] = []
     monkeypatch.setattr(
-        drawing, "make_dataset", lambda *_, **__: made.append((pool / "scenes.csv.claim").is_file())
+        drawing, "make_dataset", lambda *_, **__: made.append((pool / ".scenes.csv.lock").is_file())
     )
     with ExitStack() as other:
-        other.enter_context(claimed(pool / "scenes.csv"))
+        other.enter_context(locked(pool / "scenes.csv"))
 
         def wait(_: float) -> None:
             assert made == []
@@ -352,7 +352,7 @@ def test_one_process_draws_the_pictures_of_a_folder(
         monkeypatch.setattr(drawing, "time", SimpleNamespace(sleep=wait))
         assert pool_of(structures, None, tmp_path, count=2, workers=1) == pool
     assert made == [True]
-    assert not (pool / "scenes.csv.claim").exists()
+    assert not (pool / ".scenes.csv.lock").exists()
 
 
 # What is refused ---------------------------------------------------------------------------------
@@ -517,14 +517,14 @@ def test_what_is_kept_for_trials_may_be_damaged(
     assert (result.code, result.out) == (2, "")
     assert result.err.startswith(f"seewhy: {file}: is not as it was written; delete it, and the")
     assert len(result.err.splitlines()) == 1
-    assert not list(finished.glob("*/trials/*.claim"))
+    assert not list(finished.glob("*/trials/.*.lock"))
 
 
 def test_trials_of_another_process_are_not_waited_for(
     run: Run, finished: Path, hasty: Path, tiles_data: Path
 ) -> None:
     trial = finished / "vqa" / "trials" / "20-0.json"
-    with lost(trial), claimed(trial):
+    with lost(trial), locked(trial):
         command = ("experiment", "vqa", "--domain", hasty, "--data", tiles_data)
         result = run(*command, "--out", finished, *SMALL)
         page = (finished / "vqa" / "index.html").read_text(encoding="utf-8")
@@ -637,40 +637,6 @@ def test_groups_stay_whole_and_all_are_tested(dataset: Dataset, tmp_path: Path) 
         require_enough(own, Trial(seed, left))
         with pytest.raises(ExperimentError, match=f"too few to train on {left + 1} and test on"):
             require_enough(own, Trial(seed, left + 1))
-
-
-def test_work_is_claimed_once(tmp_path: Path) -> None:
-    work = tmp_path / "result.json"
-    claim = tmp_path / "result.json.claim"
-    with claimed(work) as first, claimed(work) as second:
-        assert (first, second) == (True, False)
-    assert not claim.exists()
-    with claimed(work):
-        this = json.loads(claim.read_text())
-    gone = {**this, "process": 2**22 + 1}
-    for text, ours in (
-        (json.dumps(gone), True),
-        (json.dumps({**gone, "process": 2**70}), True),
-        (json.dumps(this), False),
-        # The number of a process that ended was given to another.
-        (json.dumps({**this, "started": "before a restart"}), True),
-        (json.dumps({**this, "started": None}), False),
-        (json.dumps({**gone, "host": "elsewhere"}), False),
-        ("", False),
-    ):
-        claim.write_text(text)
-        with claimed(work) as found:
-            assert found is ours
-        claim.unlink(missing_ok=True)
-    with claimed(work):
-        # Another machine took the work over; its claim is not ours to take away.
-        claim.write_text(json.dumps({**this, "host": "elsewhere"}))
-    assert claim.exists()
-    for content in ({**gone, "host": "elsewhere"}, []):
-        claim.write_text(json.dumps(content))
-        os.utime(claim, (1.0, 1.0))
-        with claimed(work) as found:
-            assert found
 
 
 # Questions ---------------------------------------------------------------------------------------

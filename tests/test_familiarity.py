@@ -24,6 +24,9 @@ COLOURS = ["red", "green", "blue", "red", None, "green", "red", "blue"]
 SHAPES = ["yes", "no", "yes", "yes", "no", "no", None, "no"]
 
 
+WIDTHS = {"colour": 5, "round": 5}
+
+
 def embeddings(count: int, *, seed: int, width: int = 5) -> dict[str, np.ndarray]:
     rng = np.random.default_rng(seed)
     return {
@@ -148,9 +151,8 @@ def test_what_is_saved_is_loaded_exactly(folder: Path) -> None:
     mine = fit_familiarity(embeddings(8, seed=0), {"colour": COLOURS, "round": SHAPES})
     shown = embeddings(20, seed=1)
     values = {"colour": ["red", "blue"] * 10, "round": ["yes"] * 20}
-    np.testing.assert_array_equal(
-        Familiarity.load(folder).likeness(shown, values), mine.likeness(shown, values)
-    )
+    again = Familiarity.load(folder, widths=WIDTHS)
+    np.testing.assert_array_equal(again.likeness(shown, values), mine.likeness(shown, values))
 
 
 def test_damaged_weights_are_refused(folder: Path) -> None:
@@ -159,28 +161,52 @@ def test_damaged_weights_are_refused(folder: Path) -> None:
     content[-1] ^= 1
     path.write_bytes(content)
     with pytest.raises(ModelError) as problem:
-        Familiarity.load(folder)
+        Familiarity.load(folder, widths=WIDTHS)
     assert str(problem.value) == (
         f"{path} is damaged or belongs to another familiarity.json: train the model again, or "
         "copy its folder again from where it is whole"
     )
 
 
+REMEDY = "train the model again, or copy its folder again from where it is whole"
+
+
 @pytest.mark.parametrize(
-    "counts", [[2, 2, 2], [2, 2], [2, 2, 3, 0], [7, 0, 0], [8, -1, 0]], ids=str
+    ("counts", "wrong"),
+    [
+        ([2, 2, 2], " (colour must be of shape (6, 5), got (7, 5)): "),
+        ([2, 2], "features.colour: Value error, there must be as many counts as values"),
+        ([2, 2, 3, 0], "features.colour.counts.3: Input should be greater than or equal to 1"),
+        ([8, -1, 0], "features.colour.counts.1: Input should be greater than or equal to 1"),
+        ([2, 2, 10**12], "features.colour.counts.2: Input should be less than or equal to 4000"),
+        ([2, 2, 3.0], "features.colour.counts.2: Input should be a valid integer"),
+    ],
+    ids=str,
 )
-def test_a_description_of_other_pictures_is_refused(folder: Path, counts: list[int]) -> None:
+def test_a_description_of_other_pictures_is_refused(
+    folder: Path, counts: list[int], wrong: str
+) -> None:
     path = folder / "familiarity.json"
     described = json.loads(path.read_text())
     assert described["features"]["colour"]["counts"] == [2, 2, 3]
     described["features"]["colour"]["counts"] = counts
     path.write_text(json.dumps(described))
     with pytest.raises(ModelError) as problem:
-        Familiarity.load(folder)
+        Familiarity.load(folder, widths=WIDTHS)
     assert str(problem.value) == (
-        f"{folder}/familiarity.safetensors does not hold the pictures that {path} describes: "
-        "train the model again, or copy its folder again from where it is whole"
+        f"{path} is damaged ({wrong}): {REMEDY}"
+        if wrong.startswith("features")
+        else f"{folder}/familiarity.safetensors does not hold the weights that {path} describes"
+        f"{wrong}{REMEDY}"
     )
+
+
+@pytest.mark.parametrize("widths", [{"colour": 5}, {"colour": 5, "round": 4}], ids=str)
+def test_what_other_networks_made_is_refused(folder: Path, widths: dict[str, int]) -> None:
+    with pytest.raises(
+        ModelError, match=r"round(: nothing sees it| must be of shape \(7, 4\), got)"
+    ):
+        Familiarity.load(folder, widths=widths)
 
 
 # Which pictures they are --------------------------------------------------------------------
@@ -222,7 +248,7 @@ def test_which_pictures_they_are_is_kept_on_disk(tmp_path: Path) -> None:
         pictures=pictures_of(COLOURS),
     )
     mine.save(tmp_path)
-    again = Familiarity.load(tmp_path)
+    again = Familiarity.load(tmp_path, widths=WIDTHS)
     assert again.known["colour"].pictures == mine.known["colour"].pictures
     shown = embeddings(1, seed=1)["colour"][0]
     assert again.known["colour"].nearest(shown, count=3) == mine.known["colour"].nearest(
@@ -240,8 +266,8 @@ def test_names_that_are_not_those_of_the_pictures_are_no_names(folder: Path) -> 
     described = json.loads(path.read_text())
     described["features"]["colour"]["pictures"] = [{"name": "a.png", "label": None, "features": {}}]
     path.write_text(json.dumps(described))
-    with pytest.raises(ModelError, match="does not hold the pictures that"):
-        Familiarity.load(folder)
+    with pytest.raises(ModelError, match="there must be as many pictures as are counted"):
+        Familiarity.load(folder, widths=WIDTHS)
 
 
 def test_a_near_picture_as_text_and_json() -> None:

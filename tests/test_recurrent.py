@@ -283,7 +283,7 @@ def test_damaged_files(answerer: RecurrentAnswerer, tmp_path: Path) -> None:
     whole = json.loads(description.read_text())
 
     description.write_text(json.dumps({**whole, "words": [*whole["words"], "more"]}))
-    with pytest.raises(ModelError, match=r"answers\.safetensors does not hold the network that"):
+    with pytest.raises(ModelError, match=r"answers\.safetensors does not hold the weights that"):
         RecurrentAnswerer.load(tmp_path)
     description.write_text(json.dumps({**whole, "format": 99}))
     with pytest.raises(ModelError, match="has format 99, this version of SeeWhy reads 1"):
@@ -292,7 +292,7 @@ def test_damaged_files(answerer: RecurrentAnswerer, tmp_path: Path) -> None:
     with pytest.raises(ModelError, match=r"answers\.json is damaged \(layers: Input should be"):
         RecurrentAnswerer.load(tmp_path)
     description.write_text("{")
-    with pytest.raises(ModelError, match=r"answers\.json is damaged \(its text: Invalid JSON"):
+    with pytest.raises(ModelError, match=r"answers\.json is damaged \(its text: "):
         RecurrentAnswerer.load(tmp_path)
     description.write_text(json.dumps(whole))
     weights.write_bytes(weights.read_bytes()[:-8])

@@ -12,10 +12,10 @@ from typing import Any
 from comparison.picture_sets import SETS, Pictures
 from comparison.system import Drawings, System
 from seewhy.errors import ExperimentError
-from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import ALL, say_size
 from seewhy.experiments.origin import here, installed
 from seewhy.files import write_whole
+from seewhy.locks import locked
 
 __all__ = ["Result", "Trial", "kept_results", "planned", "read_result", "run_trial", "trial_file"]
 
@@ -154,7 +154,7 @@ def run_trial(
     file = trial_file(out, trial)
     if file.exists():
         return None
-    with claimed(file) as ours:
+    with locked(file) as ours:
         if not ours or file.exists():
             return None
         result = _result(trial, system, pictures(), _drawings(out, trial))

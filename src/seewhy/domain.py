@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +12,7 @@ from seewhy.domain_tables import (
     CLASS,
     EMBEDDED,
     RESERVED,
+    SCENE,
     TOGETHER,
     BeliefTable,
     ClassTable,
@@ -216,6 +218,7 @@ def load_domain(name: str | Path) -> Domain:
     knowledge = read_knowledge_file(folder / "knowledge.al").without_change
     questions = read_toml(folder / "questions.toml", QuestionsFile)
     place = _Place(path)
+    _check_source(table, place)
     _check_scene(table, knowledge, place)
     features = {k: _feature(k, t, table, knowledge, place) for k, t in table.features.items()}
     classes = {k: _class(k, t, table, knowledge, place) for k, t in table.classes.items()}
@@ -251,6 +254,19 @@ class _Place:
 
     def at(self, *keys: str) -> str:
         return f"{self.path}:{line_of(self.path.read_text(encoding='utf-8-sig'), keys)}"
+
+
+def _check_source(table: DomainFile, place: _Place) -> None:
+    """Refuse a source that lies outside of the domain's folder, but for modules of SeeWhy's own."""
+    source = table.domain.source
+    if source is None or re.fullmatch(r"seewhy(_lab)?(\.[a-z][a-z0-9_]*)+", source):
+        return
+    home = place.path.parent.resolve()
+    if not source.endswith(".py") or not (home / source).resolve().is_relative_to(home):
+        raise DomainError(
+            f"{place.at('domain', 'source')}: source = '{source}' must be a file of this folder, "
+            'such as "pictures.py": what lies elsewhere is not run'
+        )
 
 
 def _check_shared_words(
@@ -310,6 +326,12 @@ def _feature(
         raise DomainError(
             f"{here()}: '{key}' is what other networks than a feature's are called; call the "
             "feature otherwise"
+        )
+    if key == SCENE or key in file.classes:
+        raise DomainError(
+            f"{here()}: '{key}' is what "
+            f"{'a whole picture' if key == SCENE else 'a class of this domain'} is called; call "
+            "the feature otherwise"
         )
     if key in RESERVED:
         raise DomainError(

@@ -7,6 +7,8 @@ from typing import Literal as OneOf
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from seewhy.slots import wrong_slot
+
 ReadingRule = OneOf["argmax", "consistent", "with_class"]
 """How a picture's features are read; see :mod:`seewhy.reading`."""
 
@@ -18,6 +20,9 @@ EMBEDDED = "efficientnet-lite0"
 CLASS = "class"
 """What the network of the class is called among those of the features."""
 
+SCENE = "scene"
+"""What the whole picture is called among features, where eyes compare pictures."""
+
 RESERVED = ("image", CLASS, "split", "group", "reasons")
 """Columns of scenes.csv that are no features."""
 
@@ -25,8 +30,51 @@ TOGETHER = "together"
 """What all networks of features are called where they are trained together."""
 
 
+def _with_letters(word: str) -> str:
+    if not any(character.isalnum() for character in word):
+        raise ValueError(f"must have a letter or a digit, got '{word}'")
+    return word
+
+
+def _without_control(name: str) -> str:
+    if not name.isprintable() or name != name.strip() or not name:
+        raise ValueError(f"a name must be of visible characters, got {name!r}")
+    return name
+
+
+def _with_it_alone(text: str) -> str:
+    if wrong_slot(_with_letters(text), ("it",)) is not None:
+        raise ValueError(f"{{it}} is the only slot that there is, got '{text}'")
+    return text
+
+
+def _with_value(text: str) -> str:
+    if wrong_slot(_with_letters(text), ("it", "value")) is not None or "{value}" not in text:
+        raise ValueError(f"must have the slot {{value}} and may have {{it}}, got '{text}'")
+    return text
+
+
+def _without_braces(text: str) -> str:
+    if set("{}") & set(text):
+        raise ValueError(f"must have no braces, got '{text}'")
+    return text
+
+
+Word = Annotated[str, AfterValidator(_with_letters), AfterValidator(_without_braces)]
+Label = Annotated[str, AfterValidator(_without_braces)]
+Key = Annotated[str, AfterValidator(_without_control)]
+Clause = Annotated[str, AfterValidator(_with_it_alone)]
+BeliefClause = Annotated[str, AfterValidator(_with_value)]
+
+
+LONGEST_TEXT = 2000
+"""Characters of a text or a name in a domain's tables."""
+
+
 class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True)
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, populate_by_name=True, str_max_length=LONGEST_TEXT
+    )
 
 
 class DomainTable(_Table):
@@ -41,15 +89,16 @@ class DomainTable(_Table):
         description="The domain's name in commands and in model files: small letters, digits and "
         "underscores.",
     )
-    title: str = Field(description="The heading of reports and pages.")
+    title: str = Field(max_length=200, description="The heading of reports and pages.")
     scene: str = Field(description="The sort of knowledge.al that stands for the picture.")
-    subject: str = Field(
+    subject: Label = Field(
         description="How answers name what a picture shows, as in `the apple`; {it} stands for it "
         "in all wordings.",
     )
     source: str | None = Field(
         default=None,
-        description="The Python module that makes pictures of the domain, for `seewhy data make`.",
+        description="The Python file of the domain's folder that makes pictures of the domain, for "
+        "`seewhy data make`.",
     )
     eyes: str = Field(
         default=EMBEDDED,
@@ -222,30 +271,6 @@ class NetworkTable(_Table):
     )
 
 
-def _with_letters(word: str) -> str:
-    if not any(character.isalnum() for character in word):
-        raise ValueError(f"must have a letter or a digit, got '{word}'")
-    return word
-
-
-def _with_it_alone(text: str) -> str:
-    if set("{}") & set(_with_letters(text).replace("{it}", "")):
-        raise ValueError(f"{{it}} is the only slot that there is, got '{text}'")
-    return text
-
-
-def _with_value(text: str) -> str:
-    rest = _with_letters(text).replace("{it}", "").replace("{value}", "")
-    if set("{}") & set(rest) or "{value}" not in text:
-        raise ValueError(f"must have the slot {{value}} and may have {{it}}, got '{text}'")
-    return text
-
-
-Word = Annotated[str, AfterValidator(_with_letters)]
-Clause = Annotated[str, AfterValidator(_with_it_alone)]
-BeliefClause = Annotated[str, AfterValidator(_with_value)]
-
-
 class ValueTable(_Table):
     """``[features.NAME.values.VALUE]``: how a value is said, asked for and brought about."""
 
@@ -270,7 +295,7 @@ class FeatureTable(_Table):
     ``channels`` and ``dense`` are those of ``[networks]`` where left out.
     """
 
-    name: str = Field(description="What the feature is called in answers and tables.")
+    name: Label = Field(description="What the feature is called in answers and tables.")
     threshold: float = Field(
         default=0.9,
         gt=0.0,
@@ -296,8 +321,9 @@ class FeatureTable(_Table):
         description="How hard it is to change the feature; of several changes an answer names the "
         "one with the smallest sum.",
     )
-    values: dict[str, ValueTable] = Field(
+    values: dict[Key, ValueTable] = Field(
         min_length=1,
+        max_length=2000,
         description="A table for each value, and for each value of its sort in knowledge.al; a "
         "feature without a sort has the values yes and no.",
     )
@@ -361,12 +387,14 @@ class DomainFile(_Table):
         description="How large the networks become that grow on the domain's pictures alone "
         '(`eyes = "none"`), and how they are trained.',
     )
-    features: dict[str, FeatureTable] = Field(
+    features: dict[Key, FeatureTable] = Field(
         min_length=1,
+        max_length=500,
         description="One table a feature, which knowledge.al declares as a static of the picture.",
     )
-    classes: dict[str, ClassTable] = Field(
+    classes: dict[Key, ClassTable] = Field(
         min_length=2,
+        max_length=2000,
         description="One table a class, of which every picture shows one.",
     )
     beliefs: dict[str, BeliefTable] = Field(
@@ -398,6 +426,7 @@ class QuestionTable(_Table):
     )
     patterns: tuple[str, ...] = Field(
         min_length=1,
+        max_length=500,
         description="The ways to ask it: {it} stands for the subject, {class} for the words of a "
         "class, {value} for those of a value, and [...] may be left out.",
     )
@@ -421,5 +450,6 @@ class QuestionsFile(_Table):
     )
     question: tuple[QuestionTable, ...] = Field(
         min_length=1,
+        max_length=2000,
         description="One table a thing that can be asked.",
     )

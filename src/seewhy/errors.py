@@ -65,3 +65,7 @@ class ExperimentError(SeeWhyError, ValueError):
 
 class SpeechError(SeeWhyError, RuntimeError):
     """An answer cannot be spoken: nothing that speaks is there, or it failed."""
+
+
+class BusyError(SeeWhyError, BlockingIOError):
+    """Another run is writing the file or folder that was to be written."""

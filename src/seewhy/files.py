@@ -3,18 +3,29 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from seewhy.locks import opened_alone
+
+__all__ = ["put_all_on_disk", "put_on_disk", "whole_file", "write_whole"]
+
 
 @contextmanager
-def whole_file(path: Path | str) -> Iterator[Path]:
+def whole_file(path: Path | str, *, durable: bool = True) -> Iterator[Path]:
     """Yield a temporary path beside ``path`` that takes its place when the block ends well.
 
     When the block raises (an interruption included), the temporary file is removed and what
-    stood at ``path`` before is untouched.
+    stood at ``path`` before is untouched. What a killed process left is taken over by the next
+    that writes ``path``; of several that write it at a time, one waits for the other.
+
+    Parameters
+    ----------
+    path : Path or str
+    durable : bool, default True
+        Whether the file is on the disk, and not only in the system's memory, before it stands at
+        ``path``. Files by the thousand wait for the disk together, see :func:`put_all_on_disk`.
 
     Examples
     --------
@@ -27,24 +38,45 @@ def whole_file(path: Path | str) -> Iterator[Path]:
     """
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
-    descriptor, name = tempfile.mkstemp(
-        prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent
-    )
-    os.close(descriptor)
-    temporary = Path(name)
+    temporary = target.with_name(f".{target.stem}-new{target.suffix}")
+    descriptor = opened_alone(temporary, wait=True)
+    assert descriptor is not None
     try:
-        yield temporary
-        # mkstemp gives 0600; a file that others may read is what a plain open would have made.
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o666 & ~umask)
-        temporary.replace(target)
+        try:
+            os.truncate(descriptor, 0)
+            yield temporary
+            if durable:
+                put_on_disk(temporary)
+            temporary.replace(target)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+        if durable:
+            put_on_disk(target.parent)
     finally:
-        temporary.unlink(missing_ok=True)
+        os.close(descriptor)
 
 
-def write_whole(path: Path | str, content: str | bytes) -> None:
-    """Write ``content`` to ``path`` in one step.
+def put_on_disk(*paths: Path) -> None:
+    """Wait until files, or which names stand in folders, are on the disk."""
+    for path in paths:
+        if path.is_dir() and os.name == "nt":
+            continue  # there a folder cannot be opened, and is on the disk with its files
+        descriptor = os.open(path, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+
+
+def put_all_on_disk() -> None:
+    """Wait until all that was written before is on the disk: for files by the thousand."""
+    if hasattr(os, "sync"):
+        os.sync()
+
+
+def write_whole(path: Path | str, content: str | bytes, *, durable: bool = True) -> None:
+    """Write ``content`` to ``path`` in one step; see :func:`whole_file`.
 
     Examples
     --------
@@ -54,7 +86,7 @@ def write_whole(path: Path | str, content: str | bytes) -> None:
     >>> target.read_text()
     'done'
     """
-    with whole_file(path) as temporary:
+    with whole_file(path, durable=durable) as temporary:
         if isinstance(content, bytes):
             temporary.write_bytes(content)
         else:

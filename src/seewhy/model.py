@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-import tempfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -15,13 +14,17 @@ from seewhy.dialogue.reference import Experience
 from seewhy.domain import FILES, Domain, load_domain
 from seewhy.domain_tables import CLASS, ReadingRule
 from seewhy.errors import ModelError, SeeWhyError
-from seewhy.files import write_whole
-from seewhy.induction.tree import DecisionTree
+from seewhy.folders import settle_folder, whole_folder
+from seewhy.induction.tree import TREE, DecisionTree
+from seewhy.json_file import read_json, read_object
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import LEARNED, Withdrawn, read_learned, write_learned
 from seewhy.knowledge.reasoner import Minimality
+from seewhy.model_schema import ExperienceRows, Manifest, may_have, must_have
 from seewhy.perception.backbones import NONE
 from seewhy.reading import ReadingWeights
+from seewhy.visible import visible
+from seewhy.weights import LARGEST as LARGEST_WEIGHTS
 
 if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
@@ -30,12 +33,10 @@ if TYPE_CHECKING:
     from seewhy.perception.familiarity import Familiarity
 
 MANIFEST = "model.json"
+EXPERIENCE = "experience.json"
 FORMAT = 5
 
-_KEYS = (
-    *("domain", "minimality", "seed", "eyes", "reading", "reading_weights", "gate"),
-    *("known_share", "validation_scores", "without", "answers", "trained_on", "files"),
-)
+_REMEDY = "train it again"
 
 
 @dataclass(frozen=True)
@@ -81,10 +82,7 @@ def write_model(model: Model, folder: Path) -> None:
         If ``folder`` exists and is not a model.
     """
     check_target(folder)
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
-    try:
-        temporary.chmod(0o755)
+    with whole_folder(folder, replacing=True) as temporary:
         (temporary / "domain").mkdir()
         for name in FILES:
             shutil.copyfile(model.domain.folder / name, temporary / "domain" / name)
@@ -96,26 +94,9 @@ def write_model(model: Model, folder: Path) -> None:
         model.tree.save(temporary / "induction")
         if model.answerer is not None:
             model.answerer.save(temporary / "dialogue")
-        write_whole(temporary / "experience.json", _experience_text(model))
-        write_whole(temporary / MANIFEST, json.dumps(_manifest(model, temporary), indent=1))
-        old = _set_aside(folder)
-        if folder.exists():
-            shutil.rmtree(old, ignore_errors=True)
-            folder.rename(old)
-        try:
-            temporary.rename(folder)
-        except BaseException:
-            if old.exists():
-                old.rename(folder)
-            raise
-        shutil.rmtree(old, ignore_errors=True)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
-
-
-def _set_aside(folder: Path) -> Path:
-    """Where an earlier model stands for the moment in which a new one takes its place."""
-    return folder.with_name(f".{folder.name}-old")
+        (temporary / EXPERIENCE).write_text(_experience_text(model), encoding="utf-8")
+        manifest = json.dumps(_manifest(model, temporary), indent=1)
+        (temporary / MANIFEST).write_text(manifest, encoding="utf-8")
 
 
 def check_target(folder: Path) -> None:
@@ -152,60 +133,105 @@ def read_model(folder: Path, *, device: str = "auto") -> Model:
     ModelError
         If the folder is missing, incomplete, edited, or of another format.
     """
+    settle_folder(folder)
+    while True:
+        state = _state(folder)
+        try:
+            return _read_model(folder, device=device)
+        except ModelError:
+            # What was read in the moment in which another model took its place is of neither.
+            if _state(folder) == state:
+                raise
+
+
+def _state(folder: Path) -> tuple[int, int] | None:
+    try:
+        found = folder.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
+
+
+def _read_model(folder: Path, *, device: str) -> Model:
     manifest = _read_manifest(folder)
-    _check_files(folder, manifest["files"])
+    _check_files(folder, manifest)
     try:
         domain = load_domain(folder / "domain")
-        learned, withdrawn = read_learned(folder / LEARNED, domain.knowledge.signature)
+        signature = domain.knowledge.signature
+        found = read_learned(folder / LEARNED, signature) if LEARNED in manifest.files else ((), ())
     except SeeWhyError as problem:
         raise ModelError(f"{folder}: the model's domain cannot be read: {problem}") from None
-    if domain.name != manifest["domain"]:
+    if domain.name != manifest.domain:
         raise ModelError(
-            f"{folder}: the model was trained for the domain '{manifest['domain']}', but its "
-            f"domain folder is '{domain.name}'; train it again"
+            f"{folder}: the model was trained for the domain '{visible(manifest.domain)}', but its "
+            f"domain folder is '{domain.name}'; {_REMEDY}"
         )
     from seewhy.perception.domain_options import seen_values
     from seewhy.perception.familiarity import FAMILIARITY, Familiarity
 
-    extractor = _read_extractor(folder / "perception", manifest["eyes"], device)
+    extractor = _read_extractor(folder / "perception", manifest.eyes, device)
     with_class = CLASS in extractor.values
     if dict(extractor.values) != seen_values(domain, with_class=with_class):
         raise ModelError(
             f"{folder}: the networks recognise other features than the model's domain names; "
-            "train it again"
+            f"{_REMEDY}"
         )
     familiarity = None
-    if f"perception/{FAMILIARITY}" in manifest["files"]:
-        familiarity = Familiarity.load(folder / "perception")
+    if f"perception/{FAMILIARITY}" in manifest.files:
+        familiarity = Familiarity.load(folder / "perception", widths=extractor.widths)
     answerer = None
-    if manifest["answers"]:
+    if manifest.answers:
+        from seewhy.dialogue.learned import check_answers
         from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
 
         answerer = RecurrentAnswerer.load(folder / "dialogue")
-    experience = json.loads((folder / "experience.json").read_text(encoding="utf-8"))
+        check_answers(domain, answerer, folder / "dialogue")
+    tree = DecisionTree.load(folder / "induction")
+    values = {key: feature.values for key, feature in domain.features.items()}
+    if tree.features != values or not {*tree.classes} <= domain.classes.keys():
+        raise ModelError(
+            f"{folder / 'induction' / TREE}: the tree tells apart other features or classes than "
+            f"the model's domain names; {_REMEDY}"
+        )
     return Model(
         domain=domain,
-        learned=learned,
-        withdrawn=withdrawn,
+        learned=found[0],
+        withdrawn=found[1],
         extractor=extractor,
-        tree=DecisionTree.load(folder / "induction"),
+        tree=tree,
         answerer=answerer,
-        experience={tuple(row["features"]): row["classes"] for row in experience},
-        trained_on=frozenset(manifest["trained_on"]),
-        without_class=frozenset(manifest.get("without_class", ())),
-        minimality=manifest["minimality"],
-        seed=manifest["seed"],
-        eyes=manifest["eyes"],
+        experience=_read_experience(folder / EXPERIENCE, domain),
+        trained_on=manifest.trained_on,
+        without_class=manifest.without_class,
+        minimality=manifest.minimality,
+        seed=manifest.seed,
+        eyes=manifest.eyes,
         reading_weights={
-            rule: ReadingWeights(**weights) for rule, weights in manifest["reading_weights"].items()
+            rule: ReadingWeights(own.features, own.witness)
+            for rule, own in manifest.reading_weights.items()
         },
-        reading=manifest["reading"],
-        gate=manifest["gate"],
-        known_share=manifest["known_share"],
+        reading=manifest.reading,
+        gate=manifest.gate,
+        known_share=manifest.known_share,
         familiarity=familiarity,
-        validation_scores=manifest["validation_scores"],
-        without=tuple(manifest["without"]),
+        validation_scores=manifest.validation_scores,
+        without=manifest.without,
     )
+
+
+def _read_experience(file: Path, domain: Domain) -> Experience:
+    rows = read_json(file, ExperienceRows, remedy=_REMEDY).root
+    values = [{*feature.values, None} for feature in domain.features.values()]
+    for number, row in enumerate(rows):
+        fits = len(row.features) == len(values) and all(
+            value in known for value, known in zip(row.features, values, strict=True)
+        )
+        if not fits or not row.classes.keys() <= domain.classes.keys():
+            raise ModelError(
+                f"{file} is damaged ({number}: the model's domain has no such features or classes)"
+                f": {_REMEDY}"
+            )
+    return {row.features: row.classes for row in rows}
 
 
 def _read_extractor(folder: Path, eyes: str, device: str) -> FeatureExtractor | Eyes:
@@ -257,20 +283,15 @@ def _manifest(model: Model, folder: Path) -> dict[str, Any]:
 
 
 def _digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def _digest_of(manifest: dict[str, Any]) -> str:
     return hashlib.sha256(json.dumps(manifest, sort_keys=True).encode()).hexdigest()
 
 
-def _read_manifest(folder: Path) -> dict[str, Any]:
-    earlier = _set_aside(folder)
-    if not folder.is_dir() and earlier.is_dir():
-        raise ModelError(
-            f"{folder}: a newer model was being written when the program was killed; rename "
-            f"{earlier} to {folder} to have the earlier one back, or train again"
-        )
+def _read_manifest(folder: Path) -> Manifest:
     if not folder.is_dir():
         raise ModelError(f"{folder}: there is no such model; 'seewhy train' makes one")
     path = folder / MANIFEST
@@ -279,32 +300,30 @@ def _read_manifest(folder: Path) -> dict[str, Any]:
             f"{folder}: is not a model, it has no {MANIFEST}; give the folder that 'seewhy "
             "train --out' wrote"
         )
-    try:
-        manifest: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        found = manifest["format"]
-        if found == FORMAT:
-            for key in _KEYS:
-                manifest[key]
-    except (ValueError, KeyError, TypeError, RecursionError):
-        raise ModelError(f"{path}: cannot be read; train the model again") from None
-    if found != FORMAT:
+    found = read_object(path, remedy=_REMEDY)
+    if found.get("format") != FORMAT:
         raise ModelError(
-            f"{path}: the model has format {found}, this version reads {FORMAT}; train it again"
+            f"{path}: the model has format {visible(found.get('format'), most=20)}, this version "
+            f"reads {FORMAT}; {_REMEDY}"
         )
-    digest = manifest.pop("digest", None)
-    if digest != _digest_of(manifest):
+    if found.pop("digest", None) != _digest_of(found):
         raise _changed(path)
-    return manifest
+    return read_json(path, Manifest, remedy=_REMEDY)
 
 
-def _check_files(folder: Path, files: dict[str, str]) -> None:
-    for name, digest in files.items():
+def _check_files(folder: Path, manifest: Manifest) -> None:
+    for name in manifest.files.keys() - {*may_have(manifest)}:
+        raise ModelError(
+            f"{folder / MANIFEST} is damaged (files: '{visible(name)}' is no file of a model): "
+            f"{_REMEDY}"
+        )
+    for name in (*must_have(manifest), *manifest.files):
         path = folder / name
-        if not path.is_file():
-            raise ModelError(
-                f"{folder}: the model is incomplete, {name} is missing; train it again"
-            )
-        if _digest(path) != digest:
+        if name not in manifest.files or not path.is_file():
+            raise ModelError(f"{folder}: the model is incomplete, {name} is missing; {_REMEDY}")
+        if path.stat().st_size > LARGEST_WEIGHTS:
+            raise ModelError(f"{path} is larger than any file of a model: {_REMEDY}")
+        if _digest(path) != manifest.files[name]:
             raise _changed(path)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from seewhy.data.dataset import Dataset
 from seewhy.data.making import MADE, make_dataset
 from seewhy.domain import Domain
+from seewhy.folders import scratch_folder
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception.backbones import NONE
 
@@ -102,8 +102,8 @@ def pretrained(
     from seewhy.perception.extractor import fit_extractor
     from seewhy.perception.rehearsal import Rehearsal
 
-    with tempfile.TemporaryDirectory(prefix="seewhy-", ignore_cleanup_errors=True) as temporary:
-        folder = checkpoints if checkpoints is not None else Path(temporary)
+    with scratch_folder() as temporary:
+        folder = checkpoints if checkpoints is not None else temporary
         make_dataset(
             domain,
             folder / "drawn",

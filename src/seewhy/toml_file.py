@@ -12,9 +12,14 @@ from pydantic import BaseModel, ValidationError
 
 from seewhy.errors import DomainError
 from seewhy.nearest import did_you_mean
+from seewhy.visible import visible
 
 Schema = TypeVar("Schema", bound=BaseModel)
-_HEADER = re.compile(r"\s*\[\[?\s*([^\]]+?)\s*\]\]?\s*(?:#.*)?$")
+LONGEST_SENTENCE = 500
+
+LARGEST = 4_000_000
+"""Characters of a file; the largest of a bundled domain has a hundredth."""
+
 _KEY = re.compile(r"\s*(\"[^\"]*\"|'[^']*'|[A-Za-z0-9_.-]+)\s*=")
 
 
@@ -28,7 +33,8 @@ def read_toml(path: Path, schema: type[Schema]) -> Schema:
         what was found, and the nearest valid name.
     """
     try:
-        source = path.read_text(encoding="utf-8-sig")
+        with path.open(encoding="utf-8-sig") as stream:
+            source = stream.read(LARGEST + 1)
     except FileNotFoundError:
         raise DomainError(
             f"{path}: there is no such file; a domain is a folder with domain.toml, "
@@ -36,6 +42,8 @@ def read_toml(path: Path, schema: type[Schema]) -> Schema:
         ) from None
     except (OSError, UnicodeDecodeError) as problem:
         raise DomainError(f"{path}: cannot be read as UTF-8 text ({problem})") from None
+    if len(source) > LARGEST:
+        raise DomainError(f"{path}: has more than {LARGEST:,} characters; say it in fewer")
     try:
         content = tomllib.loads(source)
     except tomllib.TOMLDecodeError as problem:
@@ -45,6 +53,11 @@ def read_toml(path: Path, schema: type[Schema]) -> Schema:
         place = f"{path}:{line or len(lines)}:{column or len(lines[-1]) + 1}"
         what = match.group(1) if match else str(problem)
         raise DomainError(f"{place}: not valid TOML: {what[0].lower()}{what[1:]}") from None
+    except RecursionError:
+        raise DomainError(f"{path}: has lists in lists in lists, which no table has") from None
+    except ValueError:
+        # Python turns only so many digits into a number; the library does not say where.
+        raise DomainError(f"{path}: has a number of thousands of digits; write a smaller") from None
     try:
         return schema.model_validate(content)
     except ValidationError as problem:
@@ -52,9 +65,8 @@ def read_toml(path: Path, schema: type[Schema]) -> Schema:
         first = min(problem.errors(), key=lambda error: error["type"] != "extra_forbidden")
         keys = [str(key) for key in first["loc"] if key != "[key]"]
         line = line_of(source, keys)
-        raise DomainError(
-            f"{path}:{line}: {_explain(first['type'], first['msg'], first['input'], keys, schema)}"
-        ) from None
+        said = _explain(first["type"], first["msg"], first["input"], keys, schema)
+        raise DomainError(f"{path}:{line}: {visible(said, most=LONGEST_SENTENCE)}") from None
 
 
 def line_of(source: str, keys: Sequence[str]) -> int:
@@ -73,9 +85,9 @@ def line_of(source: str, keys: Sequence[str]) -> int:
     table: list[str] = []
     counts: dict[str, int] = {}
     for number, line in enumerate(source.splitlines(), start=1):
-        header = _HEADER.match(line)
-        if header:
-            table = [part.strip().strip("\"'") for part in header.group(1).split(".")]
+        heading = _heading(line)
+        if heading:
+            table = [part.strip().strip("\"'") for part in heading.split(".")]
             if line.lstrip().startswith("[["):
                 name = ".".join(table)
                 table.append(str(counts.get(name, 0)))
@@ -95,8 +107,31 @@ def line_of(source: str, keys: Sequence[str]) -> int:
     return best
 
 
+def lines_of_tables(source: str, name: str) -> list[int]:
+    """Return the line (from 1) at which each table of an array of tables begins.
+
+    Examples
+    --------
+    >>> lines_of_tables("[[a]]\\nx = 1\\n[b]\\n[[ a ]]  # the second\\n", "a")
+    [1, 4]
+    """
+    return [
+        number
+        for number, line in enumerate(source.splitlines(), start=1)
+        if line.lstrip().startswith("[[") and _heading(line) == name
+    ]
+
+
+def _heading(line: str) -> str:
+    """What stands between the brackets of a table's heading; empty where a line is none."""
+    inside, bracket, rest = line.strip().removeprefix("[").removeprefix("[").partition("]")
+    rest = rest.removeprefix("]").strip()
+    is_heading = line.lstrip().startswith("[") and bracket and (not rest or rest.startswith("#"))
+    return inside.strip() if is_heading else ""
+
+
 def _explain(kind: str, message: str, got: object, keys: list[str], schema: type[BaseModel]) -> str:
-    where = ".".join(keys)
+    where = ".".join(visible(key) for key in keys)
     if kind == "missing":
         return f"'{where}' is missing; add it"
     if kind == "extra_forbidden":
@@ -106,11 +141,15 @@ def _explain(kind: str, message: str, got: object, keys: list[str], schema: type
         least = re.search(r"at least (\d+)", message)
         number = least.group(1) if least else "1"
         return f"'{where}' must have at least {number} of them, got {len(got)}"
+    if kind in ("too_long", "string_too_long") and isinstance(got, (str, dict, list, tuple)):
+        most = re.search(r"at most (\d+)", message)
+        what = "characters" if isinstance(got, str) else "of them"
+        return f"'{where}' may have at most {most.group(1) if most else ''} {what}, got {len(got)}"
     if kind == "tuple_type":
         return f"'{where}' must be a list such as [\"…\"], got {got!r}"
     message = message.removeprefix("Value error, ")
     if isinstance(got, (str, int, float)) and ", got " not in message:
-        shown = f"'{got}'" if isinstance(got, str) else str(got).lower()
+        shown = f"'{visible(got)}'" if isinstance(got, str) else visible(got).lower()
         message = f"{message}, got {shown}"
     return f"'{where}': {message[0].lower()}{message[1:]}"
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from seewhy.domain import Domain
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.slots import filled
 
 _PART_OF_IT = re.compile(r"^the ([^{}]+) of \{it\} ")
 
@@ -38,7 +39,7 @@ def say_literal(domain: Domain, literal: Literal) -> str:
     belief = domain.beliefs.get(literal.predicate)
     if belief is not None and literal.arguments[0] == domain.scene:
         value = belief.words.get(literal.arguments[1], literal.arguments[1])
-        said = belief.say.replace("{it}", domain.subject).replace("{value}", value)
+        said = filled(belief.say, {"it": domain.subject, "value": value})
         return said if literal.positive else f"it is not so that {said}"
     words = literal.predicate.replace("_", " ")
     about = [

@@ -20,7 +20,7 @@ from seewhy.belgiumts.layout import PHOTOGRAPHS, Half, LeftOut, Photograph, open
 from seewhy.data.dataset import TABLE
 from seewhy.domain import Domain
 from seewhy.errors import DatasetError, PictureError
-from seewhy.files import whole_file, write_whole
+from seewhy.files import put_all_on_disk, whole_file, write_whole
 from seewhy.perception.picture_file import LARGEST_MEGAPIXELS, SMALLEST_SIDE
 
 LARGEST_SIDE = 256
@@ -172,6 +172,7 @@ def import_photographs(
             "archives again"
         )
     dataset = ImportedDataset(folder, imported)
+    put_all_on_disk()  # the pictures, before a table says that they are there
     write_whole(folder / REGIONS, _regions(scenes))
     write_whole(folder / _RECORD, json.dumps(dataset.as_json()["halves"], indent=2) + "\n")
     write_whole(folder / TABLE, _scenes(scenes, domain))
@@ -222,7 +223,7 @@ def _write_picture(
     if not _is_written(folder / name, origin):
         note = PngImagePlugin.PngInfo()
         note.add_text(_ORIGIN, origin)
-        with whole_file(folder / name) as temporary:
+        with whole_file(folder / name, durable=False) as temporary:
             picture.save(temporary, compress_level=4, pnginfo=note)
     region = photograph.region
     return _Scene(

@@ -16,6 +16,7 @@ from seewhy.classifying.rows import Cell, columns_of, row_of
 from seewhy.classifying.table_files import check_table, write_table
 from seewhy.classifying.unfinished import UnfinishedTable
 from seewhy.errors import PictureError
+from seewhy.locks import sole_writer
 
 if TYPE_CHECKING:
     from seewhy.agent import Agent
@@ -90,6 +91,8 @@ def classify_to_table(
     ------
     DatasetError
         If such a table cannot be written.
+    BusyError
+        If another process is writing it.
     PictureError
         If none of the pictures could be read; the table is written all the same.
     """
@@ -104,7 +107,7 @@ def classify_to_table(
         "pictures": _digest_of(pictures),
         "columns": [column.name for column in columns],
     }
-    with UnfinishedTable(table, about, width=len(columns)) as rows:
+    with sole_writer(table), UnfinishedTable(table, about, width=len(columns)) as rows:
         if on_notice is not None:
             _notify(rows, len(pictures), on_notice)
         if on_progress is not None:

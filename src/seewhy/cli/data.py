@@ -41,6 +41,7 @@ def make(
     One picture in three is marked split = test in scenes.csv. An interrupted call goes on
     where it was.
     """
+    from seewhy.cli.code_notice import remark_code
     from seewhy.data.making import make_dataset
     from seewhy.domain import load_domain
     from seewhy.errors import SeeWhyError
@@ -48,6 +49,7 @@ def make(
     if workers == 0:
         raise SeeWhyError("--workers must be -1 or at least 1, got 0")
     own = load_domain(domain)
+    remark_code(own)
     with progress() as bars:
         task = bars.add_task("making pictures", total=count)
         made = make_dataset(

@@ -87,6 +87,7 @@ def experiment(
     Every finished trial is a file: a run that is stopped goes on where it was, and several
     processes or machines that see the same folder share the work.
     """
+    from seewhy.cli.code_notice import remark_code
     from seewhy.domain import load_domain
     from seewhy.errors import ExperimentError
     from seewhy.experiments.catalogue import PLANNING
@@ -122,6 +123,8 @@ def experiment(
         if asked:
             raise ExperimentError(f"{option} goes with the experiment planning only")
     domain = domain or "structure_stability"
+    if data is None or drawn:
+        remark_code(load_domain(domain))
     with progress() as bars:
         drawing = bars.add_task("drawing pictures", total=None, visible=False)
         run = prepare(

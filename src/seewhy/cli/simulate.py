@@ -118,8 +118,11 @@ def simulate(
 
 def _sight(domain: PlanningDomain, model: Path) -> Sight:
     from seewhy.agent import Agent
+    from seewhy.cli.code_notice import remark_code
+    from seewhy.domain import load_domain
     from seewhy.planning.sight import Sight
 
+    remark_code(load_domain(domain.folder))
     return Sight(domain, Agent.load(model))
 
 

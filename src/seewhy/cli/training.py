@@ -66,12 +66,20 @@ def train_model(
 
     The options are those of :class:`~seewhy.agent.Agent` and of its ``fit``. Checkpoints lie
     beside ``out`` until the model is written.
+
+    Raises
+    ------
+    BusyError
+        If another process trains a model for ``out``.
     """
     from seewhy.agent import Agent
+    from seewhy.cli.code_notice import remark_code
     from seewhy.cli.read_data import read_data
     from seewhy.data.coverage import coverage_notices
+    from seewhy.locks import sole_writer
     from seewhy.model import check_target, replaced_notice
     from seewhy.perception.backbones import NONE
+    from seewhy.pretraining import is_drawn
 
     check_target(out)
     earlier = Agent.load(start_from) if start_from else None
@@ -94,7 +102,11 @@ def train_model(
     replaced = replaced_notice(out)
     if replaced is not None:
         remark(replaced)
-    with progress() as bars:
+    if drawn is None:
+        drawn = 0 if is_drawn(dataset) else domain.pictures.drawn
+    if drawn and earlier is None:
+        remark_code(domain)
+    with sole_writer(checkpoints), progress() as bars:
         drawing = bars.add_task("drawing pictures", total=None, visible=False)
         shown = eyes_progress(bars) if agent.eyes != NONE else networks_progress(bars, agent)
         agent.fit(
@@ -106,8 +118,8 @@ def train_model(
             checkpoints=checkpoints,
             on_progress=shown,
         )
-    agent.save(out)
-    shutil.rmtree(checkpoints, ignore_errors=True)
+        agent.save(out)
+        shutil.rmtree(checkpoints, ignore_errors=True)
     return agent
 
 

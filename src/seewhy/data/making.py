@@ -10,14 +10,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from pydantic import TypeAdapter, ValidationError
+
 from seewhy.data.dataset import TABLE
 from seewhy.data.picture_source import draw_picture, load_source
 from seewhy.domain import Domain
 from seewhy.errors import DatasetError, DomainError
-from seewhy.files import whole_file, write_whole
+from seewhy.files import put_all_on_disk, whole_file, write_whole
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.locks import sole_writer
 
 MADE = "made.json"
+
+_NOTE: TypeAdapter[tuple[dict[str, str], str]] = TypeAdapter(tuple[dict[str, str], str])
 
 
 @dataclass(frozen=True)
@@ -64,6 +69,8 @@ def make_dataset(
         If the domain has no source of pictures.
     DatasetError
         If the folder holds a dataset made otherwise.
+    BusyError
+        If another process is writing it.
 
     Examples
     --------
@@ -74,9 +81,35 @@ def make_dataset(
     4
     """
     folder = Path(folder)
+    load_source(domain)
+    with sole_writer(folder / TABLE):
+        rows = _make_rows(
+            domain, folder, count, seed=seed, size=size, workers=workers, on_progress=on_progress
+        )
+        put_all_on_disk()  # the pictures, before a table says that they are there
+        _write_table(folder, domain, rows, test_share)
+        images = folder / "images"
+        for leftover in (*images.glob("*.json"), *images.glob(".??????-new.*")):
+            leftover.unlink()
+    vectors = [domain.vector(dict(features)) for features, _ in rows]
+    labels = [label for _, label in rows]
+    shares = {name: labels.count(name) / count for name in domain.classes}
+    return MadeDataset(folder, count, shares, determined_share(vectors, labels))
+
+
+def _make_rows(
+    domain: Domain,
+    folder: Path,
+    count: int,
+    *,
+    seed: int,
+    size: int,
+    workers: int,
+    on_progress: Callable[[int], None] | None,
+) -> list[tuple[dict[str, str], str]]:
+    """Make the pictures that are not there; return the annotation of all."""
     from joblib import Parallel, delayed  # what else is here is used where no picture is made
 
-    load_source(domain)
     settings = {"domain": domain.name, "seed": seed, "size": size}
     (folder / "images").mkdir(parents=True, exist_ok=True)
     _check_settings(folder, settings)
@@ -94,13 +127,7 @@ def make_dataset(
         rows.append(row)
         if on_progress is not None:
             on_progress(len(rows))
-    _write_table(folder, domain, rows, test_share)
-    for leftover in (folder / "images").glob("*.json"):
-        leftover.unlink()
-    vectors = [domain.vector(dict(features)) for features, _ in rows]
-    labels = [label for _, label in rows]
-    shares = {name: labels.count(name) / count for name in domain.classes}
-    return MadeDataset(folder, count, shares, determined_share(vectors, labels))
+    return rows
 
 
 def determined_share(vectors: list[FeatureVector], labels: list[str]) -> float:
@@ -185,14 +212,34 @@ def _make_picture(
     note = picture.with_suffix(".json")
     if picture.exists() and known is not None:
         return known
-    if picture.exists() and note.exists():
-        features, label = json.loads(note.read_text(encoding="utf-8"))
-        return features, label
+    noted = _noted(note)
+    if noted is not None and _is_picture(picture):
+        return noted
     pixels, features, label = draw_picture(source, home, seed=seed, index=index, size=size)
-    write_whole(note, json.dumps([features, label]))
-    with whole_file(picture) as temporary:
+    write_whole(note, json.dumps([features, label]), durable=False)
+    with whole_file(picture, durable=False) as temporary:
         Image.fromarray(pixels).save(temporary, compress_level=4)
     return features, label
+
+
+def _noted(note: Path) -> tuple[dict[str, str], str] | None:
+    """The annotation that lies beside a picture; None where it is not whole."""
+    try:
+        return _NOTE.validate_json(note.read_bytes())
+    except (OSError, ValidationError):
+        return None
+
+
+def _is_picture(file: Path) -> bool:
+    """Whether a picture is whole: one that was not yet on the disk when the power failed is not."""
+    from PIL import Image
+
+    try:
+        with Image.open(file, formats=["PNG"]) as opened:
+            opened.verify()
+    except (OSError, SyntaxError, ValueError):
+        return False
+    return True
 
 
 def _write_table(

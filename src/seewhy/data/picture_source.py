@@ -39,8 +39,8 @@ class Depict(Protocol):
 def load_source(domain: Domain) -> Draw:
     """Return the function ``draw`` of a domain's source.
 
-    ``source`` in domain.toml is a module that can be imported, or a file of the domain's folder
-    such as "pictures.py".
+    ``source`` in domain.toml is a file of the domain's folder such as "pictures.py"; in domains
+    that come with SeeWhy, one of its modules.
 
     Raises
     ------
@@ -56,6 +56,23 @@ def load_source(domain: Domain) -> Draw:
     (32, 32, 3)
     """
     return load_draw(_named_source(domain), domain.folder)
+
+
+def code_notice(domain: Domain) -> str | None:
+    """Return the sentence for who is about to run a domain's code; None where it is our own.
+
+    Examples
+    --------
+    >>> from seewhy.domain import load_domain
+    >>> code_notice(load_domain("structure_stability")) is None
+    True
+    """
+    if domain.source is None or not domain.source.endswith(".py"):
+        return None
+    return (
+        f"{domain.folder / domain.source} is a program, which now runs with your rights; run only "
+        "those of people whom you trust"
+    )
 
 
 def check_source(domain: Domain) -> None:
@@ -142,7 +159,7 @@ def _named_source(domain: Domain) -> str:
     if domain.source is None:
         raise DomainError(
             f"the domain '{domain.name}' has no source of pictures; put your own pictures beside "
-            f"a scenes.csv, or name a module with a function draw as 'source' in "
+            f"a scenes.csv, or name a file with a function draw as 'source' in "
             f"{domain.folder / 'domain.toml'}"
         )
     return domain.source
@@ -176,8 +193,8 @@ def _load(source: str, folder: Path, wanted: str) -> Any:
 
 def _no_source(source: str, folder: Path, wanted: str, why: str) -> str:
     return (
-        f"{folder / 'domain.toml'}: source = '{source}' must be a module that can be imported, "
-        f"or a file of this folder, and have a function {wanted} ({why})"
+        f"{folder / 'domain.toml'}: source = '{source}' must be a file of this folder that has a "
+        f"function {wanted} ({why})"
     )
 
 

@@ -6,17 +6,21 @@ reasoning, so that both ways of answering are worded and scored alike.
 
 from __future__ import annotations
 
+import re
 import tomllib
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from urllib.parse import unquote
 
 from seewhy.dialogue.question import Question
 from seewhy.domain import Domain
 from seewhy.errors import DomainError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.nearest import did_you_mean
+from seewhy.slots import filled, wrong_slot
 from seewhy.toml_file import line_of
+from seewhy.visible import visible
 from seewhy.wording import join_words, say_features, sentence
 
 Changes = tuple[tuple[str, str], ...]
@@ -46,6 +50,8 @@ class AnswerType:
     'change()[lean=no]'
     >>> AnswerType(form="belief", values=("stop",)).identifier
     'belief(){stop}'
+    >>> AnswerType(form="belief", values=('"a|b"',)).identifier
+    'belief(){"a%7Cb"}'
     """
 
     form: str
@@ -57,29 +63,49 @@ class AnswerType:
     def identifier(self) -> str:
         """The type as one string, the name of its output of the softmax."""
         alternatives = "".join(
-            f"[{'&'.join(f'{feature}={value}' for feature, value in change)}]"
+            f"[{'&'.join(f'{feature}={_escaped(value)}' for feature, value in change)}]"
             for change in self.changes
         )
-        believed = f"{{{'|'.join(self.values)}}}" if self.values else ""
+        believed = f"{{{'|'.join(map(_escaped, self.values))}}}" if self.values else ""
         return f"{self.form}({','.join(self.mentions)}){alternatives}{believed}"
 
     @staticmethod
     def parse(identifier: str) -> AnswerType:
-        """Return the type that an identifier names."""
-        form, rest = identifier.split("(", 1)
-        mentions, _, rest = rest.partition(")")
-        alternatives, _, believed = rest.partition("{")
+        """Return the type that an identifier names.
+
+        Raises
+        ------
+        ValueError
+            It names none.
+        """
+        found = _IDENTIFIER.fullmatch(identifier)
+        if found is None:
+            raise ValueError(f"'{visible(identifier)}' names no type of answer")
+        form, mentions, alternatives, believed = found.groups(default="")
         changes = tuple(
-            tuple((pair.split("=", 1)[0], pair.split("=", 1)[1]) for pair in part.split("&"))
-            for part in alternatives.strip("[]").split("][")
+            tuple(
+                (feature, unquote(value))
+                for feature, _, value in (pair.partition("=") for pair in part.split("&"))
+            )
+            for part in alternatives[1:-1].split("][")
             if part
         )
         return AnswerType(
             form,
             tuple(filter(None, mentions.split(","))),
             changes,
-            tuple(filter(None, believed.removesuffix("}").split("|"))),
+            tuple(unquote(value) for value in believed.split("|") if value),
         )
+
+
+_IDENTIFIER = re.compile(
+    r"(\w+)\(([^(){}\[\]&=|]*)\)((?:\[[^(){}\[\]|,]*\])*)(?:\{([^(){}\[\]&=,]*)\})?"
+)
+
+
+def _escaped(value: str) -> str:
+    """A value without the characters that divide an identifier."""
+    return re.sub(r"[%(){}\[\]&=|,]", lambda found: f"%{ord(found.group()):02X}", value)
 
 
 def word_answer(
@@ -116,20 +142,23 @@ def word_answer(
     subject = "it" if "{it}" in template else None
     asked = _say_asked(domain, question)
     reasons = say_features(domain, vector, kind.mentions, subject=subject)
-    said = template.format(
-        it=domain.subject,
-        reasons=reasons,
-        changes=_say_changes(domain, kind.changes),
-        asked=asked,
-        **{"class": domain.classes[label].say if label else "undecided"},
-        explanation=reasons,
-        scene=domain.scene.replace("_", " "),
-        # "A stop sign is octagonal; the sign is …" or "It is a stop sign when it is octagonal …".
-        required=_say_required(
-            domain, kind.changes, subject="it" if "{asked}" in template else asked
-        ),
-        probably=probably,
-        **_say_belief(domain, question, kind),
+    said = filled(
+        template,
+        {
+            "it": domain.subject,
+            "reasons": reasons,
+            "changes": _say_changes(domain, kind.changes),
+            "asked": asked,
+            "class": domain.classes[label].say if label else "undecided",
+            "explanation": reasons,
+            "scene": domain.scene.replace("_", " "),
+            # "A stop sign is octagonal; the sign is …", "It is a stop sign when it is octagonal …".
+            "required": _say_required(
+                domain, kind.changes, subject="it" if "{asked}" in template else asked
+            ),
+            "probably": probably,
+            **_say_belief(domain, question, kind),
+        },
     )
     return sentence(" ".join(said.split()))
 
@@ -176,14 +205,15 @@ def word_supposed(
     'I took the structure to be stable. If it is unstable, as you say: it leans.'
     """
     presumed = question.label == supposed
-    said = answer_templates(domain)["supposed" if presumed else "supposed_not"].format(
-        **{
+    said = filled(
+        answer_templates(domain)["supposed" if presumed else "supposed_not"],
+        {
             **dict.fromkeys(SLOTS, ""),
             "it": domain.subject,
             "asked": _say_asked(domain, question),
             "class": domain.classes[label if presumed else supposed].say,
             "explanation": f"{answer[:1].lower()}{answer[1:]}",
-        }
+        },
     )
     return sentence(said)
 
@@ -213,7 +243,7 @@ def _say_belief(domain: Domain, question: Question, kind: AnswerType) -> dict[st
         name = domain.features[question.feature].name if question.feature else ""
         return {"belief": "", "name": name, "value": ""}
     value = join_words([own.words.get(value, value) for value in kind.values])
-    said = own.say.replace("{it}", domain.subject).replace("{value}", value)
+    said = filled(own.say, {"it": domain.subject, "value": value})
     return {"belief": said, "name": own.name, "value": value}
 
 
@@ -260,12 +290,11 @@ def answer_templates(domain: Domain) -> dict[str, str]:
             raise DomainError(
                 f"{path}:{line}: '{form}' is no form of answer; {did_you_mean(form, defaults)}"
             )
-        try:
-            template.format(**dict.fromkeys(SLOTS, ""))
-        except (AttributeError, KeyError, IndexError, TypeError, ValueError):
+        wrong = wrong_slot(template, SLOTS)
+        if wrong is not None:
             line = line_of(path.read_text(encoding="utf-8"), ["answers", form])
             raise DomainError(
-                f"{path}:{line}: the answer '{form}' uses a slot that does not exist; there are "
+                f"{path}:{line}: the answer '{form}' has '{wrong}', which is no slot; there are "
                 f"{', '.join('{' + slot + '}' for slot in SLOTS)}"
-            ) from None
+            )
     return {**defaults, **domain.questions.answers}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
 from seewhy.dialogue.recurrent_options import AnswerExample, RecurrentOptions
 from seewhy.dialogue.reference import ReferenceAnswers
 from seewhy.domain import Domain
+from seewhy.errors import ModelError
 from seewhy.knowledge.scene import FeatureVector
 
 MOST_EXAMPLES = 20_000
@@ -131,6 +133,30 @@ def learned_answers(
             mentions = (question.feature,)
         chosen.append((AnswerType(_NOTHING.get(form, form), mentions), 0.0))
     return chosen
+
+
+def check_answers(domain: Domain, answerer: RecurrentAnswerer, folder: Path) -> None:
+    """Raise a ModelError where a network was trained to answer for another domain."""
+    fits = answerer.features == {key: own.values for key, own in domain.features.items()} and all(
+        _fits(domain, identifier) for identifier in answerer.answer_types
+    )
+    if not fits:
+        raise ModelError(
+            f"{folder}: the network answers for other features than the model's domain names; "
+            "train it again"
+        )
+
+
+def _fits(domain: Domain, identifier: str) -> bool:
+    try:
+        kind = AnswerType.parse(identifier)
+    except ValueError:
+        return False
+    return domain.features.keys() >= {*kind.mentions} and all(
+        feature in domain.features and value in domain.features[feature].values
+        for change in kind.changes
+        for feature, value in change
+    )
 
 
 @lru_cache(maxsize=8)

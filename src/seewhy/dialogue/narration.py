@@ -18,6 +18,7 @@ from seewhy.domain_tables import CLASS
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.reply import Reply
+from seewhy.slots import filled
 from seewhy.wording import join_words, say_features, sentence
 
 
@@ -47,8 +48,9 @@ def narrate(domain: Domain, reply: Reply) -> str:
     if reply.kind.form == "undecided":
         parts.append("there were no such scenes to learn from either")
     told = " ".join(sentence(part) for part in parts)
-    return answer_templates(domain)["explain"].format(
-        **{**dict.fromkeys(SLOTS, ""), "it": domain.subject, "explanation": told}
+    return filled(
+        answer_templates(domain)["explain"],
+        {**dict.fromkeys(SLOTS, ""), "it": domain.subject, "explanation": told},
     )
 
 

@@ -11,7 +11,7 @@ import torch
 
 from seewhy.dialogue.recurrent_network import FORMAT, Description, Encoding, Network
 from seewhy.errors import DatasetError, ModelError
-from seewhy.weights import REMEDY, read_weights, write_weights
+from seewhy.weights import REMEDY, check_tensors, read_weights, write_weights
 
 __all__ = ["RecurrentAnswerer"]
 
@@ -63,6 +63,11 @@ class RecurrentAnswerer:
     @property
     def held_out(self) -> int:
         return self._description.held_out
+
+    @property
+    def features(self) -> dict[str, tuple[str, ...]]:
+        """The values of each feature of the scenes that it answers for."""
+        return self._description.features
 
     @property
     def answer_types(self) -> tuple[str, ...]:
@@ -136,6 +141,8 @@ class RecurrentAnswerer:
         if new:
             with torch.inference_mode():
                 logits = self._network(*self._encoding.encode(new)).double().numpy()
+            if not np.isfinite(logits).all():
+                raise ModelError(f"the network that answers questions gives no number: {REMEDY}")
             self._logits.update(zip(new, logits, strict=True))
 
     def _choose(
@@ -175,11 +182,8 @@ class RecurrentAnswerer:
         description, tensors = read_weights(
             Description, number=FORMAT, weights=weights, described=described
         )
-        try:
-            network = Network(description)
-            network.load_state_dict(tensors)
-        except (RuntimeError, ValueError):
-            raise ModelError(
-                f"{weights} does not hold the network that {described} describes: {REMEDY}"
-            ) from None
+        with torch.device("meta"):
+            network = Network(description, drawn=False)
+        check_tensors(tensors, network.state_dict(), weights=weights, described=described)
+        network.load_state_dict(tensors, assign=True)
         return cls(network, description)

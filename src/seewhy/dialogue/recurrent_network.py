@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Annotated
 
 import numpy as np
 import torch
 import torch.nn.functional as functional
+from pydantic import Field
 from torch import nn
 from torch.nn.utils.rnn import pack_padded_sequence
 
+from seewhy.dialogue.recurrent_options import MOST_LAYERS, WIDEST
 from seewhy.errors import DatasetError
 from seewhy.weights import Described
 
@@ -25,25 +28,35 @@ Encoded = tuple[torch.Tensor, torch.Tensor, torch.Tensor]
 class Description(Described):
     """The JSON beside the weights: shapes, and the meaning of every number."""
 
-    layers: int
-    width: int
-    embedding: int
+    layers: Annotated[int, Field(ge=1, le=MOST_LAYERS)]
+    width: Annotated[int, Field(ge=1, le=WIDEST)]
+    embedding: Annotated[int, Field(ge=1, le=WIDEST)]
     words: tuple[str, ...]
     features: dict[str, tuple[str, ...]]
     labels: tuple[str, ...]
-    answers: tuple[str, ...]
-    held_out_accuracy: float
-    held_out: int
+    answers: Annotated[tuple[str, ...], Field(min_length=1)]
+    held_out_accuracy: Annotated[float, Field(ge=0.0, le=1.0)]
+    held_out: Annotated[int, Field(ge=0)]
 
 
 class Network(nn.Module):
-    """Words and scene → LSTM → dense → logits of the answer types."""
+    """Words and scene → LSTM → dense → logits of the answer types.
 
-    def __init__(self, description: Description) -> None:
+    Words that are not ``drawn`` have no numbers yet: to draw them on the device "meta", PyTorch
+    imports for a second.
+    """
+
+    def __init__(self, description: Description, *, drawn: bool = True) -> None:
         super().__init__()
         d = description
         scene = sum(len(values) for values in d.features.values()) + len(d.labels)
-        self.embedding = nn.Embedding(len(d.words) + 2, d.embedding, padding_idx=PADDING)
+        words = len(d.words) + 2
+        self.embedding = nn.Embedding(
+            words,
+            d.embedding,
+            padding_idx=PADDING,
+            _weight=None if drawn else torch.empty(words, d.embedding),
+        )
         self.lstm = nn.LSTM(d.embedding + scene, d.width, num_layers=d.layers, batch_first=True)
         self.dense = nn.Linear(d.width + scene, d.width)
         self.logits = nn.Linear(d.width, len(d.answers))

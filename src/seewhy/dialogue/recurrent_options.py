@@ -6,7 +6,11 @@ from dataclasses import dataclass
 
 from seewhy.errors import DomainError
 
-__all__ = ["AnswerExample", "AnswererEvent", "RecurrentOptions"]
+__all__ = ["MOST_LAYERS", "WIDEST", "AnswerExample", "AnswererEvent", "RecurrentOptions"]
+
+MOST_LAYERS = 8
+WIDEST = 4096
+"""Units of a layer, and numbers that stand for a word, at most."""
 
 
 @dataclass(frozen=True)
@@ -84,10 +88,10 @@ class RecurrentOptions:
 
     def __post_init__(self) -> None:
         ranges: dict[str, tuple[float, float]] = {
-            "max_layers": (1, 8),
+            "max_layers": (1, MOST_LAYERS),
             "alpha": (0.0, 1.0),
-            "width": (1, 4096),
-            "embedding": (1, 4096),
+            "width": (1, WIDEST),
+            "embedding": (1, WIDEST),
             "epochs": (1, 10_000),
             "batch_size": (1, 65_536),
             "learning_rate": (1e-8, 1.0),

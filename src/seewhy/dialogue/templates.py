@@ -5,17 +5,24 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import product
-from pathlib import Path
+from itertools import product, zip_longest
 
 from seewhy.dialogue.asked import Asks, Question
 from seewhy.domain import Domain
 from seewhy.domain_tables import QuestionTable
 from seewhy.errors import DomainError
 from seewhy.nearest import did_you_mean
-from seewhy.toml_file import line_of
+from seewhy.slots import filled, wrong_slot
+from seewhy.toml_file import lines_of_tables
+from seewhy.visible import visible
 
-__all__ = ["as_what", "embedded", "expanded"]
+__all__ = ["MOST_OPTIONAL", "MOST_WORDINGS", "as_what", "embedded", "expanded"]
+
+MOST_OPTIONAL = 8
+"""Parts of a pattern that may be left out: so many make 256 wordings."""
+
+MOST_WORDINGS = 50_000
+"""Of all questions of a domain; the largest that is bundled has a fifth."""
 
 _ABOUT_A_CLASS = {
     Asks.IS_CLASS, Asks.WHY_CLASS, Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS,
@@ -34,27 +41,40 @@ def expanded(domain: Domain, normalise: Callable[[str], tuple[str, ...]]) -> Ite
         Where a template names something that the domain does not have.
     """
     path = domain.folder / "questions.toml"
-    for number, table in enumerate(domain.questions.question):
-        place = f"{path}:{_line(path, number)}"
+    lines = lines_of_tables(path.read_text(encoding="utf-8-sig"), "question")
+    told: list[tuple[QuestionTable, Asks, str, list[_Slot]]] = []
+    wordings = 0
+    for table, line in zip_longest(domain.questions.question, lines, fillvalue=1):
+        if isinstance(table, int):
+            break  # what looks like one more heading stands in a text
+        place = f"{path}:{line}"
         asks = _check_table(table, domain, place)
         for pattern in table.patterns:
             _check_pattern(pattern, place)
             slots = _slots(table, asks, domain, pattern, place)
-            for variant in _optional(pattern):
-                for filled in slots:
-                    text = variant.replace("{it}", domain.subject)
-                    text = text.replace("{class}", filled.word).replace("{value}", filled.word)
-                    if "not not" in text:
-                        continue  # a class that is worded as "not …" in a question with "not"
-                    yield Question(
-                        asks=asks,
-                        text=" ".join(text.split()),
-                        words=normalise(text),
-                        label=filled.label,
-                        feature=table.feature,
-                        value=filled.value,
-                        predicate=table.predicate,
-                    )
+            told.append((table, asks, pattern, slots))
+            wordings += len(slots) << pattern.count("[")
+            if wordings > MOST_WORDINGS:
+                raise DomainError(
+                    f"{place}: with '{visible(pattern)}' there are {wordings:,} wordings of "
+                    f"questions, more than {MOST_WORDINGS:,}; leave out patterns or [...]"
+                )
+    for table, asks, pattern, slots in told:
+        for variant in _optional(pattern):
+            for slot in slots:
+                said = {"it": domain.subject, "class": slot.word, "value": slot.word}
+                text = filled(variant, said)
+                if "not not" in text:
+                    continue  # a class that is worded as "not …" in a question with "not"
+                yield Question(
+                    asks=asks,
+                    text=" ".join(text.split()),
+                    words=normalise(text),
+                    label=slot.label,
+                    feature=table.feature,
+                    value=slot.value,
+                    predicate=table.predicate,
+                )
 
 
 def as_what(words: tuple[str, ...]) -> tuple[str, ...]:
@@ -95,15 +115,20 @@ def embedded(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
 
 def _check_pattern(pattern: str, place: str) -> None:
     """Raise a DomainError where a pattern has an unknown slot or brackets that do not pair."""
-    plain = re.sub(r"\{(it|class|value)\}", "word", pattern)
-    if "{" in plain or "}" in plain:
+    if wrong_slot(pattern, ("it", "class", "value")) is not None:
         raise DomainError(
             f"{place}: '{pattern}' has a slot that does not exist; there are {{it}}, {{class}} and "
             "{value}"
         )
-    if re.search(r"[\[\]]", re.sub(r"\[[^\[\]]*\]", "", plain)):
+    brackets = "".join(re.findall(r"[\[\]]", pattern))
+    if brackets.replace("[]", ""):
         raise DomainError(
             f"{place}: the brackets of '{pattern}' do not pair; [...] is what may be left out"
+        )
+    if len(brackets) > 2 * MOST_OPTIONAL:
+        raise DomainError(
+            f"{place}: '{visible(pattern)}' has {len(brackets) // 2} parts that may be left out, "
+            f"more than {MOST_OPTIONAL}; write several patterns"
         )
 
 
@@ -112,8 +137,8 @@ def _optional(pattern: str) -> Iterator[str]:
     parts = re.split(r"\[([^\]]*)\]", pattern)
     fixed, optional = parts[::2], parts[1::2]
     for chosen in product((True, False), repeat=len(optional)):
-        filled = [part if keep else "" for part, keep in zip(optional, chosen, strict=True)]
-        yield "".join(a + b for a, b in zip(fixed, [*filled, ""], strict=True))
+        kept = [part if keep else "" for part, keep in zip(optional, chosen, strict=True)]
+        yield "".join(a + b for a, b in zip(fixed, [*kept, ""], strict=True))
 
 
 @dataclass(frozen=True)
@@ -192,7 +217,3 @@ def _check_table(table: QuestionTable, domain: Domain, place: str) -> Asks:
                 f"{did_you_mean(table.value, values)}"
             )
     return asks
-
-
-def _line(path: Path, number: int) -> int:
-    return line_of(path.read_text(encoding="utf-8"), ["question", str(number)])

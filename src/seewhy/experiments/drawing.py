@@ -17,10 +17,10 @@ from seewhy.data.making import make_dataset
 from seewhy.data.picture_source import load_source
 from seewhy.domain import Domain, load_domain
 from seewhy.errors import ExperimentError
-from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import ALL, Setting, Trial, say_size
 from seewhy.experiments.settings import SETTINGS
 from seewhy.files import whole_file
+from seewhy.locks import locked
 
 __all__ = ["POOL", "available", "divide", "in_fold", "load_pictures", "pool_of", "require_enough"]
 
@@ -67,7 +67,7 @@ def pool_of(
             "with --out"
         )
     while not finished:
-        with claimed(pool / TABLE) as finished:
+        with locked(pool / TABLE) as finished:
             if not finished:
                 time.sleep(1.0)  # another process draws them
                 continue

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any
 
 from seewhy.errors import ExperimentError
-from seewhy.experiments.claims import claimed
 from seewhy.experiments.experiment import ALL, Row, Trial, say_size
 from seewhy.experiments.origin import COLUMNS, here
 from seewhy.experiments.row_check import is_time
 from seewhy.files import write_whole
+from seewhy.locks import locked
 
 __all__ = [
     "ROWS",
@@ -101,7 +101,7 @@ def finish(out: Path, trial: Trial, make: Callable[[], Sequence[Row]]) -> None:
     file = trial_file(out, trial)
     if file.exists():
         return
-    with claimed(file) as ours:
+    with locked(file) as ours:
         if ours and not file.exists():
             here()  # what is checked out when the trial ends need not be what runs
             write_trial(out, trial, make())

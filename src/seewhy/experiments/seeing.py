@@ -17,11 +17,12 @@ import numpy.typing as npt
 from seewhy.data.dataset import Dataset
 from seewhy.domain_tables import CLASS
 from seewhy.errors import ExperimentError
-from seewhy.experiments.claims import claimed
 from seewhy.experiments.drawing import divide
 from seewhy.experiments.experiment import Setting, Trial
 from seewhy.experiments.origin import here
 from seewhy.files import whole_file
+from seewhy.folders import whole_folder
+from seewhy.locks import locked
 from seewhy.perception.domain_options import (
     class_options,
     seen_labels,
@@ -37,6 +38,7 @@ from seewhy.pretraining import Pretrained, pretrained
 __all__ = ["Remembered", "Seen", "Shown", "class_network", "drawings", "pretrain", "see"]
 
 _FOLDER = "networks"
+_LARGEST = 2 << 30  # bytes that the file of a trial may be unpacked to
 _DRAWN, _FEATURES = "drawn", "features"
 
 Probabilities = Mapping[str, npt.NDArray[np.float64]]
@@ -105,13 +107,16 @@ def see(setting: Setting, trial: Trial) -> Seen:
     train, test = divide(setting, trial)
     file = setting.out / _FOLDER / f"{setting.drawn}-{trial.name}.npz"
     while not file.is_file():
-        with claimed(file) as ours:
+        with locked(file) as ours:
             if not ours:
                 time.sleep(1.0)  # another process trains them
             elif not file.is_file():
                 _train(setting, trial, train, test, file)
     classes_shown = _classes_shown(setting, train)
     try:
+        with zipfile.ZipFile(file) as packed:
+            if sum(member.file_size for member in packed.infolist()) > _LARGEST:
+                raise ValueError("it would be unpacked to more than networks say of pictures")
         with np.load(file) as kept:
             numbers = dict(json.loads(str(kept["numbers"])))
             shown_train, shown_test = [
@@ -212,7 +217,7 @@ def pretrain(setting: Setting) -> tuple[Pretrained, Pretrained]:
     """
     folder = _folder_of_drawings(setting)
     while not (folder / CLASS).is_dir():
-        with claimed(folder / CLASS) as ours:
+        with locked(folder) as ours:
             if not ours:
                 time.sleep(1.0)  # another process trains them
             elif not (folder / CLASS).is_dir():
@@ -269,7 +274,5 @@ def _pretrain(setting: Setting, folder: Path) -> None:
 
 def _save(networks: FeatureExtractor, folder: Path) -> None:
     """Write networks to a folder that is there when it is whole."""
-    begun = folder.with_name(f"{folder.name}-begun")
-    begun.mkdir(parents=True, exist_ok=True)
-    networks.save(begun)
-    begun.rename(folder)
+    with whole_folder(folder) as begun:
+        networks.save(begun)

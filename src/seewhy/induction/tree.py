@@ -8,14 +8,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median_low
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from seewhy.errors import ModelError
 from seewhy.files import write_whole
-from seewhy.induction.tree_nodes import TreeNodes
+from seewhy.induction.tree_nodes import TreeNodes, TreeTable
+from seewhy.json_file import Strict, read_json
 from seewhy.knowledge.scene import FeatureVector
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
 
 
 TREE = "tree.json"
+_REMEDY = "train the model again"
 
 
 @dataclass(frozen=True)
@@ -266,7 +269,7 @@ class DecisionTree:
             "features": self.features,
             "nodes": None if self._nodes is None else self._nodes.to_dict(),
         }
-        write_whole(folder / TREE, json.dumps(described, indent=1))
+        write_whole(folder / TREE, json.dumps(described, indent=1), durable=False)
 
     @staticmethod
     def load(folder: Path) -> DecisionTree:
@@ -277,20 +280,22 @@ class DecisionTree:
         ModelError
             If the file is missing or is no tree.
         """
-        try:
-            described: dict[str, Any] = json.loads((folder / TREE).read_text(encoding="utf-8"))
-            tree = DecisionTree(described["features"])
-            if described["nodes"] is not None:
-                tree._nodes = TreeNodes.read(described["nodes"], columns=len(tree.columns))
-        except FileNotFoundError:
-            raise ModelError(
-                f"{folder}: the model is incomplete, {TREE} is missing; train it again"
-            ) from None
-        except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as problem:
-            raise ModelError(
-                f"{folder}: the decision tree cannot be read ({problem}); train it again"
-            ) from None
+        file = folder / TREE
+        described = read_json(file, _TreeFile, remedy=_REMEDY)
+        tree = DecisionTree(described.features)
+        if described.nodes is not None:
+            try:
+                tree._nodes = TreeNodes.read(described.nodes, columns=len(tree.columns))
+            except ValueError as problem:
+                raise ModelError(f"{file} is damaged ({problem}): {_REMEDY}") from None
         return tree
+
+
+class _TreeFile(Strict):
+    """tree.json."""
+
+    features: dict[str, Annotated[tuple[str, ...], Field(min_length=1)]]
+    nodes: TreeTable | None
 
 
 def _columns(features: Mapping[str, Sequence[str]]) -> list[tuple[str, str | None]]:

@@ -5,17 +5,36 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
+
+from seewhy.json_file import Strict
 
 if TYPE_CHECKING:
     from sklearn.tree import DecisionTreeClassifier
 
-__all__ = ["TreeNodes"]
+__all__ = ["TreeNodes", "TreeTable"]
 
 LEAF = -1
+DEEPEST = 600
+"""Questions on the way to a leaf; of a few hundred columns none is asked so often."""
+
+Place = Annotated[int, Field(ge=LEAF, lt=10**7)]
+
+
+class TreeTable(Strict):
+    """The fields of :class:`TreeNodes` as they stand in a file."""
+
+    classes: tuple[str, ...]
+    left: tuple[Place, ...]
+    right: tuple[Place, ...]
+    column: tuple[Place, ...]
+    threshold: tuple[float, ...]
+    support: tuple[Annotated[int, Field(ge=0, lt=10**12)], ...]
+    shares: tuple[tuple[Annotated[float, Field(ge=0.0)], ...], ...]
 
 
 @dataclass(frozen=True)
@@ -72,22 +91,16 @@ class TreeNodes:
         )
 
     @staticmethod
-    def read(described: dict[str, Any], *, columns: int) -> TreeNodes:
+    def read(described: TreeTable, *, columns: int) -> TreeNodes:
         """The nodes that :meth:`to_dict` described, if they form a tree over so many columns.
 
         Raises
         ------
-        ValueError, TypeError, KeyError
+        ValueError
             They do not.
         """
         nodes = TreeNodes(
-            classes=tuple(str(name) for name in described["classes"]),
-            **{
-                name: tuple(int(number) for number in described[name])
-                for name in ("left", "right", "column", "support")
-            },
-            threshold=tuple(float(number) for number in described["threshold"]),
-            shares=tuple(tuple(float(share) for share in row) for row in described["shares"]),
+            **{name: getattr(described, name) for name in type(described).model_fields}
         )
         if not nodes._form_a_tree(columns):
             raise ValueError("its nodes do not form a tree")
@@ -152,7 +165,13 @@ class TreeNodes:
             and all(min(self.left[node], self.right[node]) > node for node in inner)
             and all(0 <= self.column[node] < columns for node in inner)
             and all(len(row) == len(self.classes) for row in self.shares)
-            and all(np.isfinite(row).all() and min(row) >= 0.0 for row in self.shares)
-            and all(np.isfinite(self.threshold))
-            and min(self.support) >= 0
+            and all(abs(sum(row) - 1.0) < 1e-6 for row in self.shares)
+            and self._depth() <= DEEPEST
         )
+
+    def _depth(self) -> int:
+        depths = [0] * len(self.left)
+        for node in range(len(self.left)):
+            for child in () if self.is_leaf(node) else (self.left[node], self.right[node]):
+                depths[child] = depths[node] + 1
+        return max(depths)

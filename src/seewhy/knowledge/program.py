@@ -138,10 +138,10 @@ def _observations(schema: SceneSchema) -> Iterator[str]:
             yield f"holds({literal}) :- observed({feature}, {value})."
         # Of a feature with several values, the value that is seen rules the others out.
         if all(literal.positive for literal in literals.values()):
-            for value in literals:
-                for other, denied in literals.items():
-                    if other != value:
-                        yield f"holds({denied.complement}) :- observed({feature}, {value})."
+            unseen = f"not observed({feature}, {UNKNOWN})"
+            for value, literal in literals.items():
+                # One rule a value: as many as there are pairs would be too many of hundreds.
+                yield f"holds({literal.complement}) :- {unseen}, not observed({feature}, {value})."
 
 
 def axiom_rules(

@@ -8,13 +8,14 @@ from pathlib import Path
 
 from seewhy.domain import Domain, load_domain
 from seewhy.domain_check import check_domain
+from seewhy.folders import whole_folder
 from seewhy.induction.axiom_text import axiom_statement
 from seewhy.induction.candidate import Candidate
 from seewhy.induction.sentence import say_rule
 from seewhy.induction.tree import PathCondition
 from seewhy.new_domain.proposals import Proposals, Values, proposals
 from seewhy.new_domain.sketch import Sketch
-from seewhy.new_domain.template import check_new_folder, whole_folder, write_texts
+from seewhy.new_domain.template import check_new_folder, write_texts
 from seewhy.new_domain.texts import domain_text, knowledge_text, questions_text, readme_text
 
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import re
-import shutil
-import tempfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 
 from seewhy.errors import DomainError
+from seewhy.folders import whole_folder
 from seewhy.new_domain.common_keys import with_common_keys
 
 _PLACEHOLDER = "my_domain"
@@ -45,19 +43,6 @@ def check_new_folder(folder: Path) -> None:
         )
     if folder.exists():
         raise DomainError(f"{folder}: exists already; choose another name")
-
-
-@contextmanager
-def whole_folder(folder: Path) -> Iterator[Path]:
-    """Yield a temporary folder that becomes ``folder`` when the block ends well."""
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    temporary = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
-    try:
-        temporary.chmod(0o755)
-        yield temporary
-        temporary.rename(folder)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
 
 
 def write_texts(folder: Path, texts: Mapping[str, str]) -> None:

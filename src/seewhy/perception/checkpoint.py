@@ -18,6 +18,7 @@ from typing import Any, Literal, TypeVar
 import numpy as np
 import numpy.typing as npt
 import torch
+from pydantic import TypeAdapter
 from safetensors import SafetensorError, safe_open
 from safetensors.torch import save_file
 
@@ -110,7 +111,7 @@ def write(file: Path, fingerprint: str, position: Any, tensors: Mapping[str, Wei
         "position": json.dumps(asdict(position), sort_keys=True),
         "digest": _digest(flat),
     }
-    with whole_file(file) as temporary:
+    with whole_file(file, durable=False) as temporary:
         save_file(flat, temporary, metadata=header)
 
 
@@ -118,9 +119,6 @@ def read(
     file: Path, fingerprint: str, kind: type[Where]
 ) -> tuple[Where, dict[str, Weights]] | None:
     """What :func:`write` wrote, or None where there is nothing that could be gone on with."""
-    # A process killed while it wrote leaves its unfinished file behind.
-    for leftover in file.parent.glob(f".{file.stem}-*{file.suffix}"):
-        leftover.unlink(missing_ok=True)
     if not file.is_file():
         return None
     try:
@@ -128,11 +126,11 @@ def read(
             header = opened.metadata() or {}
             if header.get("fingerprint") != fingerprint:
                 return None
-            position = kind(**json.loads(header["position"]))
+            position = TypeAdapter(kind).validate_json(header["position"], strict=True)
             flat = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
         if _digest(flat) != header["digest"]:
             return None
-    except (SafetensorError, OSError, ValueError, KeyError, TypeError):
+    except (SafetensorError, OSError, ValueError, KeyError, TypeError, RecursionError):
         return None
     parts: dict[str, Weights] = {}
     for key, tensor in flat.items():

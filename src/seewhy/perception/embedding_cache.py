@@ -99,7 +99,7 @@ class EmbeddingCache:
                     connection.execute(
                         f"UPDATE embeddings SET used = unixepoch() WHERE key IN ({marks})", some
                     )
-        except (sqlite3.Error, ValueError):
+        except (sqlite3.Error, ValueError, TypeError, AttributeError):
             return found
         finally:
             connection.close()

@@ -7,14 +7,16 @@ from contextlib import nullcontext
 from copy import deepcopy
 from dataclasses import asdict
 from pathlib import Path
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 import torch
-from pydantic import BaseModel, ConfigDict
+from pydantic import Field
 
+from seewhy.domain_tables import Channels
 from seewhy.errors import DatasetError, ModelError
+from seewhy.json_file import Strict
 from seewhy.one_thread import one_thread
 from seewhy.perception.events import FeatureRecord, Progress
 from seewhy.perception.joint_training import train_jointly
@@ -26,7 +28,7 @@ from seewhy.perception.picture_file import SMALLEST_SIDE
 from seewhy.perception.randomness import seeded
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.training import new_network
-from seewhy.weights import REMEDY, Described, read_weights, write_weights
+from seewhy.weights import REMEDY, Described, check_tensors, read_weights, write_weights
 
 __all__ = ["FeatureExtractor", "Seen", "fit_extractor"]
 
@@ -99,6 +101,11 @@ class FeatureExtractor:
         self.records = {name: records[name] for name in networks}
         self.size = next(iter(self.networks.values())).size
 
+    @property
+    def widths(self) -> dict[str, int]:
+        """How many numbers each of the embeddings has that are seen of a picture."""
+        return {name: network.dense for name, network in self.networks.items()}
+
     def probabilities(self, pictures: Pictures) -> dict[str, npt.NDArray[np.float64]]:
         """Probabilities of each feature's values.
 
@@ -148,6 +155,8 @@ class FeatureExtractor:
                 ]
                 seen.probabilities[name] = torch.cat([own[0] for own in parts]).double().numpy()
                 seen.embeddings[name] = torch.cat([own[1] for own in parts]).numpy()
+                if not np.isfinite(seen.probabilities[name]).all():
+                    raise ModelError(f"the network of '{name}' gives no number: {REMEDY}")
         return seen
 
     def summary(self) -> dict[str, dict[str, object]]:
@@ -206,27 +215,32 @@ class FeatureExtractor:
         description, tensors = read_weights(
             _Description, number=FORMAT, weights=weights, described=described
         )
-        networks: dict[str, GrowingNetwork] = {}
         try:
-            for name, feature in description.features.items():
-                network = GrowingNetwork(
-                    size=description.size,
-                    values=len(feature.values),
-                    depth=feature.record.depth,
-                    dropout=feature.dropout,
-                    dense=feature.dense,
-                    channels=feature.channels,
-                    standard=feature.standard,
-                )
-                start = f"{name}/"
-                network.load_state_dict(
-                    {k[len(start) :]: v for k, v in tensors.items() if k.startswith(start)}
-                )
-                networks[name] = network
-        except (RuntimeError, ValueError):
-            raise ModelError(
-                f"{weights} does not hold the networks that {described} describes: {REMEDY}"
-            ) from None
+            with torch.device("meta"):
+                networks = {
+                    name: GrowingNetwork(
+                        size=description.size,
+                        values=len(feature.values),
+                        depth=feature.record.depth,
+                        dropout=feature.dropout,
+                        dense=feature.dense,
+                        channels=feature.channels,
+                        standard=feature.standard,
+                    )
+                    for name, feature in description.features.items()
+                }
+        except ValueError as problem:
+            raise ModelError(f"{described} is damaged ({problem}): {REMEDY}") from None
+        expected = {
+            f"{feature}/{name}": tensor
+            for feature, network in networks.items()
+            for name, tensor in network.state_dict().items()
+        }
+        check_tensors(tensors, expected, weights=weights, described=described)
+        for feature, network in networks.items():
+            network.load_state_dict(
+                {name: tensors[f"{feature}/{name}"] for name in network.state_dict()}, assign=True
+            )
         return cls(
             networks,
             values={name: feature.values for name, feature in description.features.items()},
@@ -415,12 +429,11 @@ def _ready(
     return found
 
 
-class _Feature(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    values: tuple[str, ...]
-    dense: int
-    dropout: float
-    channels: tuple[int, ...]
+class _Feature(Strict):
+    values: Annotated[tuple[str, ...], Field(min_length=1)]
+    dense: Annotated[int, Field(ge=1, le=65_536)]
+    dropout: Annotated[float, Field(ge=0.0, le=1.0)]
+    channels: Channels
     standard: Standard
     record: FeatureRecord
 
@@ -428,8 +441,8 @@ class _Feature(BaseModel):
 class _Description(Described):
     """The JSON beside the weights."""
 
-    size: int
-    features: dict[str, _Feature]
+    size: Annotated[int, Field(ge=SMALLEST_SIDE, le=512)]
+    features: Annotated[dict[str, _Feature], Field(min_length=1)]
 
 
 def _checked(pictures: Pictures, *, size: int | None = None) -> Pictures:

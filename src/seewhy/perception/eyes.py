@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 import numpy.typing as npt
 import torch
-from pydantic import BaseModel, ConfigDict
+from pydantic import Field, field_validator, model_validator
 
+from seewhy.domain_tables import SCENE
 from seewhy.errors import DatasetError, ModelError
+from seewhy.json_file import Strict
 from seewhy.perception.backbones import load_backbone
 from seewhy.perception.backbones.backbone import Backbone, Embedded
 from seewhy.perception.extractor import Seen
 from seewhy.perception.heads import Head, Projection
-from seewhy.perception.stacking import Stack, Table, log_probabilities, stacked
+from seewhy.perception.stacking import MOST, Stack, Table, log_probabilities, stacked
 from seewhy.perception.tail import Tail, new_tail
 from seewhy.perception.tail_training import see_with_tail
-from seewhy.weights import REMEDY, Described, read_weights, write_weights
+from seewhy.weights import REMEDY, Described, check_tensors, read_weights, write_weights
 
 __all__ = ["EYES", "HEADS", "SCENE", "TUNED", "Eyes", "EyesRecord"]
 
@@ -29,15 +32,14 @@ FORMAT = 2
 HEADS, TUNED = "heads", "tuned layers"
 """The ways of seeing: heads on the backbone as it is, and its last layers tuned."""
 
-_CONSTANT = 3.0  # in the length that a picture's embedding has on average
+_PROJECTION = ("mean", "scale", "components")
 
-SCENE = "scene"
-"""What the whole picture's embedding is called among those of features."""
+_CONSTANT = 3.0  # in the length that a picture's embedding has on average
 
 Pictures = npt.NDArray[np.uint8]
 
 
-class EyesRecord(BaseModel):
+class EyesRecord(Strict):
     """What came of training one feature.
 
     Attributes
@@ -55,7 +57,6 @@ class EyesRecord(BaseModel):
         How many of each.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     layers: str
     validation_accuracy: float
     accuracies: dict[str, float]
@@ -144,11 +145,20 @@ class Eyes:
 
     def see_embedded(self, embedded: Embedded) -> Seen:
         """The same of pictures that the backbone has looked at already."""
+        width = len(self.projection.mean)
+        if embedded.pooled.shape[1] != width:
+            raise ModelError(
+                f"the eyes look at {width} numbers of a picture, {self.backbone.name} gives "
+                f"{embedded.pooled.shape[1]}: {REMEDY}"
+            )
         tables = self.ways(embedded)
         probabilities = {
             name: stacked({way: tables[way][name] for way in stack.asked}, stack.weights)
             for name, stack in self.stacks.items()
         }
+        for name, found in probabilities.items():
+            if not np.isfinite(found).all():
+                raise ModelError(f"what sees '{name}' gives no number: {REMEDY}")
         return Seen(probabilities, {SCENE: self.familiar_by(embedded)})
 
     def ways(self, embedded: Embedded) -> dict[str, dict[str, Table]]:
@@ -176,6 +186,11 @@ class Eyes:
         constant = np.float32(_CONSTANT * np.sqrt(standardised.shape[1]))
         beside = np.full((len(standardised), 1), constant, dtype=np.float32)
         return np.concatenate([standardised, beside], axis=1)
+
+    @property
+    def widths(self) -> dict[str, int]:
+        """How many numbers each of the embeddings has that are seen of a picture."""
+        return {SCENE: len(self.projection.mean) + 1}
 
     def probabilities(self, pictures: Pictures) -> dict[str, npt.NDArray[np.float64]]:
         """Probabilities of each feature's values, shape (n, values); as for :meth:`see`."""
@@ -249,28 +264,22 @@ class Eyes:
             )
         features = description.features
         values = {name: feature.values for name, feature in features.items()}
-        try:
-            projection = Projection(
-                *(tensors[f"projection/{part}"].numpy() for part in ("mean", "scale", "components"))
-            )
-            heads = {
-                name: Head(
-                    tensors[f"heads/{name}/weight"].numpy(), tensors[f"heads/{name}/bias"].numpy()
-                )
-                for name in values
-            }
-            tail = None
-            if description.tuned:
-                tail = new_tail(backbone, {name: len(row) for name, row in values.items()})
-                start = "tail/"
-                tail.load_state_dict(
-                    {k[len(start) :]: v for k, v in tensors.items() if k.startswith(start)}
-                )
-                tail.eval()
-        except (KeyError, RuntimeError):
-            raise ModelError(
-                f"{weights} does not hold the eyes that {described} describes: {REMEDY}"
-            ) from None
+        if description.tuned and not backbone.tunable:
+            raise ModelError(f"{described} is damaged (tuned: {backbone.name} cannot be): {REMEDY}")
+        tail = None
+        if description.tuned:
+            tail = new_tail(backbone, {name: len(row) for name, row in values.items()})
+        check_tensors(
+            tensors, _expected(tensors, values, tail), weights=weights, described=described
+        )
+        projection = Projection(*(tensors[f"projection/{part}"].numpy() for part in _PROJECTION))
+        heads = {
+            name: Head(*(tensors[f"heads/{name}/{part}"].numpy() for part in ("weight", "bias")))
+            for name in values
+        }
+        if tail is not None:
+            tail.load_state_dict({name: tensors[f"tail/{name}"] for name in tail.state_dict()})
+            tail.eval()
         return cls(
             backbone,
             projection=projection,
@@ -288,12 +297,38 @@ class Eyes:
         )
 
 
-class _Feature(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    values: tuple[str, ...]
+def _expected(
+    tensors: Mapping[str, torch.Tensor], values: Mapping[str, Sequence[str]], tail: Tail | None
+) -> dict[str, torch.Tensor]:
+    """Tensors of the shapes that eyes have, for as many components as there are."""
+    components = tensors.get("projection/components")
+    shape = () if components is None else tuple(components.shape)
+    width, count = shape if len(shape) == 2 else (1, 1)
+    sides: dict[str, tuple[int, ...]] = {
+        "projection/mean": (width,),
+        "projection/scale": (width,),
+        "projection/components": (width, count),
+    }
+    for name, row in values.items():
+        sides |= {f"heads/{name}/weight": (len(row), count), f"heads/{name}/bias": (len(row),)}
+    expected = {name: torch.empty(own, device="meta") for name, own in sides.items()}
+    if tail is not None:
+        expected |= {f"tail/{name}": weight for name, weight in tail.state_dict().items()}
+    return expected
+
+
+class _Feature(Strict):
+    values: Annotated[tuple[str, ...], Field(min_length=1)]
     shown: tuple[str, ...]
-    weights: dict[str, float]
+    weights: dict[str, Annotated[float, Field(ge=0.0, le=MOST)]]
     record: EyesRecord
+
+    @field_validator("weights")
+    @classmethod
+    def _some_count(cls, weights: dict[str, float]) -> dict[str, float]:
+        if not any(weights.values()) or not weights.keys() <= {HEADS, TUNED}:
+            raise ValueError(f"one of {HEADS} and {TUNED} must count")
+        return weights
 
 
 class _Description(Described):
@@ -302,4 +337,10 @@ class _Description(Described):
     backbone: str
     backbone_digest: str
     tuned: bool
-    features: dict[str, _Feature]
+    features: Annotated[dict[str, _Feature], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _tuned_where_it_counts(self) -> _Description:
+        if not self.tuned and any(own.weights.get(TUNED) for own in self.features.values()):
+            raise ValueError("layers count that were not tuned")
+        return self

@@ -6,14 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import numpy.typing as npt
-from pydantic import BaseModel, ConfigDict
+from pydantic import Field, model_validator
 
 from seewhy.errors import ModelError
-from seewhy.weights import REMEDY, Described, read_weights, write_weights
+from seewhy.json_file import Strict
+from seewhy.visible import visible
+from seewhy.weights import REMEDY, Described, check_tensors, read_weights, write_weights
 
 __all__ = [
     "FAMILIARITY",
@@ -233,8 +235,14 @@ class Familiarity:
         )
 
     @classmethod
-    def load(cls, folder: Path | str) -> Familiarity:
+    def load(cls, folder: Path | str, *, widths: Mapping[str, int]) -> Familiarity:
         """Read what :meth:`save` wrote.
+
+        Parameters
+        ----------
+        folder : Path or str
+        widths : mapping of str to int
+            How many numbers each of the embeddings has that what sees makes of a picture.
 
         Raises
         ------
@@ -245,24 +253,24 @@ class Familiarity:
         description, tensors = read_weights(
             _Description, number=FORMAT, weights=weights, described=described
         )
-        known = {}
-        for name, feature in description.features.items():
-            directions = tensors.get(name)
-            if (
-                directions is None
-                or directions.ndim != 2
-                or len(directions) != sum(feature.counts)
-                or len(feature.counts) != len(feature.values)
-                or min(feature.counts, default=0) < 1
-                or len(feature.pictures) not in (0, len(directions))
-            ):
-                raise ModelError(
-                    f"{weights} does not hold the pictures that {described} describes: {REMEDY}"
-                )
-            known[name] = Known(
-                directions.numpy(), feature.values, feature.counts, feature.pictures
+        import torch
+
+        unseen = next((name for name in description.features if name not in widths), None)
+        if unseen is not None:
+            raise ModelError(
+                f"{described} is damaged ({visible(unseen)}: nothing sees it): {REMEDY}"
             )
-        return cls(known)
+        expected = {
+            name: torch.empty(sum(feature.counts), widths[name], dtype=torch.float16, device="meta")
+            for name, feature in description.features.items()
+        }
+        check_tensors(tensors, expected, weights=weights, described=described)
+        return cls(
+            {
+                name: Known(tensors[name].numpy(), feature.values, feature.counts, feature.pictures)
+                for name, feature in description.features.items()
+            }
+        )
 
 
 def fit_familiarity(
@@ -340,14 +348,21 @@ def _directions(embeddings: npt.NDArray[np.floating]) -> Embeddings:
     return directions
 
 
-class _Feature(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    values: tuple[str, ...]
-    counts: tuple[int, ...]
+class _Feature(Strict):
+    values: Annotated[tuple[str, ...], Field(min_length=1)]
+    counts: tuple[Annotated[int, Field(ge=1, le=MOST)], ...]
     pictures: tuple[TrainingPicture, ...] = ()
+
+    @model_validator(mode="after")
+    def _as_many(self) -> _Feature:
+        if len(self.counts) != len(self.values):
+            raise ValueError("there must be as many counts as values")
+        if len(self.pictures) not in (0, sum(self.counts)):
+            raise ValueError("there must be as many pictures as are counted")
+        return self
 
 
 class _Description(Described):
     """The JSON beside the embeddings."""
 
-    features: dict[str, _Feature]
+    features: Annotated[dict[str, _Feature], Field(min_length=1)]

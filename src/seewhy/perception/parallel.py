@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 import threading
 import time
 from collections.abc import Mapping, Sequence
@@ -19,6 +18,7 @@ import numpy.typing as npt
 import torch
 
 from seewhy.errors import SeeWhyError
+from seewhy.folders import scratch_folder
 from seewhy.one_thread import one_thread
 from seewhy.perception.events import FeatureRecord, Progress, TrainingEvent
 from seewhy.perception.network import GrowingNetwork
@@ -101,8 +101,8 @@ def _in_processes(
     from loky import ProcessPoolExecutor
 
     # Processes tell of their progress by lines in files: it works however they were started.
-    with tempfile.TemporaryDirectory(prefix="seewhy-", ignore_cleanup_errors=True) as folder:
-        events = {name: Path(folder) / f"{number}" for number, name in enumerate(arguments)}
+    with scratch_folder() as folder:
+        events = {name: folder / f"{number}" for number, name in enumerate(arguments)}
         executor = ProcessPoolExecutor(
             max_workers=at_once, initializer=_end_with, initargs=(os.getpid(),)
         )

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Stack", "fit_stack", "log_probabilities", "stacked"]
+__all__ = ["MOST", "Stack", "fit_stack", "log_probabilities", "stacked"]
 
 Table = npt.NDArray[np.float64]
 
@@ -18,7 +18,8 @@ FLOOR = 1e-4
 FEW = 10
 """With fewer unseen pictures than this, nothing is fitted to them."""
 
-_MOST = 20.0  # a weight
+MOST = 20.0
+"""The largest weight of a way of seeing."""
 
 _EVIDENCE = 5.0
 """Nats by which others must explain unseen pictures better than the preferred way of seeing: the
@@ -137,7 +138,7 @@ def fit_stack(
             return float(-(soft * logs).sum()), slope
 
         start = np.full(len(names), 1.0 / len(names))
-        bounds = [(0.0, _MOST)] * len(names)
+        bounds = [(0.0, MOST)] * len(names)
         result = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds)
         chosen = {name: float(x) for name, x in zip(names, result.x, strict=True)}
         evidence = 0.0 if names == (preferred,) else _EVIDENCE

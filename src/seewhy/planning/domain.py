@@ -24,6 +24,7 @@ from seewhy.nearest import did_you_mean, nearest
 from seewhy.planning.sensing import Sensing, SensingError, read_sensing
 from seewhy.planning.tables import MapTable, PlanningFile, SimulationTable
 from seewhy.planning.words import PlanningWords
+from seewhy.slots import wrong_slot
 from seewhy.toml_file import line_of, read_toml
 
 FILE = "planning.toml"
@@ -286,6 +287,13 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
                 yield (kind, name), f"'{name}' is none of the {kind}; {did_you_mean(name, known)}"
                 continue
             for key, text in texts.items():
+                wrong = wrong_slot(_SLOT.sub("", text), ())
+                if wrong is not None:
+                    yield (
+                        (kind, name, key),
+                        f"'{text}' has '{wrong}', which is no slot; there are {{0}}, {{1}}, … for "
+                        "the arguments",
+                    )
                 for slot in _SLOT.findall(text):
                     if int(slot) >= known[name]:
                         yield (

@@ -43,7 +43,7 @@ class Placing:
                 return read_header(stream)
         content = read_bytes(self._files, name)
         header = read_header(io.BytesIO(content))
-        with whole_file(target) as temporary:
+        with whole_file(target, durable=False) as temporary:
             temporary.write_bytes(content)
             self._stamp(temporary, name)
         return header
@@ -59,7 +59,7 @@ class Placing:
                 return
             except OSError:
                 self.links = False  # another file system, or none that can
-        with whole_file(target) as temporary:
+        with whole_file(target, durable=False) as temporary:
             shutil.copyfile(path, temporary)
             self._stamp(temporary, name)
 

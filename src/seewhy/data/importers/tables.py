@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import tempfile
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -23,6 +22,7 @@ from seewhy.data.importers.source_files import (
 )
 from seewhy.data.table import read_table
 from seewhy.errors import DatasetError
+from seewhy.folders import scratch_folder
 
 TEXT_TABLES = (".csv", ".tsv", ".tab", ".txt")
 TABLES = (*TEXT_TABLES, ".xlsx", ".xlsm", ".jsonl", ".ndjson", ".json", ".parquet", ".pq")
@@ -152,8 +152,8 @@ def _text_rows(files: SourceFiles, name: str) -> Iterator[tuple[int, Sequence[st
     if path is not None:
         yield from _rows_of_text(path)
         return
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder) / Path(name).name
+    with scratch_folder() as folder:
+        copy = folder / Path(name).name
         copy.write_bytes(read_bytes(files, name))
         try:
             yield from _rows_of_text(copy)

@@ -30,7 +30,8 @@ from seewhy.data.importers.vocabulary import (
     named_features,
 )
 from seewhy.errors import DatasetError, PictureError
-from seewhy.files import whole_file, write_whole
+from seewhy.files import put_all_on_disk, whole_file, write_whole
+from seewhy.locks import sole_writer
 
 CLASSES = "classes.csv"
 UNUSABLE = "pictures that cannot be used, left out"
@@ -99,11 +100,10 @@ def write_dataset(
     _check_space(read, folder)
     folder.mkdir(parents=True, exist_ok=True)
     record = Record(settings=read.request.settings())
-    write_whole(folder / RECORD, record.model_dump_json(indent=2) + "\n")
-    for litter in (*folder.glob(".scenes-*.csv"), *folder.glob(".things-*.csv")):
-        litter.unlink(missing_ok=True)  # of a call that was killed
     writer = _Writer(read, folder)
     with ExitStack() as stack:
+        stack.enter_context(sole_writer(folder / TABLE))
+        write_whole(folder / RECORD, record.model_dump_json(indent=2) + "\n")
         # What is opened last takes its place first: the table of scenes comes to stand last.
         scenes = stack.enter_context(whole_file(folder / TABLE))
         things = stack.enter_context(whole_file(folder / THINGS)) if writer.has_boxes else None
@@ -115,6 +115,7 @@ def write_dataset(
             words=words_of_vocabulary(read.vocabulary),
             report=dataset.as_json(),
         )
+        put_all_on_disk()  # the pictures, before a table says that they are there
         if read.class_features is not None:
             write_whole(folder / CLASSES, class_table(read.class_features, read.vocabulary))
         write_whole(folder / RECORD, finished.model_dump_json(indent=2) + "\n")
