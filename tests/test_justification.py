@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import HealthCheck, Phase, example, given, settings
 
 from knowledge_builders import Rule, World, facts, opposite, schema_of, worlds
 from seewhy.knowledge.axiom import Literal
@@ -17,6 +17,7 @@ from seewhy.knowledge.why import contradiction, why
 from seewhy.knowledge.why_not import why_not
 
 thorough = settings(
+    phases=(Phase.explicit, Phase.generate),
     max_examples=25,
     deadline=None,
     derandomize=True,
@@ -54,7 +55,7 @@ DEFAULTS = World(
 
 def path_literals(node: Node, above: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
     """The beliefs from the root to every leaf, each axiom's conclusion once."""
-    if node.axiom is not None and node.basis is not Basis.EXCEPTION:
+    if node.axiom is not None and node.holds and not node.literal.startswith("not "):
         above = (*above, node.literal.replace(", ", ","))
     if not node.children:
         yield above
@@ -85,13 +86,15 @@ def test_a_justification_is_sound(world: World) -> None:
             continue
         beliefs = frozenset(map(str, found.holds))
         shown = dict(zip(world.schema.features, vector, strict=True))
+        if len(reasoner.answer_sets(vector)) > 1:
+            continue
         for belief in sorted(beliefs):
             node = why(reasoner, vector, read_literal(belief))
             assert node is not None
             given_facts: set[str] = set()
-            for own in node.walk():
+            supporting = list(_supporting(node))
+            for own in supporting:
                 literal = own.literal.replace(", ", ",")
-                assert own.holds
                 assert own.basis is not Basis.FACT, "nothing is believed for no reason"
                 if own.basis is Basis.FEATURE:
                     assert own.value == shown[own.feature or ""]
@@ -103,18 +106,24 @@ def test_a_justification_is_sound(world: World) -> None:
                 elif own.basis is Basis.EXCEPTION:
                     assert own.axiom is not None
                     assert own.axiom.identifier in dict(found.exceptions)
-                    given_facts.add(literal)
-                elif literal.startswith("not "):
-                    assert own.basis is Basis.ABSENCE
-                else:
+                    given_facts.add(literal.removeprefix("not "))
+                elif not literal.startswith("not "):
                     assert literal in beliefs
                 if literal.startswith("not "):
                     assert literal[4:] not in beliefs
-            named = {own.axiom.identifier for own in node.walk() if own.axiom}
+            named = {own.axiom.identifier for own in supporting if own.axiom}
             rules = [world.rule(name) for name in named]
             assert belief in world.derived(given_facts, rules, beliefs)
             for path in path_literals(node):
                 assert len(path) == len(set(path)), "a belief supports itself"
+
+
+def _supporting(node: Node) -> Iterator[Node]:
+    """The node and what it rests on that is so; what fails, or what would be, is left out."""
+    yield node
+    for child in node.children:
+        if child.holds and child.basis is not Basis.CONSISTENCY:
+            yield from _supporting(child)
 
 
 @given(world=worlds())
@@ -135,7 +144,10 @@ def test_a_justification_gives_every_reason(world: World) -> None:
         for rule in world.rules:
             belief = rule.concludes
             node = why(reasoner, vector, read_literal(belief))
-            assert (node is not None) == (belief in beliefs)
+            shared = {str(own) for own in reasoner.believed(vector)}
+            assert (node is not None) == (belief in shared)
+            if len(reasoner.answer_sets(vector)) > 1:
+                continue
             if node is None:
                 continue
             reasons = node.children if node.basis is Basis.REASONS else (node,)
@@ -147,11 +159,19 @@ def test_a_justification_gives_every_reason(world: World) -> None:
                 if own.concludes == belief
                 and belief in world.derived(without - {belief}, [own], beliefs)
             }
-            assert {
+            told = {
                 int(own.axiom.identifier[1:])
                 for own in reasons
                 if own.axiom and own.basis is not Basis.EXCEPTION
-            } == expected
+            }
+            # What something else is absent for may rest on the belief itself.
+            weakly = {
+                number
+                for number in expected
+                if world.rules[number - 1].default
+                or any(own.startswith("not ") for own in world.rules[number - 1].body)
+            }
+            assert expected - weakly <= told <= expected
             assert any(own.basis is Basis.FEATURE for own in reasons) == (belief in facts(vector))
             assert any(own.basis is Basis.EXCEPTION for own in reasons) == (belief in given_up)
 
@@ -165,6 +185,8 @@ def test_why_not_ranks_axioms_by_the_conditions_that_fail(world: World) -> None:
     for vector in scenes_of(world):
         found = reasoner.answer_set(vector)
         beliefs = frozenset(map(str, found.holds)) if found else frozenset(facts(vector))
+        if len(reasoner.answer_sets(vector)) > 1:
+            continue
         for head in ("p(S)", "-p(S)", "q(S)", "r(S)"):
             literal = head.replace("S", "scene")
             node = why_not(reasoner, vector, read_literal(literal))
@@ -367,15 +389,17 @@ def test_a_condition_that_stands_for_several_terms() -> None:
     )
 
 
-def test_an_aggregate_is_a_reason_as_it_stands() -> None:
+def test_an_aggregate_rests_on_what_it_counts() -> None:
     axioms = "stable(S) if structure(S), N = #count { M : num_blocks(S, M) }, N > 0, not lean(S)."
     assert tree(axioms, "stable(structure)", "2", None, "no", None).splitlines()[1:] == [
-        "├─ 1 = #count { M: num_blocks(structure,M) }",
+        "├─ for exactly 1 value of num, num_blocks(structure, num)",
+        "│  └─ num_blocks(structure, 2)",
         "├─ 1 > 0",
         "└─ -lean(structure)",
     ]
     assert refuted(axioms, "stable(structure)", None, None, "no", None).splitlines()[2:] == [
-        "   ├─ 0 = #count { M: num_blocks(structure,M) }",
+        "   ├─ for exactly 0 values of num, num_blocks(structure, num)",
+        "   │  └─ the num blocks is not known",
         "   ├─ but 0 > 0",
         "   └─ -lean(structure)",
     ]
@@ -389,7 +413,10 @@ default stable(S) if structure(S).
 -stable(S) if block_displaced(S).
 """
     assert tree(axioms, "stable(structure)", *[None] * 4) == (
-        'stable(structure): "structures stand" (knowledge.al:11)'
+        'stable(structure): "structures stand" (knowledge.al:11)\n'
+        "└─ nothing says that -stable(structure)\n"
+        '   └─ does not apply: "what is out of balance falls" (knowledge.al:13)\n'
+        "      └─ but it is not known whether block_displaced(structure)"
     )
     assert refuted(axioms, "stable(structure)", None, None, None, "yes") == (
         "it does not follow that stable(structure)\n"
@@ -408,7 +435,10 @@ default stable(S) if structure(S).
 """
     assert tree(axioms, "-stable(structure)", None, None, None, "yes") == (
         "-stable(structure): an exception, without which the beliefs would contradict each other: "
-        '"structures stand" (knowledge.al:11)'
+        '"structures stand" (knowledge.al:11)\n'
+        "├─ block_displaced(structure)\n"
+        '└─ otherwise -block_displaced(structure): "what stands has all blocks in place" '
+        "(knowledge.al:13)"
     )
 
 

@@ -21,9 +21,12 @@ _REMEMBERED = 1_000
 
 
 def believed_values(domain: Domain, evidence: Evidence, predicate: str) -> tuple[str, ...]:
-    """Return the values of a static of :attr:`Domain.beliefs` that are believed about a scene."""
+    """Return the values of a static of :attr:`Domain.beliefs` that are believed about a scene.
+
+    Of several answer sets only what all of them share is believed.
+    """
     literals = domain.beliefs[predicate].literals
-    return tuple(value for value, own in literals.items() if key_of(own) in evidence.holds)
+    return tuple(value for value, own in literals.items() if key_of(own) in evidence.believed)
 
 
 class ToldClass:
@@ -104,8 +107,11 @@ def _with_told_classes(domain: Domain, *, told: Sequence[Literal]) -> Knowledge:
 
 
 def with_basis(justification: Node, basis: Node) -> Node:
-    """Return a justification in which ``basis`` is why its literal is believed."""
-    if justification.literal == basis.literal:
+    """Return a justification in which ``basis`` is why its literal is believed.
+
+    It is what is told, too.
+    """
+    if justification.literal == basis.literal or justification.feature == _TOLD:
         return basis
     children = tuple(with_basis(child, basis) for child in justification.children)
     return replace(justification, children=children)

@@ -36,6 +36,7 @@ _SAYS_NOTHING_SEEN = frozenset(
     {"undecided", "unknown", "no_belief", "no_difference", "feature_unknown"}
 )
 _ABOUT_A_FEATURE = frozenset({"value", "yes", "no"})
+_RESTS_ON_WHAT_FAILS = frozenset({Basis.ABSENCE, Basis.JOINTLY, Basis.EXCEPTION, Basis.OTHERWISE})
 _CONCLUDES = frozenset({"class", "yes_class", "no_class", "already", "same", "belief"})
 
 
@@ -189,8 +190,22 @@ def weakest(node: Node) -> Ground | None:
     >>> weakest(Node("", "", Basis.REASONS, children=(both, leaf("displaced", 0.9)))).feature
     'displaced'
     """
-    below = [weakest(child) for child in node.children if child.holds]
-    if node.basis is Basis.REASONS and below:
+    if node.holds or node.is_refuted:
+        return _weakest_of(node)
+    below = [_weakest_of(child) for child in node.children if child.holds]
+    return _of(node, below, enough=node.basis is Basis.REASONS)
+
+
+def _weakest_of(node: Node) -> Ground | None:
+    """The least sure of what a step needs, which may be that something fails."""
+    fails = not node.holds or node.basis in _RESTS_ON_WHAT_FAILS
+    below = [_weakest_of(child) for child in node.children if child.holds or fails]
+    # Of several reasons one is enough, and of the ways in which an axiom fails.
+    return _of(node, below, enough=node.is_refuted or (node.holds and node.basis is Basis.REASONS))
+
+
+def _of(node: Node, below: list[Ground | None], *, enough: bool) -> Ground | None:
+    if enough and below:
         return None if None in below else max(filter(None, below), key=_probability)
     grounds = [ground for ground in below if ground is not None]
     if node.feature is not None and node.probability is not None:

@@ -101,27 +101,34 @@ def _steps(node: Node, said: _Said) -> list[str]:
     if node.literal in ("undecided", "unknown") or node.basis is Basis.CONFLICT:
         return [_why_undecided(node)]
     steps = _axioms(node, said)
-    refused = [n for n in node.children if not n.holds and n.axiom is not None]
-    for child in refused[:3]:
-        assert child.axiom is not None
-        missing = [condition for condition in child.children if not condition.holds]
-        if missing:
-            why = join_words([condition.text for condition in missing])
-            steps.append(
-                f'{said.missing(missing)}the axiom "{child.axiom.text}" does not apply, since {why}'
-            )
+    refused = [own for own in node.children if own.is_refuted]
+    steps += [step for child in refused[:3] for step in _not_applying(child, said)]
     return list(dict.fromkeys(steps))
+
+
+def _not_applying(refused: Node, said: _Said) -> list[str]:
+    """That an axiom does not apply, with what is missing."""
+    missing = [condition for condition in refused.children if not condition.holds]
+    if refused.axiom is None or not missing:
+        return []
+    why = join_words([condition.text for condition in missing])
+    return [f'{said.missing(missing)}the axiom "{refused.axiom.text}" does not apply, since {why}']
 
 
 def _axioms(node: Node, said: _Said) -> list[str]:
     """The axioms that were used, what others rest on first; those of a tree's path are its own."""
-    steps = (
-        []
-        if node.basis is Basis.TREE
-        else [step for child in node.children for step in _axioms(child, said)]
-    )
-    if node.holds and node.axiom is not None and _says_more(node.axiom):
-        steps.append(f'{said.clause(node)}, because "{node.axiom.text}"')
+    steps: list[str] = []
+    for child in () if node.basis is Basis.TREE else node.children:
+        if node.holds and child.is_refuted:
+            steps += _not_applying(child, said)
+        else:
+            steps += _axioms(child, said)
+    told = node.holds or node.basis is Basis.OTHERWISE
+    if told and node.axiom is not None and _says_more(node.axiom):
+        if node.basis is Basis.EXCEPTION:
+            steps.append(f'{said.clause(node)}, though "{node.axiom.text}"')
+        else:
+            steps.append(f'{said.clause(node)}, because "{node.axiom.text}"')
     return list(dict.fromkeys(steps))
 
 

@@ -11,14 +11,16 @@ from seewhy.dialogue.question import Asks, Question
 from seewhy.domain import Domain
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.change import ChangeFinder
+from seewhy.knowledge.condition_nodes import once
 from seewhy.knowledge.evidence import Evidence, evidence_of
+from seewhy.knowledge.explanation import belief_node
 from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.odd_loop import say_odd_loop
 from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.knowledge.why import contradiction, justify
+from seewhy.knowledge.why import contradiction, either_or, justify
 from seewhy.knowledge.why_not import refuse, shortfall
 from seewhy.wording import join_words, say_literal
 
@@ -29,6 +31,7 @@ _UNDECIDED = {
     Verdict.NO_ANSWER_SET: "no set of beliefs agrees with all axioms",
     Verdict.BELIEVED: "",
 }
+_NO_CLASS = Node("none", "no class follows", Basis.ABSENCE)
 _CLASSES_SHOWN = 3
 _SCENES_REMEMBERED = 1_000
 _NODES_REMEMBERED = 20_000
@@ -216,6 +219,15 @@ class ReasonedAnswers:
         if both is not None:
             return both
         verdict = self.reasoner.decide(vector).verdict
+        if verdict is Verdict.SILENT and (cases := self._cases(vector)):
+            said = [own.text for own in cases]
+            return Node(
+                literal="undecided",
+                text=f"the knowledge does not decide: {' '.join(said)}",
+                basis=Basis.CASES,
+                holds=False,
+                children=cases,
+            )
         children: list[Node] = []
         if verdict is Verdict.SILENT:
             nearest = self.nearest_classes(vector, most=_CLASSES_SHOWN)
@@ -237,6 +249,16 @@ class ReasonedAnswers:
             holds=False,
             children=tuple(children),
         )
+
+    def _cases(self, vector: FeatureVector) -> tuple[Node, ...]:
+        """What the answer sets say of the class of an undecided scene; empty if all are silent."""
+        evidence = self.evidence(vector)
+        cases: list[Node] = []
+        for each in (evidence, *evidence.others):
+            keys = [key_of(own.literal) for own in self.domain.classes.values()]
+            concluded = [belief_node(each, key) for key in keys if key in each.holds]
+            cases += concluded or [_NO_CLASS]
+        return either_or(once(cases)) if set(cases) != {_NO_CLASS} else ()
 
     def _evidence(self, vector: FeatureVector) -> Evidence:
         return evidence_of(self.reasoner, vector, say=self._say)
@@ -268,13 +290,7 @@ class ReasonedAnswers:
         if against is not None:
             # What is believed false has reasons of its own; they say more than what is missing.
             return self._ordered(against.features())
-        refused = self.why_not_class(vector, asked)
-        failed = {
-            node.feature
-            for node in (refused.children[0].children if refused.children else ())
-            if not node.holds and node.feature
-        }
-        return self._ordered(tuple(failed))
+        return self._ordered(tuple(_missed(self.why_not_class(vector, asked))))
 
     def _refused(self, vector: FeatureVector, asked: str) -> Node:
         refused = self.why_not_class(vector, asked)
@@ -314,6 +330,16 @@ class ReasonedAnswers:
 
     def _say(self, literal: Literal) -> str:
         return say_literal(self.domain, literal)
+
+
+def _missed(refused: Node) -> set[str]:
+    """The features that the nearest axiom misses, or the nearest one for what it misses."""
+    if refused.basis is Basis.CASES:
+        return set().union(*(_missed(case) for case in refused.children if not case.holds))
+    nearest = next((child for child in refused.children if child.is_refuted), None)
+    if nearest is None:
+        return set(refused.features())
+    return set().union(*(_missed(node) for node in nearest.children if not node.holds))
 
 
 def difference(domain: Domain, alternatives: tuple[Changes, ...]) -> AnswerType:

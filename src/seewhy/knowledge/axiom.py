@@ -13,6 +13,7 @@ from clingo import ast
 from seewhy.knowledge.signature import Location
 
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
+_BRACES = re.compile(r"\{.*\}")
 _VARIABLE = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![A-Za-z0-9_\'])_*[A-Z][A-Za-z0-9_\']*')
 
 
@@ -189,9 +190,16 @@ class Axiom:
 
     @property
     def variables(self) -> tuple[str, ...]:
-        """The variables of head and body, those of local conditions left out, in order."""
+        """The variables of head and body, those of local conditions left out, in order.
+
+        What an aggregate is compared with is no variable of its own.
+        """
         parts = [str(self.action or ""), str(self.head)]
-        parts += [own.text for own in self.body if not own.is_local]
+        parts += [
+            _BRACES.sub("", own.text) if "{" in own.text else own.text
+            for own in self.body
+            if "{" in own.text or not own.is_local
+        ]
         return variables_in(" ".join(parts))
 
     @property

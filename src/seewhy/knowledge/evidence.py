@@ -1,17 +1,19 @@
-"""What a scene's answer set offers to justify beliefs with: what was seen, what fired."""
+"""What a scene's answer sets offer to justify beliefs with: what was seen, what fired."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterator
 from functools import cached_property
 from itertools import chain
 
 import clingo
 
 from seewhy.knowledge.axiom import Axiom, Literal
-from seewhy.knowledge.ground import key_of, literal_of, terms_of
+from seewhy.knowledge.condition_words import say_condition
+from seewhy.knowledge.foundation import Foundation, Need, opposite
+from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.justification import Basis, Node
+from seewhy.knowledge.possible import Asked, Belief, Instance
 from seewhy.knowledge.reasoner import AnswerSet, Reasoner
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 
@@ -19,141 +21,193 @@ Say = Callable[[Literal], str]
 """How a literal is said in words."""
 
 
-@dataclass(frozen=True)
-class Support:
-    """An instance of an axiom that fires: its conditions hold."""
-
-    axiom: Axiom
-    binding: dict[str, str]
-
-
 class Evidence:
-    """The answer set of one scene, indexed for justifications.
+    """One answer set of a scene, indexed for justifications.
 
-    ``holds`` are the keys of the believed literals, ``supports`` the axiom instances that
-    conclude each.
+    Attributes
+    ----------
+    holds : set of str
+        The keys of the literals that are believed in this answer set.
+    believed : frozenset of str
+        Those that are believed in every preferred answer set.
+    others : tuple of Evidence
+        The other preferred answer sets.
     """
 
     def __init__(
-        self, reasoner: Reasoner, vector: FeatureVector, answer_set: AnswerSet, say: Say
+        self,
+        reasoner: Reasoner,
+        scene: FeatureVector,
+        answer_set: AnswerSet,
+        say: Say,
+        *,
+        believed: Collection[clingo.Symbol] | None = None,
+        others: tuple[Evidence, ...] = (),
     ) -> None:
         self.reasoner = reasoner
         self.schema = reasoner.schema
         self.signature = reasoner.knowledge.signature
-        self.vector = dict(zip(self.schema.features, vector, strict=True))
+        self.scene = scene
+        self.vector = dict(zip(self.schema.features, scene, strict=True))
         self.answer_set = answer_set
         self.say = say
         self.holds = {str(symbol) for symbol in answer_set.holds}
-        self._founded_without: dict[frozenset[str], set[str]] = {}
-        self.supports: dict[str, list[Support]] = {}
-        for axiom in reasoner.knowledge.axioms:
-            for values in answer_set.firings.get(axiom.identifier, ()):
-                binding = dict(zip(axiom.variables, values, strict=True))
-                self.supports.setdefault(key_of(axiom.head.substitute(binding)), []).append(
-                    Support(axiom, binding)
-                )
-
-    def exceptions(self, key: str) -> list[Axiom]:
-        """The defaults that were given up so that the literal is believed."""
-        axioms = {axiom.identifier: axiom for axiom in self.reasoner.knowledge.axioms}
-        given_up: list[Axiom] = []
-        for identifier, values in self.answer_set.exceptions:
-            axiom = axioms[identifier]
-            binding = dict(zip(axiom.variables, values, strict=True))
-            if key_of(axiom.head.substitute(binding).complement) == key:
-                given_up.append(axiom)
-        return given_up
+        shared = answer_set.holds if believed is None else believed
+        self.believed = frozenset(map(str, shared))
+        self.others = others
+        self._foundations: dict[Belief, Foundation] = {}
+        self._needs: dict[tuple[str, tuple[str, ...]], list[tuple[int, Need, bool]]] = {}
 
     @cached_property
-    def _given(self) -> set[str]:
-        """The beliefs that need no axiom: what is seen, and exceptions to defaults."""
-        return {
-            key
-            for key in self.holds
-            if self.seen(literal_of(key)) is not None or self.exceptions(key)
+    def _supports(self) -> dict[str, list[Instance]]:
+        supports: dict[str, list[Instance]] = {}
+        for axiom in self.reasoner.knowledge.axioms:
+            for values in self.answer_set.firings.get(axiom.identifier, ()):
+                instance = Instance(axiom, values)
+                supports.setdefault(instance.head, []).append(instance)
+        return supports
+
+    def firing(self, key: str) -> list[Instance]:
+        """The instances that conclude a belief."""
+        return self._supports.get(key, [])
+
+    def concluding(self, key: str) -> list[Instance]:
+        """The instances that could conclude a literal, in this scene or another."""
+        return self.reasoner.possible.concluding(key)
+
+    def needs(self, instance: Instance) -> list[tuple[int, Need, bool]]:
+        """What each condition comes to here: its place, what it rests on, whether it holds."""
+        place = (instance.axiom.identifier, instance.values)
+        if place not in self._needs:
+            self._needs[place] = [
+                (number, *self.comes_to(asked))
+                for number, asked in self.reasoner.possible.asked(instance)
+            ]
+        return self._needs[place]
+
+    def comes_to(self, asked: Asked) -> tuple[Need, bool]:
+        """What a condition rests on here, and whether it holds."""
+        if isinstance(asked, Belief):
+            here = Belief(asked.key, asked.key in self.holds)
+            return here, here == asked
+        holds = asked.holds(self.holds)
+        return (asked, holds), holds
+
+    def foundation(self, root: Belief) -> Foundation:
+        """What is founded of what a belief, or an absence, may rest on."""
+        if root not in self._foundations:
+            self._foundations[root] = Foundation(self, root)
+        return self._foundations[root]
+
+    def exceptions(self, key: str) -> list[Instance]:
+        """The instances of defaults that were given up so that the literal is believed."""
+        return self._given_up.get(key, [])
+
+    @cached_property
+    def _given_up(self) -> dict[str, list[Instance]]:
+        axioms: dict[str, Axiom] = {
+            axiom.identifier: axiom for axiom in self.reasoner.knowledge.axioms
         }
+        given_up: dict[str, list[Instance]] = {}
+        for identifier, values in self.answer_set.exceptions:
+            instance = Instance(axioms[identifier], values)
+            denied = instance.axiom.head.substitute(instance.binding).complement
+            given_up.setdefault(key_of(denied), []).append(instance)
+        return given_up
 
-    def founded(self, above: frozenset[str]) -> set[str]:
-        """The beliefs that can be justified without the literals above them."""
-        founded = self._founded_without.get(above)
-        if founded is not None:
-            return founded
-        founded = self._given - above
-        while new := {
-            key
-            for key, supports in self.supports.items()
-            if key not in founded
-            and key not in above
-            and any(self.rests_on(support, founded) for support in supports)
-        }:
-            founded |= new
-        self._founded_without[above] = founded
-        return founded
-
-    def rests_on(self, support: Support, founded: set[str]) -> bool:
-        """Whether all beliefs that the support needs are among those."""
-        return all(
-            not founded.isdisjoint(self.matching(condition.literal.substitute(support.binding)))
-            for condition in support.axiom.body
-            if condition.literal is not None
-            and not condition.absent
-            and condition.literal.predicate not in self.signature.sorts
-        )
+    def is_given(self, key: str) -> bool:
+        """Whether something is believed without an axiom: it is seen, or an exception."""
+        return key in self._given_up or self._seen(key) is not None
 
     def seen(self, literal: Literal) -> Node | None:
         """The node of a literal that the picture itself shows."""
-        feature = self.schema.feature_of(literal)
-        if feature is None:
-            return None
-        value = self.vector[feature]
-        if value is None:
-            return None
-        shown = self.schema.features[feature][value]
-        ruled_out = literal.complement in self.schema.features[feature].values()
-        if key_of(literal) != key_of(shown) and not (ruled_out and literal.complement != shown):
-            return None
-        return Node(
+        shown = self._seen(key_of(literal))
+        return shown and Node(
             literal=str(literal),
-            text=self.say(shown),
+            text=shown.text,
             basis=Basis.FEATURE,
-            feature=feature,
-            value=value,
+            feature=shown.feature,
+            value=shown.value,
         )
 
-    def matching(self, literal: Literal) -> list[str]:
-        """The beliefs that satisfy a condition; ``_`` matches anything, ``1..3`` each of three."""
-        key = key_of(literal)
-        if key in self.holds:
-            return [key]
-        wanted = [terms_of(argument) for argument in literal.arguments]
-        if all(len(own) == 1 and "_" not in own for own in wanted):
-            return []
-        return [
-            str(symbol)
-            for symbol in sorted(self.answer_set.holds)
-            if (symbol.name, symbol.positive) == (literal.predicate, literal.positive)
-            and all(
-                "_" in own or str(given) in own
-                for own, given in zip(wanted, symbol.arguments, strict=True)
+    def _seen(self, key: str) -> Node | None:
+        return self._shown.get(key)
+
+    @cached_property
+    def _shown(self) -> dict[str, Node]:
+        """What the picture shows, by key: the value of every feature, and what it rules out."""
+        nodes: dict[str, Node] = {}
+        for feature, literals in self.schema.features.items():
+            value = self.vector[feature]
+            if value is None:
+                continue
+            shown = literals[value]
+            text = self.say(shown)
+            for key in _shown_keys(self.schema, feature, value):
+                nodes[key] = Node(
+                    literal=key, text=text, basis=Basis.FEATURE, feature=feature, value=value
+                )
+        return nodes
+
+    def feature_node(self, feature: str) -> Node:
+        """The node of a feature of the scene, whether its value is known or not."""
+        value = self.vector[feature]
+        if value is None:
+            return Node(
+                feature,
+                f"the {feature.replace('_', ' ')} is not known",
+                Basis.ABSENCE,
+                feature=feature,
             )
-        ]
+        literal = self.schema.features[feature][value]
+        return Node(str(literal), self.say(literal), Basis.FEATURE, feature=feature, value=value)
+
+    def say_condition(self, text: str, *, holds: bool) -> str:
+        """Say in words that a condition of several literals holds, or what is so instead."""
+        return say_condition(text, self.signature, self.say, holds=holds)
+
+    def worth(self, key: str) -> int:
+        """How readily a literal is told, believed or not, where others would do as well.
+
+        Least that nothing says so, then what follows, then what a picture rules out, and most
+        what it shows.
+        """
+        if key in self.holds:
+            return 3 if self._seen(key) is not None else 1
+        return 2 if self._seen(opposite(key)) is not None else 0
 
 
 def evidence_of(reasoner: Reasoner, vector: FeatureVector, *, say: Say = str) -> Evidence:
     """Return the evidence of a scene; where there is no answer set, what was seen alone."""
-    answer_set = reasoner.answer_set(vector)
-    if answer_set is None:
-        seen = frozenset(chain.from_iterable(_observed(reasoner.schema, vector)))
-        answer_set = AnswerSet(seen, {}, (), conflict=False)
-    return Evidence(reasoner, vector, answer_set, say)
+    first, *others = reasoner.answer_sets(vector) or (_seen_alone(reasoner.schema, vector),)
+    believed = reasoner.believed(vector) if others else None
+    return Evidence(
+        reasoner,
+        vector,
+        first,
+        say,
+        believed=believed,
+        others=tuple(Evidence(reasoner, vector, other, say, believed=believed) for other in others),
+    )
+
+
+def _seen_alone(schema: SceneSchema, vector: FeatureVector) -> AnswerSet:
+    seen = frozenset(chain.from_iterable(_observed(schema, vector)))
+    return AnswerSet(seen, {}, (), conflict=False)
 
 
 def _observed(schema: SceneSchema, vector: FeatureVector) -> Iterator[tuple[clingo.Symbol, ...]]:
     """For every feature the literals that are believed because of its value."""
-    for literals, value in zip(schema.features.values(), vector, strict=True):
-        if value is None:
-            continue
-        shown = [literals[value]]
-        if all(literal.positive for literal in literals.values()):
-            shown += [own.complement for other, own in literals.items() if other != value]
-        yield tuple(clingo.parse_term(key_of(literal)) for literal in shown)
+    for feature, value in zip(schema.features, vector, strict=True):
+        if value is not None:
+            yield tuple(map(clingo.parse_term, _shown_keys(schema, feature, value)))
+
+
+def _shown_keys(schema: SceneSchema, feature: str, value: str) -> Iterator[str]:
+    """What is believed because of a feature's value: its literal, and the others denied."""
+    literals = schema.features[feature]
+    yield key_of(literals[value])
+    if all(literal.positive for literal in literals.values()):
+        for other, literal in literals.items():
+            if other != value:
+                yield key_of(literal.complement)

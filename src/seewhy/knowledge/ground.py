@@ -7,8 +7,6 @@ from functools import lru_cache
 import clingo
 
 from seewhy.knowledge.axiom import Literal
-from seewhy.knowledge.bounded_control import BoundedControl
-from seewhy.knowledge.grounding_size import GroundingSize, range_instances
 
 
 @lru_cache(maxsize=4096)
@@ -18,16 +16,6 @@ def term_of(text: str) -> str:
         return str(clingo.parse_term(text, logger=lambda *_: None))
     except RuntimeError:
         return text
-
-
-@lru_cache(maxsize=4096)
-def terms_of(text: str) -> frozenset[str]:
-    """The terms that an argument stands for; none where its arithmetic is undefined."""
-    if text == "_":
-        return frozenset({text})
-    size = GroundingSize(range_instances(text), f"the term '{text}'")
-    control = BoundedControl(f"term({text}).", size=size)
-    return frozenset(str(atom.symbol.arguments[0]) for atom in control.atoms)
 
 
 def key_of(literal: Literal) -> str:

@@ -130,10 +130,26 @@ class Grounding:
 
     def first_model(self, assumptions: Iterable[int]) -> list[clingo.Symbol] | None:
         """Return the true atoms of the first answer set found, or None if there is none."""
+        return next(iter(self.models(assumptions, most=1)), None)
+
+    def models(self, assumptions: Iterable[int], *, most: int) -> list[list[clingo.Symbol]]:
+        """Return the true atoms of each answer set, of at most so many."""
+        return self.solve(
+            assumptions,
+            Search(models=most),
+            on_model=lambda model: list(model.symbols(atoms=True)),
+        )
+
+    def consequences(self, assumptions: Iterable[int]) -> list[clingo.Symbol] | None:
+        """Return the atoms that are true in every answer set, or None if there is none."""
         found = self.solve(
-            assumptions, FIRST, on_model=lambda model: list(model.symbols(atoms=True))
+            assumptions, IN_COMMON, on_model=lambda model: list(model.symbols(atoms=True))
         )
         return found[-1] if found else None
+
+    def add(self, part: str, program: str) -> None:
+        """Add rules, as a part of the program that has no parameters."""
+        self._control.add(part, program)
 
     def believed_classes(self, assumptions: Iterable[int]) -> tuple[str, ...] | None:
         """Return the classes in every answer set, or None if there is no answer set."""

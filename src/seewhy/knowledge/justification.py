@@ -19,6 +19,12 @@ class Basis(StrEnum):
     REASONS = "several reasons"
     ABSENCE = "absence"
     COMPARISON = "comparison"
+    JOINTLY = "several literals"
+    ASSUMED = "assumed absence"
+    CASES = "several answer sets"
+    OTHERWISE = "without the exception"
+    CONSISTENCY = "nothing else is consistent"
+    TOLD_BEFORE = "told before"
     FACT = "fact"
     EXCEPTION = "exception"
     CONFLICT = "conflict"
@@ -113,8 +119,11 @@ class Node:
             learned = f", learned from {origin.support} {origin.things}" if origin.learned else ""
             file = place.file.replace("\\", "/").rsplit("/", 1)[-1]
             said = f'"{self.axiom.text}" ({file}:{place.line}{learned})'
-            line = f"{line}: {said}" if self.holds else f"does not apply: {said}"
-        elif not self.holds and self.basis in (Basis.FEATURE, Basis.COMPARISON):
+            if self.is_refuted:
+                line = f"does not apply: {said}"
+            else:
+                line = f"{'but ' if self.is_in_the_way else ''}{line}: {said}"
+        elif self.is_in_the_way:
             line = f"but {line}"
         if self.probability is not None:
             line += f" (p = {self.probability:.2f}{self._said_overruled()})"
@@ -125,6 +134,26 @@ class Node:
             return ""
         value, probability = self.overruled
         return f"; the network alone saw {value}, p = {probability:.2f}"
+
+    @property
+    def is_refuted(self) -> bool:
+        """Whether its axiom is one that does not apply, and its children say why."""
+        if self.axiom is None or self.holds or self.basis is Basis.OTHERWISE:
+            return False
+        head = self.axiom.head
+        name = f"{'' if head.positive else '-'}{head.predicate}"
+        return self.literal.split("(", 1)[0] == name
+
+    @property
+    def is_in_the_way(self) -> bool:
+        """Whether it says what is so instead of a condition that fails."""
+        if self.holds or self.is_refuted or self.basis is Basis.OTHERWISE:
+            return False
+        return self.axiom is not None or self.basis in (
+            Basis.FEATURE,
+            Basis.COMPARISON,
+            Basis.JOINTLY,
+        )
 
     def to_text(self) -> str:
         """Return the tree as indented lines."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -16,12 +16,15 @@ from seewhy.knowledge.grounding import Grounding, Search
 from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.odd_loop import OddLoops
+from seewhy.knowledge.possible import PossibleInstances
 from seewhy.knowledge.program import program_text
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
+from seewhy.knowledge.sufficient import SufficientFeatures
 
 Minimality = OneOf["cardinality", "inclusion"]
 _WORTH_A_BATCH = 32  # new scenes for which grounding several copies pays
-_REMEMBERED = 2_000  # whole answer sets kept for explanations; classes are all kept
+_REMEMBERED = 2_000  # scenes whose whole answer sets are kept; classes are all kept
+_MOST_ANSWER_SETS = 16
 
 
 class Verdict(StrEnum):
@@ -105,7 +108,8 @@ class Reasoner:
         self.schema = schema
         self.minimality = minimality
         self._decisions: dict[FeatureVector, Decision] = {}
-        self._answer_sets: dict[FeatureVector, AnswerSet | None] = {}
+        self._answer_sets: dict[FeatureVector, tuple[AnswerSet, ...]] = {}
+        self._believed: dict[FeatureVector, frozenset[clingo.Symbol]] = {}
         self._has_defaults = any(a.kind is AxiomKind.DEFAULT for a in knowledge.axioms)
 
     @cached_property
@@ -136,10 +140,23 @@ class Reasoner:
         # Of several answer sets, the first found must not depend on what was asked before.
         return Grounding(text, self.schema, size=self._size, arguments=["--heuristic=None"])
 
+    @cached_property
+    def possible(self) -> PossibleInstances:
+        """The instances of axioms and the literals that some scene could have."""
+        return PossibleInstances(self.knowledge, self.schema, self._explaining, self._size)
+
+    @cached_property
+    def sufficient(self) -> SufficientFeatures:
+        """Which features suffice for a belief."""
+        return SufficientFeatures(
+            self.knowledge, self.schema, self._explaining, self.believed, size=self._size
+        )
+
     def forget(self) -> None:
         """Drop everything remembered about scenes; the programs stay grounded."""
         self._decisions.clear()
         self._answer_sets.clear()
+        self._believed.clear()
 
     def decide(self, vector: FeatureVector) -> Decision:
         """Classify one scene.
@@ -240,32 +257,66 @@ class Reasoner:
         Where the scene is contradictory, the contradictory beliefs are returned with
         ``conflict`` set; None where there is no answer set at all.
         """
+        return next(iter(self.answer_sets(vector)), None)
+
+    def answer_sets(self, vector: FeatureVector) -> tuple[AnswerSet, ...]:
+        """Return the preferred answer sets, at most 16 of them, the first first.
+
+        As :meth:`answer_set`, a contradictory scene has one, with ``conflict`` set.
+        """
         known = self._answer_sets
         try:
             return known[vector]
         except KeyError:
-            found = self._first_answer_set(vector)
+            found = self._preferred(vector)
         if len(known) >= _REMEMBERED:
             known.clear()
         known[vector] = found
         return found
 
-    def _first_answer_set(self, vector: FeatureVector) -> AnswerSet | None:
+    def _preferred(self, vector: FeatureVector) -> tuple[AnswerSet, ...]:
+        found: list[AnswerSet] = []
+        for assumed in self._consistent_trials(vector):
+            left = _MOST_ANSWER_SETS - len(found)
+            if left <= 0:
+                break
+            found += map(_answer_set, self._explaining.models(assumed, most=left))
+            if found and not self._exceptions_assumed(assumed):
+                break
+        if not found:
+            found += self._contradictory(vector)
+        return tuple(found)
+
+    def contradictory_beliefs(self, vector: FeatureVector) -> AnswerSet | None:
+        """Return what would be believed if no exception to a default were assumed.
+
+        It holds contradictory literals where exceptions are needed, or where nothing helps. None
+        where there would be no answer set at all.
+        """
+        return next(iter(self._contradictory(vector)), None)
+
+    def _contradictory(self, vector: FeatureVector) -> list[AnswerSet]:
+        explaining = self._explaining
+        assumed = [*explaining.assume(vector), -explaining.strict, *self._no_exceptions]
+        return [_answer_set(symbols) for symbols in explaining.models(assumed, most=1)]
+
+    @cached_property
+    def _no_exceptions(self) -> list[int]:
+        return [-literal for literal in self._explaining.with_predicate("exception", 2).values()]
+
+    def _exceptions_assumed(self, assumed: Sequence[int]) -> bool:
+        exceptions = set(self._explaining.with_predicate("exception", 2).values())
+        return not exceptions.isdisjoint(assumed)
+
+    def _consistent_trials(self, vector: FeatureVector) -> Iterator[list[int]]:
+        """What to assume for the answer sets without exceptions, then for each minimal set."""
         explaining = self._explaining
         exceptions = explaining.with_predicate("exception", 2)
-        none = [-literal for literal in exceptions.values()]
-        assumed = explaining.assume(vector)
-        trials = [[*assumed, explaining.strict, *none]]
+        assumed = [*explaining.assume(vector), explaining.strict]
+        yield [*assumed, *self._no_exceptions]
         if self._has_defaults:
-            for chosen in self.minimal_exceptions(vector):
-                fixed = [lit if s in chosen else -lit for s, lit in exceptions.items()]
-                trials.append([*assumed, explaining.strict, *fixed])
-        trials.append([*assumed, -explaining.strict, *none])
-        for trial in trials:
-            symbols = explaining.first_model(trial)
-            if symbols is not None:
-                return _answer_set(symbols)
-        return None
+            for chosen in filter(None, self.minimal_exceptions(vector)):
+                yield [*assumed, *(lit if s in chosen else -lit for s, lit in exceptions.items())]
 
     def odd_loop(self, vector: FeatureVector) -> tuple[Axiom, ...]:
         """Return the axioms by which a scene has no answer set; see :class:`OddLoops`."""
@@ -276,9 +327,34 @@ class Reasoner:
         return OddLoops(self.knowledge, self.schema)
 
     def believed(self, vector: FeatureVector) -> frozenset[clingo.Symbol]:
-        """Return the literals of the preferred answer set; empty where there is none."""
-        found = self.answer_set(vector)
-        return found.holds if found else frozenset()
+        """Return the literals in every preferred answer set; empty where there is none.
+
+        Those of a contradictory scene contradict each other.
+        """
+        known = self._believed
+        try:
+            return known[vector]
+        except KeyError:
+            found = self._shared(vector)
+        if len(known) >= _REMEMBERED:
+            known.clear()
+        known[vector] = found
+        return found
+
+    def _shared(self, vector: FeatureVector) -> frozenset[clingo.Symbol]:
+        found = self.answer_sets(vector)
+        if not found:
+            return frozenset()
+        shared = frozenset.intersection(*(own.holds for own in found))
+        if len(found) < _MOST_ANSWER_SETS:
+            return shared
+        for assumed in self._consistent_trials(vector):
+            symbols = self._explaining.consequences(assumed)
+            if symbols is not None:
+                shared &= _answer_set(symbols).holds
+                if not self._exceptions_assumed(assumed):
+                    break
+        return shared
 
 
 def _decision(believed: tuple[str, ...]) -> Decision:

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from seewhy.knowledge.axiom import AxiomKind, Condition, Literal, substitute
-from seewhy.knowledge.evidence import Evidence, Say, Support, evidence_of
-from seewhy.knowledge.ground import complement_of, key_of, literal_of
+from collections.abc import Sequence
+from dataclasses import replace
+
+from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.condition_nodes import once
+from seewhy.knowledge.evidence import Evidence, Say, evidence_of
+from seewhy.knowledge.explanation import belief_node
+from seewhy.knowledge.foundation import opposite
+from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.justification import Basis, Node
-from seewhy.knowledge.language import read_literal
+from seewhy.knowledge.possible import Belief
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
 
@@ -17,7 +23,11 @@ def why(
     """Return the justification of a belief, or None if the literal is not believed.
 
     Every axiom instance that supports the literal without circularity is given; where there are
-    several, they are the children of a node of basis "several reasons".
+    several, they are the children of a node of basis "several reasons". Each of them suffices:
+    every scene that shares the values of the features that it names has the belief, unless it
+    contradicts the knowledge. Where several answer sets are preferred and the belief has other
+    reasons in each, these are the children of a node of basis "several answer sets"; all of them
+    together suffice. docs/justifications.md has the definitions.
 
     Examples
     --------
@@ -41,116 +51,81 @@ def contradiction(reasoner: Reasoner, vector: FeatureVector, *, say: Say = str) 
         return None
     evidence = evidence_of(reasoner, vector, say=say)
     both = sorted(
-        str(symbol)
-        for symbol in answer_set.holds
-        if symbol.positive and complement_of(symbol) in answer_set.holds
+        key for key in evidence.holds if not key.startswith("-") and opposite(key) in evidence.holds
     )
-    children: list[Node] = []
-    for text in both:
-        literal = read_literal(text)
-        for side in (literal, literal.complement):
-            node = justify(evidence, side)
-            if node is not None:
-                children.append(node)
     return Node(
         literal="conflict",
         text="the knowledge contradicts itself here",
         basis=Basis.CONFLICT,
-        children=tuple(children),
+        children=tuple(
+            belief_node(evidence, side) for key in both for side in (key, opposite(key))
+        ),
     )
 
 
 def justify(evidence: Evidence, literal: Literal) -> Node | None:
-    """Return the justification of a literal, or None if it is not believed."""
+    """Return the justification of a literal, or None if it is not believed.
+
+    It is believed where it is in every preferred answer set.
+    """
     key = key_of(literal)
-    if key not in evidence.holds:
+    if key not in evidence.believed:
         return None
-    return belief_node(evidence, literal_of(key), frozenset())
-
-
-def belief_node(evidence: Evidence, literal: Literal, above: frozenset[str]) -> Node:
-    """Return the justification of a belief that does without the literals above it."""
-    key = key_of(literal)
-    nodes: list[Node] = []
-    seen = evidence.seen(literal)
-    if seen is not None:
-        nodes.append(seen)
-    for support in evidence.supports.get(key, ()):
-        if evidence.rests_on(support, evidence.founded(above | {key})):
-            nodes.append(_support_node(evidence, literal, support, above | {key}))
-    nodes += [
-        Node(
-            literal=str(literal),
-            text=f"{evidence.say(literal)}: an exception, without which the beliefs "
-            "would contradict each other",
-            basis=Basis.EXCEPTION,
-            axiom=axiom,
+    literal = literal_of(key)
+    settled = not evidence.foundation(Belief(key)).assumed and not evidence.answer_set.exceptions
+    if settled or not evidence.others:
+        node = belief_node(evidence, key)
+    else:
+        node = _in_each(
+            evidence,
+            literal,
+            [belief_node(each, key) for each in (evidence, *evidence.others)],
         )
-        for axiom in evidence.exceptions(key)
-    ]
-    if len(nodes) == 1:
-        return nodes[0]
+    if evidence.answer_set.conflict or (
+        settled and not evidence.reasoner.possible.can_have_exceptions
+    ):
+        return node
+    return _completed(evidence, literal, node)
+
+
+def _in_each(evidence: Evidence, literal: Literal, nodes: Sequence[Node]) -> Node:
+    """Why a literal is believed, given why it is in each answer set."""
+    cases = once(nodes)
+    if len(cases) == 1:
+        return cases[0]
     return Node(
         literal=str(literal),
-        text=evidence.say(literal),
-        basis=Basis.REASONS if nodes else Basis.FACT,
-        children=tuple(nodes),
+        text=f"{evidence.say(literal)}, whichever is so",
+        basis=Basis.CASES,
+        children=either_or(cases),
     )
 
 
-def _support_node(
-    evidence: Evidence, literal: Literal, support: Support, above: frozenset[str]
-) -> Node:
-    axiom = support.axiom
-    children = [
-        condition_node(evidence, condition, support.binding, above) for condition in axiom.body
-    ]
-    is_default = axiom.kind is AxiomKind.DEFAULT
-    return Node(
-        literal=str(literal),
-        text=evidence.say(literal),
-        basis=Basis.DEFAULT if is_default else Basis.AXIOM,
-        axiom=axiom,
-        children=tuple(child for child in children if child is not None),
+def either_or(cases: Sequence[Node]) -> tuple[Node, ...]:
+    """Return alternatives, each of them worded as one, in an order that no solver decides."""
+    words = ("either", *("or" for _ in cases[1:]))
+    ordered = sorted(cases, key=Node.to_text)
+    return tuple(
+        replace(node, text=f"{word} {node.text}") for word, node in zip(words, ordered, strict=True)
     )
 
 
-def condition_node(
-    evidence: Evidence, condition: Condition, binding: dict[str, str], above: frozenset[str]
-) -> Node | None:
-    """Return the node of a condition that holds; None for a sort, which needs no reason."""
-    if condition.literal is None:
-        text = substitute(condition.text, binding)
-        return Node(literal=text, text=text, basis=Basis.COMPARISON)
-    literal = condition.literal.substitute(binding)
-    if literal.predicate in evidence.signature.sorts:
-        return None
-    if condition.absent:
-        return _absence(evidence, literal)
-    matching = evidence.matching(literal)
-    founded = evidence.founded(above)
-    key = next((own for own in matching if own in founded), next(iter(matching), None))
-    return belief_node(evidence, literal_of(key) if key else literal, above)
-
-
-def _absence(evidence: Evidence, literal: Literal) -> Node:
-    """The node of ``not literal`` where the literal is not believed."""
-    opposite = literal.complement
-    if key_of(opposite) in evidence.holds:
-        seen = evidence.seen(literal_of(key_of(opposite)))
-        if seen is not None:
-            return Node(
-                literal=f"not {literal}",
-                text=seen.text,
-                basis=Basis.FEATURE,
-                feature=seen.feature,
-                value=seen.value,
-            )
-        return Node(f"not {literal}", evidence.say(opposite), Basis.ABSENCE)
-    feature = evidence.schema.feature_of(literal)
-    return Node(
-        literal=f"not {literal}",
-        text=f"nothing says that {evidence.say(literal)}",
-        basis=Basis.ABSENCE,
-        feature=feature,
+def _completed(evidence: Evidence, literal: Literal, node: Node) -> Node:
+    """Add to every reason the features without which another answer set would be preferred."""
+    if node.basis is Basis.REASONS:
+        children = tuple(_completed(evidence, literal, child) for child in node.children)
+        return replace(node, children=children)
+    named = node.features()
+    sufficient = evidence.reasoner.sufficient
+    if sufficient.suffice(evidence.scene, named, literal):
+        return node
+    added = sufficient.completed(evidence.scene, named, literal)[len(named) :]
+    agreeing = Node(
+        literal=f"not {literal.complement}",
+        text="nothing else would agree with what is known",
+        basis=Basis.CONSISTENCY,
+        children=tuple(evidence.feature_node(feature) for feature in added),
     )
+    if node.basis is Basis.FEATURE:
+        return node
+    return replace(node, children=(*node.children, agreeing))

@@ -7,16 +7,21 @@ from collections.abc import Sequence
 from dataclasses import replace
 from weakref import WeakKeyDictionary
 
-from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, substitute, variables_in
+from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, variables_in
 from seewhy.knowledge.bounded_control import BoundedControl
+from seewhy.knowledge.condition_nodes import failed as failed_by
+from seewhy.knowledge.condition_nodes import failed_comparison, once
 from seewhy.knowledge.evidence import Evidence, Say, evidence_of
-from seewhy.knowledge.ground import key_of, literal_of, term_of, terms_of
+from seewhy.knowledge.explanation import belief_node, condition_node, need_node
+from seewhy.knowledge.foundation import opposite
+from seewhy.knowledge.ground import key_of, literal_of, term_of
 from seewhy.knowledge.grounding_size import axioms_size
 from seewhy.knowledge.justification import Basis, Node
+from seewhy.knowledge.possible import Belief
 from seewhy.knowledge.program import held, variable_tuple
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.knowledge.why import belief_node, condition_node, justify
+from seewhy.knowledge.why import either_or, justify
 
 _NESTING = 4
 _Head = tuple[int, Axiom, tuple[tuple[int, str], ...]]  # position, axiom, constants of its head
@@ -43,22 +48,43 @@ def why_not(reasoner: Reasoner, vector: FeatureVector, literal: Literal, *, say:
     return refuse(evidence_of(reasoner, vector, say=say), literal)
 
 
-def refuse(evidence: Evidence, literal: Literal, *, depth: int = 0) -> Node:
-    """Return why a literal is not believed; ``depth`` counts the literals it was needed for."""
+def refuse(evidence: Evidence, literal: Literal) -> Node:
+    """Return why a literal is not believed.
+
+    Where several answer sets are preferred and say it differently, the children of a node of basis
+    "several answer sets" are what each says.
+    """
     literal = replace(literal, arguments=tuple(map(term_of, literal.arguments)))
-    if key_of(literal) in evidence.holds:
-        opposite = key_of(literal.complement) in evidence.holds
+    key = key_of(literal)
+    if key in evidence.believed:
+        opposed = opposite(key) in evidence.believed
+        sides = (literal, literal.complement)
         return Node(
             literal=str(literal),
-            text=f"{evidence.say(literal)}, and also not" if opposite else evidence.say(literal),
-            basis=Basis.CONFLICT if opposite else Basis.FACT,
-            children=tuple(
-                node
-                for side in (literal, literal.complement)
-                if (node := justify(evidence, side)) is not None
-            ),
+            text=f"{evidence.say(literal)}, and also not" if opposed else evidence.say(literal),
+            basis=Basis.CONFLICT if opposed else Basis.FACT,
+            children=tuple(node for side in sides if (node := justify(evidence, side)) is not None),
         )
-    tried = _failures(evidence, literal, depth)
+    each = (evidence, *evidence.others)
+    nodes = [
+        belief_node(own, key) if key in own.holds else _refused(own, literal, ()) for own in each
+    ]
+    cases = once(nodes)
+    if len(cases) == 1:
+        return cases[0]
+    may_be = ": it may be so or not" if any(node.holds for node in cases) else ""
+    return Node(
+        literal=str(literal),
+        text=f"it does not follow that {evidence.say(literal)}{may_be}",
+        basis=Basis.CASES,
+        holds=False,
+        children=either_or(cases),
+    )
+
+
+def _refused(evidence: Evidence, literal: Literal, above: tuple[str, ...]) -> Node:
+    """Why a literal is not in an answer set; ``above`` are the literals that it was needed for."""
+    tried = _failures(evidence, literal, (*above, key_of(literal)))
     children = [node for _, node in sorted(tried, key=lambda pair: pair[0])]
     return Node(
         literal=str(literal),
@@ -110,7 +136,7 @@ def _heads(axioms: Sequence[Axiom]) -> dict[tuple[str, bool], list[_Head]]:
 
 
 def _failures(
-    evidence: Evidence, literal: Literal, depth: int
+    evidence: Evidence, literal: Literal, above: tuple[str, ...]
 ) -> list[tuple[tuple[int, int], Node]]:
     """One node per axiom that could conclude the literal, with how far it is from it."""
     candidates = _candidates(evidence, literal)
@@ -124,17 +150,17 @@ def _failures(
         failed = 0
         for number, condition in enumerate(axiom.body):
             if number in held_conditions:
-                node = condition_node(evidence, condition, binding, frozenset())
+                node = condition_node(evidence, condition, binding)
             else:
                 failed += 1
-                node = _failed_condition(evidence, condition, axiom, binding, depth)
+                node = _failed_condition(evidence, condition, axiom, binding, above)
             if node is not None:
                 children.append(node)
         if axiom.kind is AxiomKind.DEFAULT and failed == 0:
             failed = 1
-            against = justify(evidence, literal.complement)
-            if against is not None:
-                children.append(against)
+            against = key_of(literal.complement)
+            if against in evidence.holds:
+                children.append(belief_node(evidence, against))
         node = Node(
             literal=str(literal),
             text=evidence.say(literal),
@@ -266,63 +292,27 @@ def _ranges(evidence: Evidence, axiom: Axiom, bound: dict[str, str]) -> list[str
 
 
 def _failed_condition(
-    evidence: Evidence, condition: Condition, axiom: Axiom, binding: dict[str, str], depth: int
-) -> Node | None:
-    if condition.literal is None:
-        text = substitute(condition.text, binding)
-        shared = set(variables_in(condition.text))
-        for other in axiom.body:
-            if (
-                other.literal is not None
-                and not other.absent
-                and shared & set(variables_in(other.text))
-                and (seen := evidence.seen(other.literal.substitute(binding))) is not None
-            ):
-                return Node(
-                    literal=text,
-                    text=f"{seen.text}, and not {text}",
-                    basis=Basis.COMPARISON,
-                    holds=False,
-                    feature=seen.feature,
-                    value=seen.value,
-                )
-        return Node(literal=text, text=text, basis=Basis.COMPARISON, holds=False)
-    literal = condition.literal.substitute(binding)
-    if condition.absent:
-        matching = evidence.matching(literal)
-        believed = belief_node(evidence, literal_of(matching[0]), frozenset()) if matching else None
-        return Node(
-            literal=f"not {literal}",
-            text=believed.text if believed else evidence.say(literal),
-            basis=believed.basis if believed else Basis.ABSENCE,
-            holds=False,
-            axiom=believed.axiom if believed else None,
-            feature=believed.feature if believed else None,
-            value=believed.value if believed else None,
-            children=believed.children if believed else (),
-        )
-    feature = evidence.schema.feature_of(literal)
-    if feature is not None:
-        value = evidence.vector[feature]
-        if value is None:
-            return Node(
-                literal=str(literal),
-                text=f"it is not known whether {evidence.say(literal)}",
-                basis=Basis.FEATURE,
-                holds=False,
-                feature=feature,
-            )
-        return Node(
-            literal=str(literal),
-            text=evidence.say(evidence.schema.features[feature][value]),
-            basis=Basis.FEATURE,
-            holds=False,
-            feature=feature,
-            value=value,
-        )
-    if depth >= _NESTING or any(terms_of(a) != {term_of(a)} or a == "_" for a in literal.arguments):
-        return Node(str(literal), evidence.say(literal), Basis.UNFOUNDED, holds=False)
-    return refuse(evidence, literal, depth=depth + 1)
+    evidence: Evidence,
+    condition: Condition,
+    axiom: Axiom,
+    binding: dict[str, str],
+    above: tuple[str, ...],
+) -> Node:
+    asked = evidence.reasoner.possible.asked_by(condition, binding)
+    if asked is None:
+        return failed_comparison(evidence, condition, axiom.body, binding)
+    need, _ = evidence.comes_to(asked)
+    if not isinstance(need, Belief):
+        return need_node(evidence, need, condition)
+    if need.holds:
+        return failed_by(evidence, need, belief_node(evidence, need.key))
+    literal = literal_of(need.key)
+    nothing = Node(f"not {literal}", "", Basis.ABSENCE)
+    if evidence.schema.feature_of(literal) is not None:
+        return failed_by(evidence, need, nothing)
+    if need.key in above or len(above) > _NESTING:
+        return failed_by(evidence, need, nothing)
+    return _refused(evidence, literal, above)
 
 
 def _distance(

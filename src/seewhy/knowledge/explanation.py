@@ -1,0 +1,331 @@
+"""The trees of one answer set: what a belief, an absence or a condition rests on.
+
+No belief stands below itself. An absence stands below itself only through other absences: nothing
+concludes any of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+
+from seewhy.knowledge.axiom import AxiomKind, Condition, Literal
+from seewhy.knowledge.condition_nodes import (
+    axiom_failed,
+    decided_by,
+    failed,
+    joint_node,
+    once,
+    plain_node,
+)
+from seewhy.knowledge.evidence import Evidence
+from seewhy.knowledge.foundation import Foundation, Need, opposite
+from seewhy.knowledge.ground import literal_of
+from seewhy.knowledge.justification import Basis, Node
+from seewhy.knowledge.possible import Belief, Instance
+
+_MOST_AXIOMS = 16
+"""Of more instances that all fail, so many are told, and those that name further features."""
+
+_TOLD_AGAIN = 24
+"""A tree of more nodes is told in full once, and after that by the features that it names."""
+
+_NOTHING: frozenset[Belief] = frozenset()
+
+
+def belief_node(evidence: Evidence, key: str) -> Node:
+    """Return the justification of what is believed in an answer set."""
+    return _Explanation(evidence, Belief(key)).belief(key, _NOTHING)
+
+
+def absence_node(evidence: Evidence, key: str) -> Node:
+    """Return the justification of what is not believed in an answer set."""
+    return _Explanation(evidence, Belief(key, holds=False)).absence(key, _NOTHING, _NOTHING)
+
+
+def need_node(evidence: Evidence, need: Need, condition: Condition | None) -> Node:
+    """Return the node of what a condition comes to, by itself.
+
+    Where the condition fails, the node says what is in the way.
+    """
+    if isinstance(need, Belief):
+        return belief_node(evidence, need.key) if need.holds else absence_node(evidence, need.key)
+    joint, holds = need
+    known = {key: key in evidence.holds for key in sorted(joint.keys, key=evidence.worth)}
+    settled = joint.settled_by(known, holds) or {}
+    children = [need_node(evidence, Belief(*pair), None) for pair in settled.items()]
+    return joint_node(evidence, condition, need, children)
+
+
+def condition_node(
+    evidence: Evidence, condition: Condition, binding: Mapping[str, str]
+) -> Node | None:
+    """Return the node of a condition that holds, by itself; None for a sort."""
+    asked = evidence.reasoner.possible.asked_by(condition, binding)
+    if asked is None:
+        return plain_node(condition, binding)
+    need, _ = evidence.comes_to(asked)
+    return need_node(evidence, need, condition)
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where a node stands.
+
+    ``above`` are the beliefs and absences that it may not rest on. ``chain`` are the absences
+    directly above an absence: it may wait for what is in ``waits``, and they may be in it.
+    """
+
+    above: frozenset[Belief]
+    chain: frozenset[Belief] = _NOTHING
+    waits: frozenset[Belief] = _NOTHING
+
+    @property
+    def apart(self) -> frozenset[Belief]:
+        """What something may not rest on that is to be founded apart from the chain."""
+        return self.above | self.chain
+
+
+class _Explanation:
+    """Builds the trees of what one foundation founds."""
+
+    def __init__(self, evidence: Evidence, root: Belief) -> None:
+        self.evidence = evidence
+        self.foundation: Foundation = evidence.foundation(root)
+        self._built: dict[tuple[Belief, frozenset[Belief], frozenset[Belief]], Node] = {}
+
+    def belief(self, key: str, above: frozenset[Belief]) -> Node:
+        own = Belief(key)
+        place = (own, self.foundation.relevant(above), _NOTHING)
+        if place in self._built:
+            return self._again(self._built[place])
+        self._built[place] = self._belief(key, above | {own})
+        return self._built[place]
+
+    def _belief(self, key: str, without: frozenset[Belief]) -> Node:
+        evidence = self.evidence
+        literal = literal_of(key)
+        seen = evidence.seen(literal)
+        nodes: list[Node] = [] if seen is None else [seen]
+        founded = self.foundation.stages(without)
+        nodes += [
+            self._support(instance, _Place(without))
+            for instance in evidence.firing(key)
+            if all(
+                self.foundation.is_founded(need, founded) for _, need, _ in evidence.needs(instance)
+            )
+        ]
+        nodes += [
+            self._exception(instance, literal, _Place(without))
+            for instance in evidence.exceptions(key)
+        ]
+        if len(nodes) == 1:
+            return nodes[0]
+        return Node(
+            literal=str(literal),
+            text=evidence.say(literal),
+            basis=Basis.REASONS if nodes else Basis.FACT,
+            children=tuple(nodes),
+        )
+
+    def _support(self, instance: Instance, place: _Place) -> Node:
+        """The node of an axiom that concludes a belief."""
+        axiom = instance.axiom
+        literal = axiom.head.substitute(instance.binding)
+        children = self._conditions(instance, place)
+        is_default = axiom.kind is AxiomKind.DEFAULT
+        if is_default:
+            _, need, _ = self.evidence.needs(instance)[-1]
+            node = self._need(need, None, place)
+            # That nothing at all concludes the opposite goes without saying.
+            if node.children or node.feature or node.basis is not Basis.ABSENCE:
+                children.append(node)
+        return Node(
+            literal=str(literal),
+            text=self.evidence.say(literal),
+            basis=Basis.DEFAULT if is_default else Basis.AXIOM,
+            axiom=axiom,
+            children=tuple(children),
+        )
+
+    def _conditions(self, instance: Instance, place: _Place) -> list[Node]:
+        """The nodes of the conditions of an instance, which hold."""
+        needs = {number: need for number, need, _ in self.evidence.needs(instance)}
+        children: list[Node] = []
+        for number, condition in enumerate(instance.axiom.body):
+            if number in needs:
+                children.append(self._need(needs[number], condition, place))
+            elif (node := plain_node(condition, instance.binding)) is not None:
+                children.append(node)
+        return children
+
+    def _exception(self, instance: Instance, literal: Literal, place: _Place) -> Node:
+        """The node of a default that was given up."""
+        conditions = self._conditions(instance, place)
+        return Node(
+            literal=str(literal),
+            text=f"{self.evidence.say(literal)}: an exception, without which the beliefs "
+            "would contradict each other",
+            basis=Basis.EXCEPTION,
+            axiom=instance.axiom,
+            children=(*conditions, *conflicting(self.evidence, instance)),
+        )
+
+    def _need(self, need: Need, condition: Condition | None, place: _Place) -> Node:
+        """The node of what is founded: apart from the chain where it is, else waiting."""
+        apart = self.foundation.stages(place.apart)
+        if isinstance(need, Belief):
+            if need in place.waits and need not in apart:
+                return self.absence(need.key, place.above, place.chain)
+            if need not in apart:
+                return self._bare(need)
+            if need.holds:
+                return self.belief(need.key, place.apart)
+            return self.absence(need.key, place.apart, _NOTHING)
+        joint, holds = need
+        founded = apart if self.foundation.is_founded(need, apart) else {*apart, *place.waits}
+        settled = joint.settled_by(self.foundation.known(joint, founded), holds) or {}
+        children = [self._need(Belief(*pair), None, place) for pair in settled.items()]
+        return joint_node(self.evidence, condition, need, children)
+
+    def _bare(self, need: Belief) -> Node:
+        """The node of what is so, and is not founded."""
+        literal = literal_of(need.key)
+        said = self.evidence.say(literal)
+        if need.holds:
+            return Node(str(literal), said, Basis.FACT)
+        return Node(f"not {literal}", f"nothing says that {said}", Basis.ABSENCE)
+
+    def absence(self, key: str, above: frozenset[Belief], chain: frozenset[Belief]) -> Node:
+        own = Belief(key, holds=False)
+        place = (own, self.foundation.relevant(above), chain)
+        if place in self._built:
+            return self._again(self._built[place])
+        self._built[place] = self._absence(own, above, chain)
+        return self._built[place]
+
+    def _again(self, node: Node) -> Node:
+        """A node that was told before."""
+        if sum(1 for _ in islice(node.walk(), _TOLD_AGAIN + 1)) <= _TOLD_AGAIN:
+            return node
+        leaves = tuple(map(self.evidence.feature_node, node.features()))
+        return replace(node, basis=Basis.TOLD_BEFORE, children=leaves)
+
+    def _absence(self, own: Belief, above: frozenset[Belief], chain: frozenset[Belief]) -> Node:
+        evidence, foundation = self.evidence, self.foundation
+        literal, against = literal_of(own.key), opposite(own.key)
+        seen = evidence.seen(literal_of(against))
+        if seen is not None:
+            return replace(seen, literal=f"not {literal}")
+        text = f"nothing says that {evidence.say(literal)}"
+        feature = evidence.schema.feature_of(literal)
+        if own in foundation.assumed:
+            said = text if own == foundation.root else f"supposing that {text}"
+            return Node(f"not {literal}", said, Basis.ASSUMED, feature=feature)
+        apart = foundation.stages(above | chain | {own})
+        if Belief(against) in apart:
+            return replace(self.belief(against, above | chain | {own}), literal=f"not {literal}")
+        together = foundation.stages(above)
+        children: Sequence[Node] = ()
+        if own in together and own not in chain:
+            waits = frozenset(
+                other
+                for other, stage in together.items()
+                if not other.holds and stage <= together[own]
+            )
+            children = tuple(self._failing(own.key, _Place(above, chain | {own}, waits)))
+        return Node(
+            f"not {literal}", text, Basis.ABSENCE, feature=feature, children=tuple(children)
+        )
+
+    def _failing(self, key: str, place: _Place) -> Iterator[Node]:
+        """A node for every axiom that could conclude a literal; its children are ways it fails."""
+        founded = {*self.foundation.stages(place.apart), *place.waits}
+        groups: dict[frozenset[object], tuple[Instance, list[tuple[int, Need]]]] = {}
+        for instance in self.evidence.concluding(key):
+            ways = [
+                (number, need)
+                for number, need, holds in self.evidence.needs(instance)
+                if not holds and self.foundation.is_founded(need, founded)
+            ]
+            decided = (decided_by(self.evidence, need) for _, need in ways)
+            groups.setdefault(frozenset((instance.axiom.identifier, *decided)), (instance, ways))
+        told: set[str] = set()
+        named: set[str] = set()
+        for number, (instance, ways) in enumerate(_fewest(groups)):
+            node = self._failing_axiom(instance, ways, place)
+            features = set(node.features())
+            if node.to_text() not in told and (number < _MOST_AXIOMS or not features <= named):
+                told.add(node.to_text())
+                named |= features
+                yield node
+
+    def _failing_axiom(
+        self, instance: Instance, ways: Sequence[tuple[int, Need]], place: _Place
+    ) -> Node:
+        children: list[Node] = []
+        body = instance.axiom.body
+        for number, need in ways:
+            condition = body[number] if number < len(body) else None
+            node = self._need(need, condition, place)
+            if isinstance(need, Belief):
+                node = failed(self.evidence, need, node)
+            children.append(node)
+        return axiom_failed(self.evidence, instance, once(children))
+
+
+def _fewest(
+    groups: Mapping[frozenset[object], tuple[Instance, list[tuple[int, Need]]]],
+) -> list[tuple[Instance, list[tuple[int, Need]]]]:
+    """Leave out the instances that fail wherever another fails: what decides that one is enough."""
+    kept: list[frozenset[object]] = []
+    for group in sorted(groups, key=len):
+        if not any(fewer <= group for fewer in kept[: 4 * _MOST_AXIOMS]):
+            kept.append(group)
+    chosen = set(kept)
+    return [found for group, found in groups.items() if group in chosen]
+
+
+def conflicting(evidence: Evidence, exception: Instance) -> tuple[Node, ...]:
+    """Return what would be believed both ways if a default were not given up.
+
+    Both sides of the contradiction that is told in the fewest words; those that rest on the
+    default are marked as what would be believed otherwise.
+    """
+    beliefs = evidence.reasoner.contradictory_beliefs(evidence.scene)
+    if beliefs is None or not beliefs.conflict or evidence.answer_set.conflict:
+        return ()
+    without = Evidence(evidence.reasoner, evidence.scene, beliefs, evidence.say)
+    sides = [
+        tuple(belief_node(without, own) for own in (key, opposite(key)))
+        for key in sorted(without.holds)
+        if not key.startswith("-") and opposite(key) in without.holds
+    ]
+    about = [both for both in sides if any(_uses(node, exception) for node in both)]
+    if not about:
+        return ()
+    first, second = min(about, key=lambda both: sum(1 for own in both for _ in own.walk()))
+    told = sorted((first, second), key=lambda node: _uses(node, exception))
+    return tuple(_otherwise(node, exception) for node in told)
+
+
+def _uses(node: Node, exception: Instance) -> bool:
+    return any(own.axiom is exception.axiom and own.holds for own in node.walk())
+
+
+def _otherwise(node: Node, exception: Instance) -> Node:
+    """Mark what rests on a default that is given up; the default itself is left out."""
+    if not _uses(node, exception):
+        return node
+    return replace(
+        node,
+        text=f"otherwise {node.text}",
+        basis=Basis.OTHERWISE,
+        holds=False,
+        children=tuple(
+            _otherwise(child, exception)
+            for child in node.children
+            if child.axiom is not exception.axiom
+        ),
+    )

@@ -1,0 +1,240 @@
+"""What beliefs and absences rest on without circles: the well-founded part of an answer set.
+
+A belief is founded where an axiom fires whose conditions are founded; an absence is founded where
+the opposite is, or where every axiom that could conclude it fails by something founded. Absences
+that only wait for each other are founded together: they are an unfounded set (Van Gelder, Ross and
+Schlipf, "The well-founded semantics for general logic programs", JACM 1991). What is left is
+settled by no fact: an answer set chooses it, and absences have to be assumed (the assumptions of
+off-line justifications: Pontelli, Son and Elkhatib, "Justifications for logic programs under answer
+set semantics", TPLP 2009).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from functools import cached_property
+from typing import Protocol
+
+from seewhy.knowledge.possible import Belief, Instance
+from seewhy.knowledge.settling import JointCondition
+
+_TRIED = 32
+"""Of more assumptions, no more are tried to be left out."""
+
+Need = Belief | tuple[JointCondition, bool]
+"""What has to be founded: a belief or an absence, or that a condition holds or does not."""
+
+
+class Beliefs(Protocol):
+    """An answer set, as foundations look at it."""
+
+    @property
+    def holds(self) -> Collection[str]:
+        """The keys of what is believed."""
+
+    def is_given(self, key: str) -> bool:
+        """Whether something is believed without an axiom: it is seen, or an exception."""
+
+    def firing(self, key: str) -> list[Instance]:
+        """The instances that conclude a belief."""
+
+    def exceptions(self, key: str) -> list[Instance]:
+        """The instances of defaults that were given up so that something is believed."""
+
+    def concluding(self, key: str) -> list[Instance]:
+        """The instances that could conclude a literal."""
+
+    def worth(self, key: str) -> int:
+        """How readily a literal is told, believed or not, where others would do as well."""
+
+    def needs(self, instance: Instance) -> list[tuple[int, Need, bool]]:
+        """What each condition comes to: its place, what has to be founded, whether it holds."""
+
+
+def opposite(key: str) -> str:
+    """Return the key of a literal with the other sign.
+
+    Examples
+    --------
+    >>> opposite("lean(structure)"), opposite("-lean(structure)")
+    ('-lean(structure)', 'lean(structure)')
+    """
+    return key[1:] if key.startswith("-") else f"-{key}"
+
+
+class Foundation:
+    """What is founded of all that a belief, or an absence, may rest on.
+
+    Parameters
+    ----------
+    beliefs : Beliefs
+    root : Belief
+        What is to be explained.
+
+    Attributes
+    ----------
+    assumed : frozenset of Belief
+        The absences that have to be assumed so that the root is founded; none can be left out.
+    """
+
+    def __init__(self, beliefs: Beliefs, root: Belief) -> None:
+        self.beliefs = beliefs
+        self.root = root
+        self.assumed: frozenset[Belief] = frozenset()
+        self._stages: dict[frozenset[Belief], dict[Belief, int]] = {}
+        if root not in self.stages(frozenset()):
+            self.assumed = self._assumptions()
+
+    def stages(self, without: frozenset[Belief]) -> Mapping[Belief, int]:
+        """Return what is founded without some beliefs and absences, each with its stage.
+
+        What has a stage rests on what has a lower one, or, with absences, on absences of the
+        same.
+        """
+        relevant = self.relevant(without)
+        if relevant not in self._stages:
+            self._stages[relevant] = self._founded(relevant, self.assumed)
+        return self._stages[relevant]
+
+    def relevant(self, beliefs: frozenset[Belief]) -> frozenset[Belief]:
+        """Those without which something else may not be founded that is founded with them."""
+        return beliefs & self._in_circles
+
+    def is_founded(self, need: Need, founded: Collection[Belief]) -> bool:
+        """Whether something follows from what is founded."""
+        if isinstance(need, Belief):
+            return need in founded
+        condition, holds = need
+        return condition.settled_by(self.known(condition, founded), holds) is not None
+
+    def known(self, condition: JointCondition, founded: Collection[Belief]) -> dict[str, bool]:
+        """What is founded of a condition's literals; what had best be left out stands first."""
+        holds = self.beliefs.holds
+        known = {
+            key: key in holds for key in condition.keys if Belief(key, key in holds) in founded
+        }
+        return dict(sorted(known.items(), key=lambda item: self.beliefs.worth(item[0])))
+
+    def _founded(self, without: frozenset[Belief], assumed: frozenset[Belief]) -> dict[Belief, int]:
+        founded = dict.fromkeys(assumed - without, 0)
+        believed = [own for own in self._cone if own.holds and own not in without]
+        absent = [own for own in self._cone if not own.holds and own not in without]
+        stage = 0
+        while True:
+            before = len(founded)
+            while new := [
+                own for own in believed if own not in founded and self._has_support(own, founded)
+            ]:
+                stage += 1
+                founded.update(dict.fromkeys(new, stage))
+            together = {own for own in absent if own not in founded}
+            while bare := {own for own in together if not self._fails(own, founded, together)}:
+                together -= bare
+            stage += 1
+            founded.update(dict.fromkeys((own for own in absent if own in together), stage))
+            if len(founded) == before:
+                return founded
+
+    def _has_support(self, belief: Belief, founded: Collection[Belief]) -> bool:
+        return self.beliefs.is_given(belief.key) or any(
+            all(self.is_founded(need, founded) for _, need, _ in self.beliefs.needs(instance))
+            for instance in self.beliefs.firing(belief.key)
+        )
+
+    def _fails(self, absence: Belief, founded: dict[Belief, int], together: set[Belief]) -> bool:
+        if Belief(opposite(absence.key)) in founded:
+            return True
+        either = _Either(founded, together)
+        return all(
+            any(
+                self.is_founded(need, either)
+                for _, need, holds in self.beliefs.needs(instance)
+                if not holds
+            )
+            for instance in self.beliefs.concluding(absence.key)
+        )
+
+    @cached_property
+    def _cone(self) -> dict[Belief, tuple[Belief, ...]]:
+        """All that the root may rest on, with what each of it may rest on next."""
+        cone: dict[Belief, tuple[Belief, ...]] = {}
+        waiting = [self.root]
+        while waiting:
+            belief = waiting.pop()
+            if belief not in cone:
+                cone[belief] = tuple(dict.fromkeys(self._next(belief)))
+                waiting += reversed(cone[belief])
+        return cone
+
+    def _next(self, belief: Belief) -> Iterator[Belief]:
+        if belief.holds:
+            instances = [*self.beliefs.firing(belief.key), *self.beliefs.exceptions(belief.key)]
+        else:
+            against = opposite(belief.key)
+            if against in self.beliefs.holds:
+                yield Belief(against)
+                if self.beliefs.is_given(against):
+                    return
+            instances = self.beliefs.concluding(belief.key)
+        for instance in instances:
+            for _, need, holds in self.beliefs.needs(instance):
+                if holds is not belief.holds:
+                    continue
+                if isinstance(need, Belief):
+                    yield need
+                else:
+                    for key in need[0].keys:
+                        yield Belief(key, key in self.beliefs.holds)
+
+    @cached_property
+    def _in_circles(self) -> frozenset[Belief]:
+        """What rests on a circle and is rested on by one; all circles are in it."""
+        forward = {own: set(rests_on) for own, rests_on in self._cone.items()}
+        backward: dict[Belief, set[Belief]] = {own: set() for own in forward}
+        for own, rests_on in forward.items():
+            for other in rests_on:
+                backward[other].add(own)
+        return frozenset(_peeled(forward, backward) & _peeled(backward, forward))
+
+    def _assumptions(self) -> frozenset[Belief]:
+        founded = self._founded(frozenset(), frozenset())
+        assumed = [own for own in self._cone if not own.holds and own not in founded]
+        if self.root not in self._founded(frozenset(), frozenset(assumed)):
+            return frozenset()
+        for absence in assumed[:_TRIED]:
+            fewer = [own for own in assumed if own != absence]
+            if self.root in self._founded(frozenset(), frozenset(fewer)):
+                assumed = fewer
+        self._stages.clear()
+        return frozenset(assumed)
+
+
+class _Either(Collection[Belief]):
+    """The members of two collections."""
+
+    def __init__(self, first: Collection[Belief], second: Collection[Belief]) -> None:
+        self.first, self.second = first, second
+
+    def __contains__(self, own: object) -> bool:
+        return own in self.first or own in self.second
+
+    def __iter__(self) -> Iterator[Belief]:
+        yield from self.first
+        yield from self.second
+
+    def __len__(self) -> int:
+        return len(self.first) + len(self.second)
+
+
+def _peeled(
+    graph: Mapping[Belief, set[Belief]], reversed_graph: Mapping[Belief, set[Belief]]
+) -> set[Belief]:
+    """What is left of a graph when what leads nowhere is taken away again and again."""
+    left = {own: len(leads_to) for own, leads_to in graph.items()}
+    ends = [own for own, count in left.items() if not count]
+    for own in ends:
+        for other in reversed_graph[own]:
+            left[other] -= 1
+            if not left[other]:
+                ends.append(other)
+    return set(graph) - set(ends)
