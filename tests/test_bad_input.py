@@ -78,7 +78,7 @@ BAD = {
     "a letter",
     "new tile.png/domain": "tile.png: File exists; check the path, its rights and the disk",
     "data make tiles --out out --count 3": "the domain 'tiles' has no source of pictures; put "
-    "your own pictures beside a scenes.csv, or name a module with a function draw as 'source' in "
+    "your own pictures beside a scenes.csv, or name a file with a function draw as 'source' in "
     "tiles/domain.toml",
     "data make structure_stability --out out --count 0": "invalid value for '--count': Input "
     "should be greater than or equal to 1; 'seewhy data make --help' says what there is",

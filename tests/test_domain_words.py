@@ -100,11 +100,13 @@ def test_knowledge_without_any_answer_set(folder: Path) -> None:
     path = folder / "knowledge.al"
     text = path.read_text().replace("#static stable", "#static odd(structure).\n#static stable", 1)
     path.write_text(f"{text}\nodd(S) if structure(S), not odd(S).\n")
+    line = len(path.read_text().splitlines())
     with pytest.raises(SeeWhyError) as problem:
         check_domain(load_domain(folder))
     assert str(problem.value) == (
-        f"{folder}/knowledge.al: no picture has an answer set: some axiom needs, through 'not', "
-        "that its own conclusion is not believed; look for 'p if not p'"
+        f"{folder}/knowledge.al:{line}:1: 'odd(S) if structure(S), not odd(S).' (line {line}) "
+        "needs, through 'not', that its own conclusion is not believed, so that no picture has an "
+        "answer set"
     )
 
 

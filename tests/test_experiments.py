@@ -301,15 +301,19 @@ def test_pictures_are_drawn_where_none_are_given(
     small = replace(experiment("reading"), quick={"": plan})
     monkeypatch.setattr("seewhy.experiments.running.experiment", lambda _: small)
     command = ("experiment", "reading", "--domain", folder, "--out", out, "--quick", "--jobs", 1)
+    runs_code = (
+        f"{folder / 'pictures.py'} is a program, which now runs with your rights; run only those "
+        "of people whom you trust\n"
+    )
     result = run(*command)
-    assert (result.code, result.err) == (0, "")
+    assert (result.code, result.err) == (0, runs_code)
     assert len(list((out / "pictures" / "images").glob("*.png"))) == 40
     assert [row["tested"] for row in rows_of(out / "reading")] == ["20"] * 4
     # Networks that drawings taught go on from there; the tree knows the drawings, too.
     more = tmp_path / "more"
     before = ("experiment", "reading", "--domain", folder, "--data", out / "pictures")
     result = run(*before, "--out", more, "--quick", "--jobs", 1, "--drawn", 10)
-    assert (result.code, result.err) == (0, "")
+    assert (result.code, result.err) == (0, runs_code)
     assert (more / "drawn-10" / "class" / "perception.safetensors").is_file()
     assert (more / "networks" / "10-12-0.npz").is_file()
     assert [row["tested"] for row in rows_of(more / "reading")] == ["20"] * 4

@@ -344,7 +344,7 @@ def test_a_source_that_cannot_depict_is_named(tmp_path: Path, model: Path) -> No
         (
             (
                 PICTURES.replace("def depict", "def show"),
-                r"have a function depict\(features, seed=",
+                r"has a function depict\(features, seed=",
             ),
             (PICTURES.replace("ground = 200", "ground = 1 // 0"), "fails at depict.*ZeroDivision"),
         )

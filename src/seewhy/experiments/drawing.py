@@ -67,7 +67,7 @@ def pool_of(
             "with --out"
         )
     while not finished:
-        with locked(pool / TABLE) as finished:
+        with locked(pool) as finished:  # its table is locked by what draws
             if not finished:
                 time.sleep(1.0)  # another process draws them
                 continue

@@ -10,7 +10,7 @@ from seewhy.data.importers.annotation import AnnotatedPicture, Box, Notes
 from seewhy.data.importers.class_features import ClassFeatures
 from seewhy.data.importers.names import distinct_names
 from seewhy.data.importers.yes_or_no import yes_or_no
-from seewhy.domain_tables import RESERVED, TOGETHER
+from seewhy.domain_tables import RESERVED, SCENE, TOGETHER
 
 THING_COLUMNS = ("image", "thing", "left", "top", "right", "bottom", "kind")
 MOST_VALUES = 100
@@ -104,7 +104,8 @@ def vocabulary_of(
     _note_merged(names, "classes", notes)
     return Vocabulary(
         classes=names,
-        features=_features(said, (*RESERVED, TOGETHER), notes),
+        # A feature that was called like a class would make both ambiguous.
+        features=_features(said, (*RESERVED, TOGETHER, SCENE, *names.values()), notes),
         kinds=distinct_names(naturally({box.kind for box in boxes} - {""})),
         attributes=_features(of_boxes, THING_COLUMNS, notes),
     )
