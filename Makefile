@@ -22,7 +22,7 @@ demo: $(INSTALLED)
 	$(VENV)/bin/seewhy demo --domain $(DOMAIN) --out $(OUT)
 
 test: $(INSTALLED)
-	$(VENV)/bin/python -m pytest
+	$(VENV)/bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile
 
 lint: $(INSTALLED)
 	$(VENV)/bin/ruff check .
