@@ -48,19 +48,33 @@ say = "a fist"
 [classes.open]
 literal = "-fist(H)"
 say = "open"
+words = ["open", "a friendly greeting"]
+
+[beliefs.intent]
+name = "intention"
+say = "{it} wants to {value}"
+
+[beliefs.intent.values]
+greet = "greet"
+hit = "hit"
 """,
     "knowledge.al": """\
 #sort hand.
+#sort intention = {greet, hit}.
 #static thumb(hand).
 #static index_finger(hand).
 #static middle_finger(hand).
 #static fist(hand).
+#static intent(hand, intention).
 
 %% a hand of which every finger is folded is a fist
 fist(H) if -thumb(H), -index_finger(H), -middle_finger(H).
 
 %% a hand with a stretched middle finger is open
 -fist(H) if middle_finger(H).
+
+intent(H, hit) if fist(H).
+intent(H, greet) if -fist(H).
 """,
     "questions.toml": '[[question]]\nasks = "is_class"\npatterns = ["is {it} {class}"]\n',
 }
@@ -114,6 +128,11 @@ TOLD = {
     "describe it": "The structure has four blocks and a wide base, it is standing straight, and a "
     "block is displaced; the structure is unstable.",
     "can't you tell me is it stable?": "No, the structure is unstable.",
+    "how does it differ from a stable structure?": "The structure is stable when no block is "
+    "displaced; here a block is displaced.",
+    "what distinguishes it from an unstable tower?": "The structure is unstable.",
+    "which base is it showing?": "The structure has a wide base.",
+    "what is the tower's base?": "The structure has a wide base.",
     "what can make it stable?": "To make the structure stable, put the displaced block back in "
     "place.",
     "what could make it stable?": "To make the structure stable, put the displaced block back in "
@@ -145,6 +164,23 @@ def test_structures_are_told_of(structures_agent: Agent, question: str, answer: 
         ("is the thumb stretched?", "No, the thumb is folded."),
         ("which hand is folded?", None),
         ("why is the hand open?", "The middle finger is stretched."),
+        ("what is the hand's intention?", "The hand wants to greet."),
+        ("what is its intention?", "The hand wants to greet."),
+        ("which intention is it showing?", "The hand wants to greet."),
+        ("what does the hand's intention show?", None),
+        ("is the greeting friendly?", "Yes, the hand is open."),
+        ("why is that greeting friendly?", "The middle finger is stretched."),
+        ("is the thumb friendly?", None),
+        (
+            "how is it different from a fist?",
+            "The hand is a fist when the middle finger is folded; here the middle finger is "
+            "stretched.",
+        ),
+        (
+            "how does the hand differ from one that is a fist?",
+            "The hand is a fist when the middle finger is folded; here the middle finger is "
+            "stretched.",
+        ),
     ],
 )
 def test_a_folder_without_templates_is_told_of(

@@ -16,9 +16,9 @@ Value = tuple[str, str]
 """A feature and a value of it."""
 
 CATEGORIES = (
-    "noun", "class", "class_bare", "does_class", "adjective", "possession", "existing", "verb",
-    "word", "feature", "quality", "counted", "counts", "piece", "part", "every", "state",
-    "every_state", "change", "person", "group", "belief_act",
+    "noun", "class", "class_bare", "class_noun", "class_modifier", "does_class", "adjective",
+    "possession", "existing", "verb", "word", "feature", "quality", "counted", "counts", "piece",
+    "part", "every", "state", "every_state", "change", "person", "group", "belief", "belief_act",
 )  # fmt: skip
 """The phrases of the grammar that a domain's own words fill."""
 
@@ -78,6 +78,11 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
             found["class"].add(words, Binding("label", key))
             rest = words[: -len(subject)] if words[-len(subject) :] == subject else ()
             found["class_bare"].add(rest or words, Binding("label", key))
+            if len(rest or words) == 2 and words_of(word)[0] in ("a", "an"):
+                # Of "a slippery road" can be asked whether the road is slippery.
+                modifier, noun = rest or words
+                found["class_noun"].add((noun,), Binding("label", key))
+                found["class_modifier"].add((modifier,), Binding("label", key))
         for verb in scene_class.verbs:
             found["does_class"].add(normalise(verb), Binding("label", key))
     for feature in domain.features.values():
@@ -239,6 +244,8 @@ def _same_states(domain: Domain, first: str, other: str) -> bool:
 
 def _add_beliefs(domain: Domain, found: dict[str, Entries], normalise: Normalise) -> None:
     for key, belief in domain.beliefs.items():
+        for name in (belief.name, key.replace("_", " ")):
+            found["belief"].add(normalise(name), Binding("belief", key))
         for act in belief.acts:
             found["belief_act"].add(normalise(act), Binding("belief", key))
 

@@ -35,7 +35,7 @@ _STATEMENTS = (
     "supposed_more", "equipment", "unequipped", "other_one", "surely", "located", "group_state",
     "goal", "avoided", "one_value", "first_existing", "existing_too", "deny_one", "deny_other",
     "pair_rest", "lacking", "pair_two", "fragment_named", "possessed", "dispossessed",
-    "supposed_kind", "first_doing", "other_doing", "denied_too",
+    "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class",
 )  # fmt: skip
 
 
@@ -139,7 +139,7 @@ class Readings:
     def _said(self, bindings: tuple[Binding, ...]) -> tuple[_Said, ...] | None:
         """The one statement of a phrase; () where it states nothing, None where it is none."""
         facts = [own.meaning for own in bindings if own.role == "fact"]
-        labels = [own.meaning for own in bindings if own.role == "label"]
+        labels = list(dict.fromkeys(own.meaning for own in bindings if own.role == "label"))
         about = {own.meaning for own in bindings if own.role in ("feature", "about")}
         denied = sum(own.role == "denied" for own in bindings) % 2 == 1
         forward = any(own.role == "forward" for own in bindings)
@@ -249,6 +249,11 @@ class Readings:
                 return
             label = others[0]
         yield _question(Asks.CHANGE_TO_CLASS, label=label)
+
+    def difference(self, bindings: tuple[Binding, ...]) -> Iterator[Question]:
+        """What tells what is shown from a class."""
+        for own in _all_said(bindings)[:1]:
+            yield _question(Asks.DIFFERENCE_TO_CLASS, label=own.statement.label)
 
     def sure(self, bindings: tuple[Binding, ...]) -> Iterator[Question]:
         """How sure something is."""
@@ -425,6 +430,7 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
     (
         ("what_change", Readings.change),
         ("what_change_away", lambda r, b: r.change(b, away=True)),
+        ("difference", Readings.difference),
         ("contrast", Readings.contrast),
         ("why_not", lambda r, b: r.why(b, denied=True)),
         ("why", Readings.why),
@@ -443,7 +449,7 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
         ("either", lambda r, b: r.joined(b, Asks.EITHER)),
         ("neither", Readings.neither),
     ),
-    (("which_value", Readings.value),),
+    (("which_value", Readings.value), ("which_static", Readings.told)),
     (("describe", _plain(Asks.DESCRIBE)),),
 )
 """Phrases that are whole questions, and what they mean; an earlier rank is preferred."""

@@ -52,6 +52,9 @@ def say_question(domain: Domain, question: Question) -> str:
             return f"why do you not say that {_clause(domain, about)}"
         case Asks.CHANGE_TO_CLASS:
             return f"what would make {domain.subject} {domain.classes[question.label or ''].say}"
+        case Asks.DIFFERENCE_TO_CLASS:
+            other = domain.classes[question.label or ""].say
+            return f"how does {domain.subject} differ from one that is {other}"
         case Asks.FEATURE_VALUE:
             return f"what is the {domain.features[question.feature or ''].name}"
         case Asks.BELIEF_VALUE:

@@ -95,8 +95,10 @@ def embedded(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
     --------
     >>> list(embedded(("what", "colour", "is", "it")))
     [('what', 'colour', 'is', 'it'), ('what', 'colour', 'it', 'is')]
-    >>> list(embedded(("what", "is", "colour", "of", "it")))[1]
-    ('colour', 'of', 'it')
+    >>> list(embedded(("what", "is", "colour", "of", "it")))[1:]
+    [('what', 'is', 'it', 'colour'), ('it', 'colour'), ('colour', 'of', 'it')]
+    >>> list(embedded(("what", "colour", "doe", "it", "have")))[2:]
+    [('what', 'colour', 'is', 'it', 'have'), ('what', 'colour', 'has', 'it')]
     """
     words = as_what(words)
     yield words
@@ -109,6 +111,16 @@ def embedded(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
         if words[position : position + 2] == ("doe", "it"):
             said = ("has" if word == "have" else word for word in words[position + 2 :])
             yield (*words[:position], "it", *said)
+            # "What is it showing?", "what colour has it?"
+            yield (*words[:position], "is", "it", *words[position + 2 :])
+            if words[position + 2 :] == ("have",):
+                yield (*words[:position], "has", "it")
+    if "is" in words and words[-2:] == ("of", "it"):
+        # "What is the sign's colour?", "what is its colour?": both are "it colour" in these words.
+        position = words.index("is") + 1
+        yield (*words[:position], "it", *words[position:-2])
+        if words[:2] == ("what", "is"):
+            yield ("it", *words[2:-2])
     if words[:2] == ("what", "is") and "of" in words[3:]:
         yield words[2:]
 
