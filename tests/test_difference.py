@@ -22,6 +22,13 @@ def signs(tmp_path_factory: pytest.TempPathFactory) -> Agent:
     return trained_signs(tmp_path_factory.getbasetemp())
 
 
+TREE_SAYS = (
+    "The decision tree says: of the signs that no rule decides, if the sign shows the symbol "
+    "symbol 0, then it is a no entry (1 of 7 features tested, 100 % of 10 signs)"
+)
+"""Of the sign that no axiom concludes."""
+
+
 def ask(agent: Agent, vector: tuple[str | None, ...], question: str) -> Reply:
     return agent.answer(seen(agent, *vector), agent.questions.understand(question))
 
@@ -51,13 +58,48 @@ def differs(label: str) -> Question:
         (
             "stop_sign",
             "how does it differ from a no entry?",
-            "Nothing that is known says when the sign is a no entry.",
+            f"Nothing that is known says when the sign is a no entry. {TREE_SAYS}.",
         ),
     ],
 )
 def test_the_difference_in_words(signs: Agent, sign: str, question: str, text: str) -> None:
     reply = ask(signs, FOUR[sign], question)
     assert (reply.text, reply.method) == (text, "knowledge")
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        (
+            "what would make it a no entry?",
+            f"Nothing that is known would make the sign a no entry. {TREE_SAYS}.",
+        ),
+        (
+            "why is it not a no entry?",
+            f"Nothing that is known concludes that the sign is a no entry. {TREE_SAYS}.",
+        ),
+        (
+            "why is it a stop sign rather than a no entry?",
+            "The sign is a stop sign, since it is octagon, and it shows the symbol stop and the "
+            "plate none; nothing that is known concludes a no entry; t" + TREE_SAYS[1:] + ".",
+        ),
+    ],
+)
+def test_of_a_class_that_only_the_tree_knows_the_tree_speaks(
+    signs: Agent, question: str, text: str
+) -> None:
+    reply = ask(signs, FOUR["stop_sign"], question)
+    assert (reply.text, reply.method) == (text, "knowledge")
+
+
+def test_what_the_tree_says_is_explained(signs: Agent) -> None:
+    reply = ask(signs, FOUR["stop_sign"], "what would make it a no entry?")
+    assert reply.justification.to_text().splitlines()[-1] == f"└─ t{TREE_SAYS[1:]}"
+    scene = seen(signs, *FOUR["stop_sign"])
+    explain = signs.questions.understand("explain")
+    assert signs.answer(scene, explain, previous=reply).text == (
+        f"You asked: what would make the sign a no entry? {TREE_SAYS}."
+    )
 
 
 @pytest.mark.parametrize(

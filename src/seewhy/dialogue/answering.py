@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from seewhy.dialogue.answer import AnswerType, word_answer, word_supposed
@@ -12,6 +12,7 @@ from seewhy.dialogue.narration import narrate
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.telling import Look, Told, tell
+from seewhy.dialogue.tree_says import tree_says
 from seewhy.dialogue.weighing import Weighing
 from seewhy.domain import Domain
 from seewhy.domain_tables import CLASS
@@ -20,7 +21,7 @@ from seewhy.induction.tree import DecisionTree, TreePath
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
-from seewhy.wording import say_literal
+from seewhy.wording import say_literal, sentence
 
 if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
@@ -81,6 +82,12 @@ class Answering:
             return self._told(scene, question, previous, look)
         spoken_of = self._spoken_of(scene, question)
         kind, justification = self._answer(spoken_of, question)
+        learned = self._tree_says(spoken_of, question, kind)
+        if learned is not None:
+            *others, last = (*justification.children, learned)
+            if justification.basis is Basis.TREE:  # why the tree was asked stays the last
+                others, last = [*others[:-1], last], others[-1]
+            justification = replace(justification, children=(*others, last))
         justification = spoken_of.read_in(justification)
         supposed = None if spoken_of is scene else spoken_of
         ground = least_sure(kind, spoken_of, justification, supposed=supposed is not None)
@@ -92,11 +99,22 @@ class Answering:
             label=spoken_of.label,
             probably=certainty_of(ground).adverb,
         )
+        if learned is not None:
+            text += f" {sentence(learned.text)}"
         if supposed is not None:
             text = word_supposed(
                 self.domain, question, text, label=scene.label or "", supposed=supposed.label or ""
             )
         return Reply(question, text, spoken_of.method, justification, kind, scene, supposed, ground)
+
+    def _tree_says(
+        self, scene: Classification, question: Question, kind: AnswerType
+    ) -> Node | None:
+        """What the tree says of a class, where nothing that is known concludes it."""
+        nothing = kind.form in _NOTHING_KNOWN or (kind.form == "against" and not kind.mentions)
+        if not nothing or question.label is None:
+            return None
+        return tree_says(self.domain, self.tree, scene.vector, question.label)
 
     def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
         """Answer many questions about classified scenes; the recurrent network runs once for all.
@@ -225,7 +243,6 @@ class Answering:
     ) -> Node:
         """The justification of a class that the tree gave and of an answer that was learned."""
         seen = tuple(self.reasoned.seen(scene.vector, c.feature) for c in path.conditions)
-        sentence = say_path(self.domain, path)
         literal = self.domain.classes[label].literal
         outweighs = scene.label == label != path.label and scene.class_seen is not None
         return Node(
@@ -233,7 +250,7 @@ class Answering:
             text=say_literal(self.domain, literal),
             basis=Basis.TREE,
             children=(
-                Node(str(literal), sentence, Basis.PATH, children=seen),
+                Node(str(literal), say_path(self.domain, path), Basis.PATH, children=seen),
                 *([self._witness(scene)] if outweighs else []),
                 *learned,
                 self._not_asked(scene)
@@ -323,6 +340,7 @@ def believed(scene: Classification, question: Question, *, trust: float) -> Clas
     return fitting[0] if fitting else scene
 
 
+_NOTHING_KNOWN = {"no_change", "no_difference"}
 _OF_UNKNOWN_PICTURES = {Asks.SIMILAR, Asks.HOW_SURE}
 _WEIGHED = {
     Asks.WHAT_IF, Asks.CONTRAST, Asks.WHICH_RULE, Asks.HOW_SURE, Asks.WHAT_TO_CHECK,
