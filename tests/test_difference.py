@@ -43,22 +43,24 @@ def differs(label: str) -> Question:
         (
             "uneven_road",
             "how does it differ from a stop sign?",
-            "A stop sign is octagon and mainly red, it has a white border, and it shows the symbol "
-            "stop; the sign is triangle and mainly white, it has a red border, and it shows the "
-            "symbol bumpy road.",
+            # All stop signs are mainly red, too, which no axiom asks.
+            "A stop sign is octagon, and it shows the symbol stop; the sign is triangle, and it "
+            "shows the symbol bumpy road.",
         ),
         (
             "stop_sign",
             "how is the sign unlike a give way",
-            "A give way is inverted triangle and mainly white, it has a red border, and it shows "
-            "the symbol blank; the sign is octagon and mainly red, it has a white border, and it "
-            "shows the symbol stop.",
+            "A give way is inverted triangle, and it shows the symbol blank; the sign is octagon, "
+            "and it shows the symbol stop.",
         ),
         ("stop_sign", "how does it differ from a stop sign?", "The sign is a stop sign."),
         (
             "stop_sign",
             "how does it differ from a no entry?",
-            f"Nothing that is known says when the sign is a no entry. {TREE_SAYS}.",
+            "Nothing that is known says when the sign is a no entry. All 10 signs of training that "
+            "are a no entry share this: the sign is circle, it has a red border, and it shows the "
+            "symbol symbol 0; here it is octagon, it has a white border, and it shows the symbol "
+            f"stop. {TREE_SAYS}.",
         ),
     ],
 )
@@ -198,8 +200,8 @@ def test_a_difference_is_learned_where_the_tree_decides(signs: Agent) -> None:
     reply = ask(signs, FOUR["no_entry"], "how does it differ from a stop sign?")
     assert reply.method == "tree"
     assert reply.text == (
-        "A stop sign is octagon, it has a white border, and it shows the symbol stop; the sign is "
-        "circle, it has a red border, and it shows the symbol symbol 0."
+        "A stop sign is octagon, and it shows the symbol stop; the sign is circle, and it shows "
+        "the symbol symbol 0."
     )
     gold = signs.reference.answer(reply.question, FOUR["no_entry"], "no_entry")
     assert reply.kind == gold

@@ -927,6 +927,7 @@ class Agent:
             self.reasoned,
             self.tree,
             self.answerer,
+            self.experience,
             gate=self.gate or 0.0,
             known_share=self.known_share,
             least_likeness=self.unknown_below or 0.0,

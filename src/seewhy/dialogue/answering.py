@@ -11,6 +11,8 @@ from seewhy.dialogue.certainty import certainty_of, least_sure, least_sure_told
 from seewhy.dialogue.narration import narrate
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
+from seewhy.dialogue.reference import Experience
+from seewhy.dialogue.shared_by_pictures import shared_by_pictures
 from seewhy.dialogue.telling import Look, Told, tell
 from seewhy.dialogue.tree_says import tree_says
 from seewhy.dialogue.weighing import Weighing
@@ -43,6 +45,8 @@ class Answering:
     tree : DecisionTree
     answerer : RecurrentAnswerer or None
         None where none was trained.
+    experience : mapping
+        The annotated feature vectors with their classes.
     gate, known_share, least_likeness : float
         What an answer says where a network was not sure enough, or a picture is not known; see
         :class:`seewhy.Agent`.
@@ -56,6 +60,7 @@ class Answering:
     reasoned: ReasonedAnswers
     tree: DecisionTree
     answerer: RecurrentAnswerer | None
+    experience: Experience
     gate: float = 0.0
     known_share: float = 1.0
     least_likeness: float = 0.0
@@ -82,12 +87,13 @@ class Answering:
             return self._told(scene, question, previous, look)
         spoken_of = self._spoken_of(scene, question)
         kind, justification = self._answer(spoken_of, question)
-        learned = self._tree_says(spoken_of, question, kind)
-        if learned is not None:
-            *others, last = (*justification.children, learned)
-            if justification.basis is Basis.TREE:  # why the tree was asked stays the last
-                others, last = [*others[:-1], last], others[-1]
-            justification = replace(justification, children=(*others, last))
+        learned = self._beside_knowledge(spoken_of, question, kind)
+        if learned:
+            children = justification.children
+            # Why the tree was asked stays the last.
+            end = len(children) - (justification.basis is Basis.TREE)
+            children = (*children[:end], *learned, *children[end:])
+            justification = replace(justification, children=children)
         justification = spoken_of.read_in(justification)
         supposed = None if spoken_of is scene else spoken_of
         ground = least_sure(kind, spoken_of, justification, supposed=supposed is not None)
@@ -99,22 +105,27 @@ class Answering:
             label=spoken_of.label,
             probably=certainty_of(ground).adverb,
         )
-        if learned is not None:
-            text += f" {sentence(learned.text)}"
+        text = " ".join([text, *(sentence(own.text) for own in learned)])
         if supposed is not None:
             text = word_supposed(
                 self.domain, question, text, label=scene.label or "", supposed=supposed.label or ""
             )
         return Reply(question, text, spoken_of.method, justification, kind, scene, supposed, ground)
 
-    def _tree_says(
+    def _beside_knowledge(
         self, scene: Classification, question: Question, kind: AnswerType
-    ) -> Node | None:
-        """What the tree says of a class, where nothing that is known concludes it."""
+    ) -> tuple[Node, ...]:
+        """What pictures and the tree say of a class, where nothing that is known concludes it."""
         nothing = kind.form in _NOTHING_KNOWN or (kind.form == "against" and not kind.mentions)
         if not nothing or question.label is None:
-            return None
-        return tree_says(self.domain, self.tree, scene.vector, question.label)
+            return ()
+        found = [tree_says(self.domain, self.tree, scene.vector, question.label)]
+        if kind.form == "no_difference":
+            pictures = shared_by_pictures(
+                self.domain, self.experience, scene.vector, question.label
+            )
+            found.insert(0, pictures)
+        return tuple(own for own in found if own is not None)
 
     def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
         """Answer many questions about classified scenes; the recurrent network runs once for all.
