@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from seewhy.dialogue.answer import AnswerType, word_answer, word_supposed
 from seewhy.dialogue.certainty import certainty_of, least_sure, least_sure_told
 from seewhy.dialogue.narration import narrate
+from seewhy.dialogue.only_shown import with_only_shown
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience
@@ -52,6 +53,8 @@ class Answering:
         :class:`seewhy.Agent`.
     trust : float
         How often who asks is right; see there.
+    only_shown : mapping of str to str
+        Of features of which training pictures showed one value, that value.
 
     Source: Riley and Sridharan (2019), section 3.
     """
@@ -65,6 +68,7 @@ class Answering:
     known_share: float = 1.0
     least_likeness: float = 0.0
     trust: float = 0.0
+    only_shown: Mapping[str, str] = field(default_factory=dict)
 
     def answer(
         self,
@@ -81,6 +85,12 @@ class Answering:
         QuestionError
             If it asks where something is seen or what looks alike, and there is no ``look``.
         """
+        reply = self._reply(scene, question, previous, look)
+        return with_only_shown(self.domain, reply, self.only_shown)
+
+    def _reply(
+        self, scene: Classification, question: Question, previous: Reply | None, look: Look | None
+    ) -> Reply:
         if question.asks is Asks.EXPLAIN:
             return self._explain(scene, question, previous)
         if not question.is_of_templates:
@@ -314,7 +324,7 @@ class Answering:
     def _explain(self, scene: Classification, question: Question, previous: Reply | None) -> Reply:
         if previous is None:
             asks = Question(asks=Asks.CLASS, text="", words=())
-            previous = self.answer(scene, asks)
+            previous = self._reply(scene, asks, None, None)
         text = narrate(self.domain, previous)
         return Reply(
             question,
