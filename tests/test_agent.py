@@ -52,7 +52,8 @@ def test_a_reply_from_the_tree(agent: Agent) -> None:
     )
     assert undecided.text == "the knowledge does not decide: no axiom concludes a class"
     assert path.text == (
-        "if the tile is round, then it is good (1 of 2 features tested, 100 % of 13 tiles)"
+        "of the tiles that no rule decides, if the tile is round, then it is good "
+        "(1 of 2 features tested, 100 % of 13 tiles)"
     )
     assert [child.feature for child in path.children] == ["round"]
     assert answer.text.startswith("the answer was chosen by the recurrent network (p = ")
@@ -65,7 +66,8 @@ def test_an_explanation_of_the_tree(agent: Agent) -> None:
     assert start == "I see that the tile is green, and it has corners "
     assert end[4:] == (
         "). The knowledge does not decide: no axiom concludes a class. So the decision tree is "
-        "asked: if the tile has corners, then it is bad (1 of 2 features tested, 100 % of 9 "
+        "asked: of the tiles that no rule decides, if the tile has corners, then it is bad "
+        "(1 of 2 features tested, 100 % of 9 "
         "tiles). The answer was chosen by the recurrent network (p = 1.00 among the answers that "
         "fit)."
     )

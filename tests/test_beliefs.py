@@ -178,7 +178,8 @@ def test_the_class_of_the_tree_is_the_basis_of_what_follows(signs: Agent) -> Non
     assert lines[:5] == [
         'the sign tells the driver: no entry: "the sign no entry says so" (knowledge.al:#)',
         "└─ the sign is a no entry",
-        "   ├─ if the sign shows the symbol symbol 0, then it is a no entry (1 of 7 features "
+        "   ├─ of the signs that no rule decides, if the sign shows the symbol symbol 0,"
+        " then it is a no entry (1 of 7 features "
         "tested, 100 % of 10 signs)",
         "   │  └─ the sign shows the symbol symbol 0 (p = 0.90)",
         "   └─ the knowledge does not decide: no axiom concludes a class",
@@ -188,8 +189,9 @@ def test_the_class_of_the_tree_is_the_basis_of_what_follows(signs: Agent) -> Non
     assert told.startswith("You asked: what is the message of the sign? I see that the sign is")
     assert told.endswith(
         "The knowledge does not decide: no axiom concludes a class. So the decision tree is "
-        "asked: if the sign shows the symbol symbol 0, then it is a no entry (1 of 7 features "
-        'tested, 100 % of 10 signs). The sign tells the driver: no entry, because "the sign no '
+        "asked: of the signs that no rule decides, if the sign shows the symbol symbol 0, then it "
+        "is a no entry (1 of 7 features tested, 100 % of 10 signs). The sign tells the driver: no "
+        'entry, because "the sign no '
         'entry says so".'
     )
 

@@ -127,7 +127,10 @@ def test_reasons_are_what_the_agent_answers(run: Run, model_folder: Path, many: 
         assert row["probability"] == str(round(reply.classification.probability or 0.0, 4))
 
 
-LEAF = "If the tile has corners, then it is bad (1 of 2 features tested, 100 % of 9 tiles)."
+LEAF = (
+    "Of the tiles that no rule decides, if the tile has corners, then it is bad "
+    "(1 of 2 features tested, 100 % of 9 tiles)."
+)
 NOTHING = (
     "I cannot tell whether the tile is good or bad: the knowledge does not decide, and there was "
     "nothing to learn it from."

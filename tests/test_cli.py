@@ -403,8 +403,10 @@ def test_train_then_evaluate(
     assert result.out.splitlines()[3:] == [
         "the knowledge leaves 22 of 40 training scenes open or gets them wrong; from these the "
         "tree has learned:",
-        "  - if the tile has corners, then it is bad (1 of 2 features tested, 100 % of 9 tiles)",
-        "  - if the tile is round, then it is good (1 of 2 features tested, 100 % of 13 tiles)",
+        "  - of the tiles that no rule decides, "
+        "if the tile has corners, then it is bad (1 of 2 features tested, 100 % of 9 tiles)",
+        "  - of the tiles that no rule decides, "
+        "if the tile is round, then it is good (1 of 2 features tested, 100 % of 13 tiles)",
         "answers: 1 recurrent layer(s), 100.0 % right on held-out questions",
         f"model: {out}",
     ]

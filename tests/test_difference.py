@@ -22,6 +22,13 @@ def signs(tmp_path_factory: pytest.TempPathFactory) -> Agent:
     return trained_signs(tmp_path_factory.getbasetemp())
 
 
+TREE_SAYS = (
+    "The decision tree says: of the signs that no rule decides, if the sign shows the symbol "
+    "symbol 0, then it is a no entry (1 of 7 features tested, 100 % of 10 signs)"
+)
+"""Of the sign that no axiom concludes."""
+
+
 def ask(agent: Agent, vector: tuple[str | None, ...], question: str) -> Reply:
     return agent.answer(seen(agent, *vector), agent.questions.understand(question))
 
@@ -36,28 +43,65 @@ def differs(label: str) -> Question:
         (
             "uneven_road",
             "how does it differ from a stop sign?",
-            "A stop sign is octagon and mainly red, it has a white border, and it shows the symbol "
-            "stop; the sign is triangle and mainly white, it has a red border, and it shows the "
-            "symbol bumpy road.",
+            # All stop signs are mainly red, too, which no axiom asks.
+            "A stop sign is octagon, and it shows the symbol stop; the sign is triangle, and it "
+            "shows the symbol bumpy road.",
         ),
         (
             "stop_sign",
             "how is the sign unlike a give way",
-            "A give way is inverted triangle and mainly white, it has a red border, and it shows "
-            "the symbol blank; the sign is octagon and mainly red, it has a white border, and it "
-            "shows the symbol stop.",
+            "A give way is inverted triangle, and it shows the symbol blank; the sign is octagon, "
+            "and it shows the symbol stop.",
         ),
         ("stop_sign", "how does it differ from a stop sign?", "The sign is a stop sign."),
         (
             "stop_sign",
             "how does it differ from a no entry?",
-            "Nothing that is known says when the sign is a no entry.",
+            "Nothing that is known says when the sign is a no entry. All 10 signs of training that "
+            "are a no entry share this: the sign is circle, it has a red border, and it shows the "
+            "symbol symbol 0; here it is octagon, it has a white border, and it shows the symbol "
+            f"stop. {TREE_SAYS}.",
         ),
     ],
 )
 def test_the_difference_in_words(signs: Agent, sign: str, question: str, text: str) -> None:
     reply = ask(signs, FOUR[sign], question)
     assert (reply.text, reply.method) == (text, "knowledge")
+
+
+@pytest.mark.parametrize(
+    ("question", "text"),
+    [
+        (
+            "what would make it a no entry?",
+            f"Nothing that is known would make the sign a no entry. {TREE_SAYS}.",
+        ),
+        (
+            "why is it not a no entry?",
+            f"Nothing that is known concludes that the sign is a no entry. {TREE_SAYS}.",
+        ),
+        (
+            "why is it a stop sign rather than a no entry?",
+            "The sign is a stop sign, since it is octagon, and it shows the symbol stop and the "
+            "plate none; nothing that is known concludes a no entry; t" + TREE_SAYS[1:] + ".",
+        ),
+    ],
+)
+def test_of_a_class_that_only_the_tree_knows_the_tree_speaks(
+    signs: Agent, question: str, text: str
+) -> None:
+    reply = ask(signs, FOUR["stop_sign"], question)
+    assert (reply.text, reply.method) == (text, "knowledge")
+
+
+def test_what_the_tree_says_is_explained(signs: Agent) -> None:
+    reply = ask(signs, FOUR["stop_sign"], "what would make it a no entry?")
+    assert reply.justification.to_text().splitlines()[-1] == f"└─ t{TREE_SAYS[1:]}"
+    scene = seen(signs, *FOUR["stop_sign"])
+    explain = signs.questions.understand("explain")
+    assert signs.answer(scene, explain, previous=reply).text == (
+        f"You asked: what would make the sign a no entry? {TREE_SAYS}."
+    )
 
 
 @pytest.mark.parametrize(
@@ -156,8 +200,8 @@ def test_a_difference_is_learned_where_the_tree_decides(signs: Agent) -> None:
     reply = ask(signs, FOUR["no_entry"], "how does it differ from a stop sign?")
     assert reply.method == "tree"
     assert reply.text == (
-        "A stop sign is octagon, it has a white border, and it shows the symbol stop; the sign is "
-        "circle, it has a red border, and it shows the symbol symbol 0."
+        "A stop sign is octagon, and it shows the symbol stop; the sign is circle, and it shows "
+        "the symbol symbol 0."
     )
     gold = signs.reference.answer(reply.question, FOUR["no_entry"], "no_entry")
     assert reply.kind == gold

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from knowledge_builders import CLASSES, World, worlds
 from seewhy.agent import Agent
+from seewhy.dialogue.question import Asks, Question
 from seewhy.domain import Domain
 from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.occurrence import EXPECTED, Occurrence
@@ -135,3 +136,7 @@ def test_an_agent_asks_the_scenes_that_it_knows(structures: Domain) -> None:
     )
     found = [own.vector for own in agent.reasoned.smallest(lone, "unstable")]
     assert found == [("2", "wide", "no", "yes")]
+    # That it needs another block, no axiom says: how it differs is what an axiom asks alone.
+    differs = Question(Asks.DIFFERENCE_TO_CLASS, "", (), label="unstable")
+    kind = agent.reasoned.kind(differs, lone, "stable")
+    assert kind.identifier == "difference(block_displaced)[block_displaced=yes]"

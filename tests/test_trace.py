@@ -82,7 +82,8 @@ knowledge
           └─ but the tile is round (p = #)
 
 decision tree
-  if the tile is round, then it is good (1 of 2 features tested, 100 % of 13 tiles)
+  of the tiles that no rule decides, if the tile is round, then it is good \
+(1 of 2 features tested, 100 % of 13 tiles)
 
 question
   understood as: is the tile good?
@@ -92,7 +93,8 @@ answer
   found by the recurrent network (LSTM)
   because:
     the tile is good
-    ├─ if the tile is round, then it is good (1 of 2 features tested, 100 % of 13 tiles)
+    ├─ of the tiles that no rule decides, if the tile is round, then it is good \
+(1 of 2 features tested, 100 % of 13 tiles)
     │  └─ the tile is round (p = #)
     ├─ the answer was chosen by the recurrent network (p = # among the answers that fit)
     └─ the knowledge does not decide: no axiom concludes a class
@@ -160,7 +162,8 @@ def test_the_gate_is_told(traced: Tracing) -> None:
     told = plain(traced("red", "no", "--gate", "1"))
     assert re.search(
         r"not asked: the (colour|shape) is seen with a probability of # only, and # is demanded\n"
-        r"\ndecision tree\n  if the tile has corners, then it is bad ",
+        r"\ndecision tree\n  of the tiles that no rule decides, if the tile has corners, "
+        r"then it is bad ",
         told,
     )
     assert told.endswith("class\n  bad, by the decision tree\n")

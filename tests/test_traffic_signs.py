@@ -232,9 +232,7 @@ ANSWERS = [
     ("why is it not a stop sign?", "The sign is round."),
     (
         "how does it differ from a stop sign?",
-        "A stop sign is octagonal and mainly red, it has a white border, it shows the word stop, "
-        "and it is not crossed out, whereas the sign is round and mainly blue, it has a red "
-        "border, it shows no main symbol, and it is crossed out in red.",
+        "A stop sign is octagonal, whereas the sign is round.",
     ),
     (
         "what would it have to look like to be a stop sign?",

@@ -920,6 +920,14 @@ class Agent:
         return self._answering.say_uncertain(scene)
 
     @property
+    def only_shown(self) -> dict[str, str]:
+        """Of features of which training pictures showed one value only, that value."""
+        if self.extractor is None:
+            return {}
+        shown = {key: self.extractor.shown(key) for key in self.domain.features}
+        return {key: next(iter(own)) for key, own in shown.items() if len(own) == 1}
+
+    @property
     def _answering(self) -> Answering:
         """What answers with all that is known and was learned by now."""
         return Answering(
@@ -927,10 +935,12 @@ class Agent:
             self.reasoned,
             self.tree,
             self.answerer,
+            self.experience,
             gate=self.gate or 0.0,
             known_share=self.known_share,
             least_likeness=self.unknown_below or 0.0,
             trust=self.trust,
+            only_shown=self.only_shown,
         )
 
     # On disk --------------------------------------------------------------------------------

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from seewhy.dialogue.certainty import Certainty, Ground
+from seewhy.dialogue.only_shown import say_only_shown
 from seewhy.dialogue.question import Asks
 from seewhy.domain_tables import CLASS
 from seewhy.induction.sentence import say_path
@@ -65,6 +66,8 @@ class Trace:
     asked : str or None
         The question as it was put, if there was one.
     reply : Reply or None
+    only_shown : mapping of str to str
+        Of features of which training pictures showed one value, that value.
     """
 
     domain: Domain
@@ -75,6 +78,7 @@ class Trace:
     no_tree: str | None
     asked: str | None = None
     reply: Reply | None = None
+    only_shown: Mapping[str, str] = field(default_factory=dict)
 
     def to_text(self) -> str:
         """Return the trace for a person: the dialogue, then each component in turn."""
@@ -110,6 +114,7 @@ class Trace:
                 "score": _rounded(scene.score),
                 "least_score": _rounded(self.least_likeness),
                 "known": scene.verdict != UNKNOWN,
+                "only_shown": dict(self.only_shown),
             },
             "knowledge": {
                 "asked": concluded.not_asked is None,
@@ -150,6 +155,13 @@ class Trace:
         }
 
     def _say_seen(self) -> Iterator[str]:
+        yield from self._say_each_seen()
+        said = say_only_shown(self.domain, self.scene.features, self.only_shown)
+        if said:
+            yield said
+        yield from self._say_whole_seen()
+
+    def _say_each_seen(self) -> Iterator[str]:
         for key, own in self.scene.features.items():
             value = own.value.replace("_", " ")
             line = f"{self.domain.features[key].name}: {value} (p = {own.probability:.2f})"
@@ -162,6 +174,8 @@ class Trace:
                 if self.scene.class_seen is not None:
                     line += " and the class that is seen"
             yield line
+
+    def _say_whole_seen(self) -> Iterator[str]:
         if self.scene.class_seen is not None:
             label, probability = self.scene.class_seen
             yield (
@@ -273,6 +287,7 @@ def trace_of(
         None if path is not None else _no_tree(scene),
         asked,
         reply,
+        agent.only_shown,
     )
 
 

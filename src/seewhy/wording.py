@@ -10,6 +10,7 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.slots import filled
 
+_MOST_VALUES_LISTED = 3
 _PART_OF_IT = re.compile(r"^the ([^{}]+) of \{it\} ")
 
 
@@ -161,7 +162,9 @@ def say_one_of(clauses: Sequence[str], *, word: str = "or") -> str:
 
 
 def say_values(domain: Domain, feature: str, values: Sequence[str]) -> str:
-    """Return "one of these values" of a feature as a clause; a run of numbers as its two ends.
+    """Return "one of these values" of a feature as a clause.
+
+    A run of numbers is said as its two ends, and most of many values as "anything but" the others.
 
     Examples
     --------
@@ -171,12 +174,20 @@ def say_values(domain: Domain, feature: str, values: Sequence[str]) -> str:
     '{it} has two to four blocks'
     >>> say_values(domain, "base", ("wide", "narrow"))
     '{it} has a wide or narrow base'
+    >>> signs = load_domain("traffic_signs")
+    >>> shapes = signs.features["shape"].values
+    >>> say_values(signs, "shape", [own for own in shapes if own not in ("circle", "octagon")])
+    'the shape of {it} is anything but round or octagonal'
     """
     own = domain.features[feature]
     numbers = [int(value) for value in values if value.lstrip("-").isdigit()]
     all_numbers = len(numbers) == len(values) > 2
     if all_numbers and numbers == list(range(numbers[0], numbers[0] + len(numbers))):
         return say_one_of([own.say[values[0]], own.say[values[-1]]], word="to")
+    others = [value for value in own.values if value not in values]
+    if len(values) > _MOST_VALUES_LISTED and 0 < len(others) < len(values):
+        excluded = join_words([own.words[value][0] for value in others], word="or")
+        return f"the {own.name} of {{it}} is anything but {excluded}"
     return say_one_of([own.say[value] for value in values])
 
 

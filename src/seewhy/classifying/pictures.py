@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from seewhy.data.reading_ahead import read_ahead
+from seewhy.dialogue.only_shown import say_only_shown
 from seewhy.dialogue.question import Asks, Question
 from seewhy.errors import PictureError
 from seewhy.induction.sentence import say_path
@@ -131,10 +132,15 @@ def _why(agent: Agent) -> Callable[[Sequence[Classification]], list[str]]:
             )
         )
         return [
-            next(replies).text
-            if question is not None
-            else sentence(say_path(agent.domain, agent.tree.path(scene.vector)))
+            next(replies).text if question is not None else by_tree(scene)
             for scene, question in asked
         ]
+
+    def by_tree(scene: Classification) -> str:
+        path = agent.tree.path(scene.vector)
+        features = [condition.feature for condition in path.conditions]
+        only = say_only_shown(agent.domain, features, agent.only_shown)
+        said = [say_path(agent.domain, path), *([only] if only else [])]
+        return " ".join(map(sentence, said))
 
     return say

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from seewhy.dialogue.answer import AnswerType, word_answer, word_supposed
 from seewhy.dialogue.certainty import certainty_of, least_sure, least_sure_told
 from seewhy.dialogue.narration import narrate
+from seewhy.dialogue.only_shown import with_only_shown
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
+from seewhy.dialogue.reference import Experience
+from seewhy.dialogue.shared_by_pictures import shared_by_pictures
 from seewhy.dialogue.telling import Look, Told, tell
+from seewhy.dialogue.tree_says import tree_says
 from seewhy.dialogue.weighing import Weighing
 from seewhy.domain import Domain
 from seewhy.domain_tables import CLASS
@@ -20,7 +24,7 @@ from seewhy.induction.tree import DecisionTree, TreePath
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
-from seewhy.wording import say_literal
+from seewhy.wording import say_literal, sentence
 
 if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
@@ -42,11 +46,15 @@ class Answering:
     tree : DecisionTree
     answerer : RecurrentAnswerer or None
         None where none was trained.
+    experience : mapping
+        The annotated feature vectors with their classes.
     gate, known_share, least_likeness : float
         What an answer says where a network was not sure enough, or a picture is not known; see
         :class:`seewhy.Agent`.
     trust : float
         How often who asks is right; see there.
+    only_shown : mapping of str to str
+        Of features of which training pictures showed one value, that value.
 
     Source: Riley and Sridharan (2019), section 3.
     """
@@ -55,10 +63,12 @@ class Answering:
     reasoned: ReasonedAnswers
     tree: DecisionTree
     answerer: RecurrentAnswerer | None
+    experience: Experience
     gate: float = 0.0
     known_share: float = 1.0
     least_likeness: float = 0.0
     trust: float = 0.0
+    only_shown: Mapping[str, str] = field(default_factory=dict)
 
     def answer(
         self,
@@ -75,12 +85,25 @@ class Answering:
         QuestionError
             If it asks where something is seen or what looks alike, and there is no ``look``.
         """
+        reply = self._reply(scene, question, previous, look)
+        return with_only_shown(self.domain, reply, self.only_shown)
+
+    def _reply(
+        self, scene: Classification, question: Question, previous: Reply | None, look: Look | None
+    ) -> Reply:
         if question.asks is Asks.EXPLAIN:
             return self._explain(scene, question, previous)
         if not question.is_of_templates:
             return self._told(scene, question, previous, look)
         spoken_of = self._spoken_of(scene, question)
         kind, justification = self._answer(spoken_of, question)
+        learned = self._beside_knowledge(spoken_of, question, kind)
+        if learned:
+            children = justification.children
+            # Why the tree was asked stays the last.
+            end = len(children) - (justification.basis is Basis.TREE)
+            children = (*children[:end], *learned, *children[end:])
+            justification = replace(justification, children=children)
         justification = spoken_of.read_in(justification)
         supposed = None if spoken_of is scene else spoken_of
         ground = least_sure(kind, spoken_of, justification, supposed=supposed is not None)
@@ -92,11 +115,27 @@ class Answering:
             label=spoken_of.label,
             probably=certainty_of(ground).adverb,
         )
+        text = " ".join([text, *(sentence(own.text) for own in learned)])
         if supposed is not None:
             text = word_supposed(
                 self.domain, question, text, label=scene.label or "", supposed=supposed.label or ""
             )
         return Reply(question, text, spoken_of.method, justification, kind, scene, supposed, ground)
+
+    def _beside_knowledge(
+        self, scene: Classification, question: Question, kind: AnswerType
+    ) -> tuple[Node, ...]:
+        """What pictures and the tree say of a class, where nothing that is known concludes it."""
+        nothing = kind.form in _NOTHING_KNOWN or (kind.form == "against" and not kind.mentions)
+        if not nothing or question.label is None:
+            return ()
+        found = [tree_says(self.domain, self.tree, scene.vector, question.label)]
+        if kind.form == "no_difference":
+            pictures = shared_by_pictures(
+                self.domain, self.experience, scene.vector, question.label
+            )
+            found.insert(0, pictures)
+        return tuple(own for own in found if own is not None)
 
     def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
         """Answer many questions about classified scenes; the recurrent network runs once for all.
@@ -225,7 +264,6 @@ class Answering:
     ) -> Node:
         """The justification of a class that the tree gave and of an answer that was learned."""
         seen = tuple(self.reasoned.seen(scene.vector, c.feature) for c in path.conditions)
-        sentence = say_path(self.domain, path)
         literal = self.domain.classes[label].literal
         outweighs = scene.label == label != path.label and scene.class_seen is not None
         return Node(
@@ -233,7 +271,7 @@ class Answering:
             text=say_literal(self.domain, literal),
             basis=Basis.TREE,
             children=(
-                Node(str(literal), sentence, Basis.PATH, children=seen),
+                Node(str(literal), say_path(self.domain, path), Basis.PATH, children=seen),
                 *([self._witness(scene)] if outweighs else []),
                 *learned,
                 self._not_asked(scene)
@@ -286,7 +324,7 @@ class Answering:
     def _explain(self, scene: Classification, question: Question, previous: Reply | None) -> Reply:
         if previous is None:
             asks = Question(asks=Asks.CLASS, text="", words=())
-            previous = self.answer(scene, asks)
+            previous = self._reply(scene, asks, None, None)
         text = narrate(self.domain, previous)
         return Reply(
             question,
@@ -323,6 +361,7 @@ def believed(scene: Classification, question: Question, *, trust: float) -> Clas
     return fitting[0] if fitting else scene
 
 
+_NOTHING_KNOWN = {"no_change", "no_difference"}
 _OF_UNKNOWN_PICTURES = {Asks.SIMILAR, Asks.HOW_SURE}
 _WEIGHED = {
     Asks.WHAT_IF, Asks.CONTRAST, Asks.WHICH_RULE, Asks.HOW_SURE, Asks.WHAT_TO_CHECK,

@@ -103,6 +103,7 @@ def _steps(node: Node, said: _Said) -> list[str]:
     steps = _axioms(node, said)
     refused = [own for own in node.children if own.is_refuted]
     steps += [step for child in refused[:3] for step in _not_applying(child, said)]
+    steps += [own.text for own in node.children if own.basis in (Basis.PATH, Basis.PICTURES)]
     return list(dict.fromkeys(steps))
 
 

@@ -311,7 +311,14 @@ class ReasonedAnswers:
         return AnswerType("change", changes=found) if found else AnswerType("no_change")
 
     def _difference(self, vector: FeatureVector, asked: str) -> AnswerType:
-        return difference(self.domain, self._alternatives(vector, asked))
+        """What the axioms ask of a change, without what only other scenes make go with it."""
+        alternatives = []
+        for own in self.smallest(vector, asked):
+            needed = self.why_class(own.vector, asked).features()
+            changes = [(change.feature, change.after) for change in own.changes]
+            asked_for = tuple(change for change in changes if change[0] in needed)
+            alternatives.append(asked_for or tuple(changes))
+        return difference(self.domain, tuple(dict.fromkeys(filter(None, alternatives))))
 
     def _changed(self, vector: FeatureVector, asked: str, kind: AnswerType) -> Node:
         """Why a scene is not of a class, and why it would be with the change."""

@@ -10,6 +10,7 @@ from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.certainty import SURE_FROM, Ground, least_sure
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.telling import Told
+from seewhy.dialogue.tree_says import tree_says
 from seewhy.domain import Domain
 from seewhy.domain_tables import CLASS
 from seewhy.induction.sentence import say_path
@@ -123,6 +124,9 @@ class Weighing:
             text += f"; it is not {domain.classes[other.label or ''].say}, since {said}"
         elif refused.form == "against" and not refused.mentions:
             text += f"; nothing that is known concludes {domain.classes[other.label or ''].say}"
+            learned = tree_says(domain, self.tree, scene.vector, other.label or "")
+            if learned is not None:
+                text += f"; {learned.text}"
         return Told(kind, sentence(text), why, least_sure(kind, scene, why))
 
     def _contrast_values(self, scene: Classification, first: Statement, other: Statement) -> Told:

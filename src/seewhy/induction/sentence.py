@@ -10,7 +10,10 @@ from seewhy.wording import join_clauses, join_words, say_values
 
 
 def say_path(domain: Domain, path: TreePath) -> str:
-    """Return a path as "if … then … (94 % of 212 scenes)".
+    """Return a path as "of the scenes that no rule decides, if … then … (94 % of 212 scenes)".
+
+    Of other scenes it says nothing: the tree is grown from those that the knowledge leaves open or
+    gets wrong.
 
     Examples
     --------
@@ -18,19 +21,20 @@ def say_path(domain: Domain, path: TreePath) -> str:
     >>> path = TreePath((PathCondition("num_blocks", ("4", "5")), PathCondition("lean", ("yes",))),
     ...                 label="unstable", support=212, precision=0.94)
     >>> say_path(load_domain("structure_stability"), path)  # doctest: +NORMALIZE_WHITESPACE
-    'if the structure has four or five blocks and it leans to one side, then it is unstable
-     (2 of 4 features tested, 94 % of 212 structures)'
+    'of the structures that no rule decides, if the structure has four or five blocks and it leans
+     to one side, then it is unstable (2 of 4 features tested, 94 % of 212 structures)'
     """
     tested = f"{len(path.conditions)} of {len(domain.features)} features tested"
     support = f"({tested}, {path.precision:.0%} of {path.support} {things(domain)})"
     if not path.conditions:
         label = domain.classes[path.label].say
-        said = f"{domain.subject} is {label} unless something says otherwise"
+        said = f"each is taken to be {label}"
     else:
         said = say_rule(domain, path.conditions, path.label)
     as_often = join_words([domain.classes[label].say for label in path.equals])
     tied = f", and as often {as_often}" if as_often else ""
-    return f"{said}{tied} {support.replace('%', ' %')}"
+    scope = f"of the {things(domain)} that no rule decides"
+    return f"{scope}, {said}{tied} {support.replace('%', ' %')}"
 
 
 def say_rule(domain: Domain, conditions: Sequence[PathCondition], label: str) -> str:

@@ -31,6 +31,7 @@ class Basis(StrEnum):
     UNFOUNDED = "nothing concludes it"
     TREE = "decision tree"
     PATH = "path of the tree"
+    PICTURES = "annotated pictures"
     RECURRENT = "recurrent network"
     CLASS_SEEN = "class seen by itself"
 

@@ -20,6 +20,7 @@ _COLOURS = {
     Basis.TREE: ("#f3ecfa", "#7a4fb0"),
     Basis.PATH: ("#f3ecfa", "#7a4fb0"),
     Basis.RECURRENT: ("#f3ecfa", "#7a4fb0"),
+    Basis.PICTURES: ("#e8f1fb", "#2f6fb3"),
     Basis.CLASS_SEEN: ("#e8f1fb", "#2f6fb3"),
 }
 _PLAIN = ("#f4f4f4", "#777777")

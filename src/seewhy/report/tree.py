@@ -71,7 +71,12 @@ def _draw(domain: Domain, placed: _Placed, parts: list[str]) -> None:
         own = domain.features[node.feature or ""]
         allowed = below.node.allowed
         said = say_values(domain, own.key, allowed) if allowed else "not known"
-        said = said.replace("{it} is ", "").replace("{it} has ", "").replace("{it} ", "")
+        said = (
+            said.replace(f"the {own.name} of {{it}} is ", "")
+            .replace("{it} is ", "")
+            .replace("{it} has ", "")
+            .replace("{it} ", "")
+        )
         text, _ = text_lines(
             said, (x + below.x) / 2, (y + _BOX + top) / 2 - 2, width=24,
             text_anchor="middle", fill="#555555", font_size="11",
