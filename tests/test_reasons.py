@@ -206,6 +206,116 @@ def test_a_default_rests_on_what_makes_an_exception_needless() -> None:
     )
 
 
+NO_CIRCLES = {
+    "the opposite of a default is absent because of an exception that the belief forces": (
+        """
+default sound(S) if structure(S).
+stable(S) if sound(S).
+-stable(S) if lean(S).
+default -stable(S) if base(S, narrow).
+""",
+        "-stable(structure)",
+        ("3", "narrow", "yes", None),
+        '-stable(structure): "-stable(S) if lean(S)" (knowledge.al:15)\n└─ lean(structure)',
+    ),
+    "an exception that the belief forces": (
+        """
+default stable(S) if structure(S).
+-sound(S) if stable(S).
+sound(S) if base(S, wide).
+sound(S) if -stable(S).
+""",
+        "sound(structure)",
+        (None, "wide", None, None),
+        'sound(structure): "sound(S) if base(S, wide)" (knowledge.al:15)\n└─ base(structure, wide)',
+    ),
+    "an exception that the belief forces by another belief": (
+        """
+default stable(S) if structure(S).
+-shows(S, gap) if stable(S).
+shows(S, gap) if sound(S).
+sound(S) if base(S, wide).
+sound(S) if shows(S, tilt).
+shows(S, tilt) if -stable(S).
+""",
+        "sound(structure)",
+        (None, "wide", None, None),
+        'sound(structure): "sound(S) if base(S, wide)" (knowledge.al:16)\n└─ base(structure, wide)',
+    ),
+    "an exception to a default whose condition the belief is": (
+        """
+default stable(S) if sound(S).
+-lean(S) if stable(S).
+sound(S) if base(S, wide).
+sound(S) if -stable(S).
+""",
+        "sound(structure)",
+        (None, "wide", "yes", None),
+        'sound(structure): "sound(S) if base(S, wide)" (knowledge.al:15)\n└─ base(structure, wide)',
+    ),
+    "an exception that what is seen forces": (
+        """
+default stable(S) if structure(S).
+-lean(S) if stable(S).
+lean(S) if -stable(S).
+""",
+        "lean(structure)",
+        (None, None, "yes", None),
+        "lean(structure)",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", NO_CIRCLES)
+def test_no_belief_rests_on_an_exception_that_rests_on_it(case: str) -> None:
+    axioms, literal, vector, told = NO_CIRCLES[case]
+    assert tree(axioms, literal, *vector) == told
+
+
+def test_what_rests_on_the_exception_alone_is_kept_with_what_would_be_so_otherwise() -> None:
+    axioms = """
+default stable(S) if structure(S).
+sound(S) if {otherwise}.
+sound(S) if -stable(S).
+-lean(S) if sound(S), stable(S).
+"""
+    told = (
+        'sound(structure): "sound(S) if -stable(S)" (knowledge.al:15)\n'
+        "└─ -stable(structure): an exception, without which the beliefs would contradict each "
+        'other: "default stable(S) if structure(S)" (knowledge.al:13)\n'
+        "   ├─ lean(structure)\n"
+        '   └─ otherwise -lean(structure): "-lean(S) if sound(S), stable(S)" (knowledge.al:16)\n'
+        '      └─ otherwise sound(structure): "sound(S) if {otherwise}" (knowledge.al:14)'
+    )
+    vector = (None, None, "yes", None)
+    by_default = axioms.format(otherwise="stable(S)")
+    assert tree(by_default, "sound(structure)", *vector) == told.format(otherwise="stable(S)")
+    # That nothing says the opposite is so only where the default is not given up.
+    condition = "structure(S), not -stable(S)"
+    by_absence = axioms.format(otherwise=condition)
+    assert tree(by_absence, "sound(structure)", *vector) == (
+        f"{told.format(otherwise=condition)}\n"
+        "         └─ otherwise nothing says that -stable(structure)"
+    )
+
+
+def test_of_several_reasons_the_contradiction_tells_those_that_are_so_anyway() -> None:
+    axioms = """
+default stable(S) if structure(S).
+sound(S) if stable(S).
+sound(S) if base(S, wide).
+-lean(S) if sound(S), stable(S).
+"""
+    assert tree(axioms, "-stable(structure)", None, "wide", "yes", None) == (
+        "-stable(structure): an exception, without which the beliefs would contradict each "
+        'other: "default stable(S) if structure(S)" (knowledge.al:13)\n'
+        "├─ lean(structure)\n"
+        '└─ otherwise -lean(structure): "-lean(S) if sound(S), stable(S)" (knowledge.al:16)\n'
+        '   └─ sound(structure): "sound(S) if base(S, wide)" (knowledge.al:15)\n'
+        "      └─ base(structure, wide)"
+    )
+
+
 # Several answer sets
 
 EITHER = """

@@ -145,16 +145,28 @@ def selected_features(node: Node, generator: random.Random) -> set[str]:
 
 
 def _circles(node: Node, above: tuple[str, ...]) -> Iterator[str]:
-    """Beliefs that stand below themselves."""
-    if node.holds and node.axiom is not None:
-        # The opposite of what is absent is believed there.
-        literal = str(node.axiom.head.predicate), node.axiom.head.positive, node.literal
-        key = "|".join(map(str, literal)).replace("not ", "")
+    """Beliefs that stand below themselves, or that nothing stands below."""
+    if node.basis is Basis.CONSISTENCY:
+        return
+    if node.holds or (node.is_in_the_way and node.axiom is not None):
+        if node.basis is Basis.FACT:
+            yield f"{node.literal} is given no reason"
+        key = _believed(node)
         if key in above:
-            yield f"{node.literal} is its own reason"
-        above = (*above, key)
+            yield f"{key} is its own reason"
+        # Several reasons have the literal of each.
+        above = above if node.axiom is None else (*above, key)
     for child in node.children:
         yield from _circles(child, above)
+
+
+def _believed(node: Node) -> str:
+    """The literal that a node says is believed; the opposite of what is absent is."""
+    literal = node.literal.removeprefix("not ")
+    if node.axiom is None:
+        return literal
+    positive = node.axiom.head.positive is not (node.basis is Basis.EXCEPTION)
+    return ("" if positive else "-") + literal.removeprefix("-")
 
 
 def _untrue(node: Node, beliefs: Beliefs) -> Iterator[str]:

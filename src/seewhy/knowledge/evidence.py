@@ -10,7 +10,7 @@ import clingo
 
 from seewhy.knowledge.axiom import Axiom, Literal
 from seewhy.knowledge.condition_words import say_condition
-from seewhy.knowledge.foundation import Foundation, Need, opposite
+from seewhy.knowledge.foundation import Forced, Foundation, Need, opposite
 from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.possible import Asked, Belief, Instance
@@ -93,10 +93,10 @@ class Evidence:
         holds = asked.holds(self.holds)
         return (asked, holds), holds
 
-    def foundation(self, root: Belief) -> Foundation:
+    def foundation(self, root: Belief, forced: Forced) -> Foundation:
         """What is founded of what a belief, or an absence, may rest on."""
         if root not in self._foundations:
-            self._foundations[root] = Foundation(self, root)
+            self._foundations[root] = Foundation(self, root, forced)
         return self._foundations[root]
 
     def exceptions(self, key: str) -> list[Instance]:
@@ -115,9 +115,9 @@ class Evidence:
             given_up.setdefault(key_of(denied), []).append(instance)
         return given_up
 
-    def is_given(self, key: str) -> bool:
-        """Whether something is believed without an axiom: it is seen, or an exception."""
-        return key in self._given_up or self._seen(key) is not None
+    def is_seen(self, key: str) -> bool:
+        """Whether the picture itself shows something."""
+        return self._seen(key) is not None
 
     def seen(self, literal: Literal) -> Node | None:
         """The node of a literal that the picture itself shows."""

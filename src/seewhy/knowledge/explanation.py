@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import chain, islice
+from weakref import WeakKeyDictionary
 
 from seewhy.knowledge.axiom import AxiomKind, Condition, Literal
 from seewhy.knowledge.condition_nodes import (
@@ -19,6 +20,7 @@ from seewhy.knowledge.condition_nodes import (
     once,
     plain_node,
 )
+from seewhy.knowledge.counterfactual import Counterfactual
 from seewhy.knowledge.evidence import Evidence
 from seewhy.knowledge.foundation import Foundation, Need, opposite
 from seewhy.knowledge.ground import literal_of
@@ -92,7 +94,7 @@ class _Explanation:
 
     def __init__(self, evidence: Evidence, root: Belief) -> None:
         self.evidence = evidence
-        self.foundation: Foundation = evidence.foundation(root)
+        self.foundation = foundation_of(evidence, root)
         self._built: dict[tuple[Belief, frozenset[Belief], frozenset[Belief]], Node] = {}
 
     def belief(self, key: str, above: frozenset[Belief]) -> Node:
@@ -119,6 +121,7 @@ class _Explanation:
         nodes += [
             self._exception(instance, literal, _Place(without))
             for instance in evidence.exceptions(key)
+            if self.foundation.is_forced(instance, founded)
         ]
         if len(nodes) == 1:
             return nodes[0]
@@ -163,13 +166,19 @@ class _Explanation:
     def _exception(self, instance: Instance, literal: Literal, place: _Place) -> Node:
         """The node of a default that was given up."""
         conditions = self._conditions(instance, place)
+        founded = self.foundation.stages(place.apart)
+        told = (
+            both.sides
+            for both in contradictions(self.evidence, instance)
+            if all(belief in founded for belief in both.beliefs)
+        )
         return Node(
             literal=str(literal),
             text=f"{self.evidence.say(literal)}: an exception, without which the beliefs "
             "would contradict each other",
             basis=Basis.EXCEPTION,
             axiom=instance.axiom,
-            children=(*conditions, *conflicting(self.evidence, instance)),
+            children=(*conditions, *next(told, ())),
         )
 
     def _need(self, need: Need, condition: Condition | None, place: _Place) -> Node:
@@ -287,45 +296,57 @@ def _fewest(
     return [found for group, found in groups.items() if group in chosen]
 
 
-def conflicting(evidence: Evidence, exception: Instance) -> tuple[Node, ...]:
-    """Return what would be believed both ways if a default were not given up.
+@dataclass(frozen=True)
+class Contradiction:
+    """What would be believed both ways if a default were not given up.
 
-    Both sides of the contradiction that is told in the fewest words; those that rest on the
-    default are marked as what would be believed otherwise.
+    Attributes
+    ----------
+    sides : (Node, Node)
+        Why each is believed; what rests on the default is marked as what would be so otherwise.
+    beliefs : frozenset of Belief
+        Those in the sides that are so anyway.
     """
+
+    sides: tuple[Node, Node]
+    beliefs: frozenset[Belief]
+
+
+_CONTRADICTIONS: WeakKeyDictionary[Evidence, dict[Instance, tuple[Contradiction, ...]]] = (
+    WeakKeyDictionary()
+)
+
+
+def contradictions(evidence: Evidence, exception: Instance) -> tuple[Contradiction, ...]:
+    """Return the contradictions that force a default to be given up, the shortest first."""
+    found = _CONTRADICTIONS.setdefault(evidence, {})
+    if exception not in found:
+        found[exception] = _contradictions(evidence, exception)
+    return found[exception]
+
+
+def _contradictions(evidence: Evidence, exception: Instance) -> tuple[Contradiction, ...]:
     beliefs = evidence.reasoner.contradictory_beliefs(evidence.scene)
     if beliefs is None or not beliefs.conflict or evidence.answer_set.conflict:
         return ()
     without = Evidence(evidence.reasoner, evidence.scene, beliefs, evidence.say)
-    sides = [
-        tuple(belief_node(without, own) for own in (key, opposite(key)))
-        for key in sorted(without.holds)
-        if not key.startswith("-") and opposite(key) in without.holds
-    ]
-    about = [both for both in sides if any(_uses(node, exception) for node in both)]
-    if not about:
-        return ()
-    first, second = min(about, key=lambda both: sum(1 for own in both for _ in own.walk()))
-    told = sorted((first, second), key=lambda node: _uses(node, exception))
-    return tuple(_otherwise(node, exception) for node in told)
+    otherwise = Counterfactual(exception.axiom, evidence.holds, without.holds)
+    found: list[tuple[int, Contradiction]] = []
+    for key in sorted(without.holds):
+        if not key.startswith("-") and opposite(key) in without.holds:
+            nodes = [belief_node(without, side) for side in (key, opposite(key))]
+            if any(map(otherwise.uses_default, nodes)):
+                first, second = sorted(
+                    map(otherwise.marked, nodes), key=lambda node: node.basis is Basis.OTHERWISE
+                )
+                so_anyway = frozenset(chain(*map(otherwise.beliefs, (first, second))))
+                size = sum(1 for node in nodes for _ in node.walk())
+                found.append((size, Contradiction((first, second), so_anyway)))
+    return tuple(both for _, both in sorted(found, key=lambda pair: pair[0]))
 
 
-def _uses(node: Node, exception: Instance) -> bool:
-    return any(own.axiom is exception.axiom and own.holds for own in node.walk())
-
-
-def _otherwise(node: Node, exception: Instance) -> Node:
-    """Mark what rests on a default that is given up; the default itself is left out."""
-    if not _uses(node, exception):
-        return node
-    return replace(
-        node,
-        text=f"otherwise {node.text}",
-        basis=Basis.OTHERWISE,
-        holds=False,
-        children=tuple(
-            _otherwise(child, exception)
-            for child in node.children
-            if child.axiom is not exception.axiom
-        ),
+def foundation_of(evidence: Evidence, root: Belief) -> Foundation:
+    """What is founded of what a belief, or an absence, may rest on."""
+    return evidence.foundation(
+        root, lambda exception: [both.beliefs for both in contradictions(evidence, exception)]
     )

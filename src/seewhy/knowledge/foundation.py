@@ -1,6 +1,7 @@
 """What beliefs and absences rest on without circles: the well-founded part of an answer set.
 
-A belief is founded where an axiom fires whose conditions are founded; an absence is founded where
+A belief is founded where an axiom fires whose conditions are founded, or where a default is given
+up because of a contradiction that rests on what is founded; an absence is founded where
 the opposite is, or where every axiom that could conclude it fails by something founded. Absences
 that only wait for each other are founded together: they are an unfounded set (Van Gelder, Ross and
 Schlipf, "The well-founded semantics for general logic programs", JACM 1991). What is left is
@@ -11,7 +12,7 @@ set semantics", TPLP 2009).
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Protocol
 
@@ -25,6 +26,10 @@ Need = Belief | tuple[JointCondition, bool]
 """What has to be founded: a belief or an absence, or that a condition holds or does not."""
 
 
+Forced = Callable[[Instance], Sequence[frozenset[Belief]]]
+"""The contradictions that force an exception, each as the beliefs that it rests on."""
+
+
 class Beliefs(Protocol):
     """An answer set, as foundations look at it."""
 
@@ -32,8 +37,8 @@ class Beliefs(Protocol):
     def holds(self) -> Collection[str]:
         """The keys of what is believed."""
 
-    def is_given(self, key: str) -> bool:
-        """Whether something is believed without an axiom: it is seen, or an exception."""
+    def is_seen(self, key: str) -> bool:
+        """Whether the picture itself shows something."""
 
     def firing(self, key: str) -> list[Instance]:
         """The instances that conclude a belief."""
@@ -70,6 +75,9 @@ class Foundation:
     beliefs : Beliefs
     root : Belief
         What is to be explained.
+    forced : callable
+        The contradictions that force a default to be given up, each as the beliefs that are so
+        though it is given up. One is enough; where there are none, nothing else is needed.
 
     Attributes
     ----------
@@ -77,9 +85,10 @@ class Foundation:
         The absences that have to be assumed so that the root is founded; none can be left out.
     """
 
-    def __init__(self, beliefs: Beliefs, root: Belief) -> None:
+    def __init__(self, beliefs: Beliefs, root: Belief, forced: Forced) -> None:
         self.beliefs = beliefs
         self.root = root
+        self.forced = forced
         self.assumed: frozenset[Belief] = frozenset()
         self._stages: dict[frozenset[Belief], dict[Belief, int]] = {}
         if root not in self.stages(frozenset()):
@@ -106,6 +115,14 @@ class Foundation:
             return need in founded
         condition, holds = need
         return condition.settled_by(self.known(condition, founded), holds) is not None
+
+    def is_forced(self, exception: Instance, founded: Collection[Belief]) -> bool:
+        """Whether what is founded forces a default to be given up, and its conditions hold."""
+        conditions = (need for _, need, holds in self.beliefs.needs(exception) if holds)
+        if not all(self.is_founded(need, founded) for need in conditions):
+            return False
+        forced = self.forced(exception)
+        return not forced or any(all(own in founded for own in beliefs) for beliefs in forced)
 
     def known(self, condition: JointCondition, founded: Collection[Belief]) -> dict[str, bool]:
         """What is founded of a condition's literals; what had best be left out stands first."""
@@ -136,9 +153,16 @@ class Foundation:
                 return founded
 
     def _has_support(self, belief: Belief, founded: Collection[Belief]) -> bool:
-        return self.beliefs.is_given(belief.key) or any(
-            all(self.is_founded(need, founded) for _, need, _ in self.beliefs.needs(instance))
-            for instance in self.beliefs.firing(belief.key)
+        return (
+            self.beliefs.is_seen(belief.key)
+            or any(
+                all(self.is_founded(need, founded) for _, need, _ in self.beliefs.needs(instance))
+                for instance in self.beliefs.firing(belief.key)
+            )
+            or any(
+                self.is_forced(instance, founded)
+                for instance in self.beliefs.exceptions(belief.key)
+            )
         )
 
     def _fails(self, absence: Belief, founded: dict[Belief, int], together: set[Belief]) -> bool:
@@ -168,12 +192,16 @@ class Foundation:
 
     def _next(self, belief: Belief) -> Iterator[Belief]:
         if belief.holds:
-            instances = [*self.beliefs.firing(belief.key), *self.beliefs.exceptions(belief.key)]
+            exceptions = self.beliefs.exceptions(belief.key)
+            for exception in exceptions:
+                for beliefs in self.forced(exception):
+                    yield from sorted(beliefs, key=lambda own: own.key)
+            instances = [*self.beliefs.firing(belief.key), *exceptions]
         else:
             against = opposite(belief.key)
             if against in self.beliefs.holds:
                 yield Belief(against)
-                if self.beliefs.is_given(against):
+                if self.beliefs.is_seen(against):
                     return
             instances = self.beliefs.concluding(belief.key)
         for instance in instances:

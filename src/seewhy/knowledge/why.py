@@ -8,7 +8,7 @@ from dataclasses import replace
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.condition_nodes import once
 from seewhy.knowledge.evidence import Evidence, Say, evidence_of
-from seewhy.knowledge.explanation import belief_node
+from seewhy.knowledge.explanation import belief_node, foundation_of
 from seewhy.knowledge.foundation import opposite
 from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.justification import Basis, Node
@@ -72,7 +72,9 @@ def justify(evidence: Evidence, literal: Literal) -> Node | None:
     if key not in evidence.believed:
         return None
     literal = literal_of(key)
-    settled = not evidence.foundation(Belief(key)).assumed and not evidence.answer_set.exceptions
+    settled = (
+        not foundation_of(evidence, Belief(key)).assumed and not evidence.answer_set.exceptions
+    )
     if settled or not evidence.others:
         node = belief_node(evidence, key)
     else:
