@@ -323,6 +323,57 @@ BEFORE = {
 }
 
 
+LOSING = (
+    "If the first message was lost, I would print the first message, move to the kitchen, move "
+    "to Sally's office and deliver the first message to Sally: 4 actions instead of 3."
+)
+SUPPOSED_EVENTS = {
+    "what would you do if the robot lost the first message?": LOSING,
+    "what would you do if you lost the first message?": LOSING,
+    "what if the first message was lost?": LOSING,
+    "what if Sally walked to the library?": (
+        "If Sally walked to the library, I would deliver the first message to Sally: 1 action "
+        "instead of 3."
+    ),
+    "what if you moved to Bob's office?": (
+        "If I moved to Bob's office, I would move to the library, move to the kitchen, move to "
+        "Sally's office and deliver the first message to Sally: 4 actions instead of 3."
+    ),
+    "what would you do if you moved to the bathroom?": (
+        'It cannot be that I moved to the bathroom: "the robot moves to places next to its '
+        'own", and I was in the library.'
+    ),
+    "what if somebody opened the kitchen?": (
+        "It cannot be that somebody opened the kitchen: the kitchen was open."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", SUPPOSED_EVENTS)
+def test_events_and_actions_can_be_supposed(question: str) -> None:
+    assert asked(Run(TO_SALLY, OFFICE.history), question) == SUPPOSED_EVENTS[question]
+
+
+# None of these words is known; without them, each is a question that says the opposite.
+OPPOSITE = (
+    "what would you do if the robot dropped the first message?",
+    "what would you do if the robot lost the message?",
+    "what would you do if Sally left her office?",
+    "what if Sally avoided the kitchen?",
+    "do you lack the first message?",
+    "why did you leave the kitchen?",
+    "why did you not leave the kitchen?",
+    "did you avoid the kitchen?",
+    "why do you believe that Sally left her office?",
+)
+
+
+@pytest.mark.parametrize("question", OPPOSITE)
+def test_a_word_that_is_not_known_is_never_passed_over(delivered: Run, question: str) -> None:
+    with pytest.raises(QuestionError, match="is not understood"):
+        answer(OFFICE, delivered, question)
+
+
 @pytest.mark.parametrize("question", BEFORE)
 def test_answers_before_anything_was_done(question: str) -> None:
     assert asked(Run(TO_SALLY, OFFICE.history), question) == BEFORE[question]
@@ -428,6 +479,10 @@ WORDINGS = {
     "what was your plan in the beginning?": "what was your plan at step 0?",
     "what was your first plan?": "what was your plan at step 0?",
     "why did you change your mind?": "why did the plan change?",
+    "did you walk to the kitchen?": "did you move to the kitchen?",
+    "have you brought the first message to Sally?": (
+        "have you delivered the first message to Sally?"
+    ),
     "what's next?": "what is your plan?",
 }
 ALSO_ASKED = {

@@ -24,7 +24,7 @@ LONGEST_QUESTION = 300
 """Characters; nothing in a controlled vocabulary is nearly as long."""
 _ALIKE = 80.0
 _ALIKE_ACTION = 68.0
-"""An action may be called by another verb, where the rest fits: to go is to move."""
+"""An action may be called by another verb of the same meaning: to go is to move."""
 _MOST_READINGS = 64
 _SLOT = re.compile(r"\{(\d+)\}")
 _STEP = re.compile(r"(?: (?:at|in|during|after))? step (\d{1,6})\b")
@@ -44,6 +44,22 @@ _ADDRESSED = (("is you", "are you"), ("you is", "you are"), ("does you", "do you
 _FREE = {"is", "does", "do", "did", "has", "have", "in", "at", "on", "of", "for", "to", "with",
          "from", "by", "that", "it", "there", "you", "your", "would", "will", "happen", "up",
          _HOLE} | _TELLING  # fmt: skip
+_VERBS = (
+    {"move", "go", "walk", "drive", "travel", "head", "come", "run", "enter"},
+    {"moving", "going", "walking", "driving", "travelling", "heading", "coming", "running",
+     "entering"},
+    {"moved", "gone", "went", "walked", "driven", "travelled", "come", "run", "entered"},
+    {"deliver", "bring", "give", "hand", "take", "carry"},
+    {"delivering", "bringing", "giving", "handing", "taking", "carrying"},
+    {"delivered", "brought", "gave", "given", "handed", "taken", "carried"},
+    {"put", "place", "set", "lay", "stack", "drop"},
+    {"putting", "placing", "setting", "laying", "stacking", "dropping"},
+    {"put", "placed", "set", "laid", "stacked", "dropped"},
+    {"pick", "take", "grab", "grasp", "lift", "raise"},
+    {"picking", "taking", "grabbing", "grasping", "lifting", "raising"},
+    {"picked", "taken", "grabbed", "grasped", "lifted", "raised"},
+)  # fmt: skip
+"""Verbs that may stand for one another where an action is asked about; no other verb may."""
 _SELF = ("you", "yourself", "me")
 _LOCATION = ("location", "position", "whereabouts")
 
@@ -68,6 +84,7 @@ class Asks(StrEnum):
     WHY_ENDED = "why_ended"
 
 
+_SUPPOSING = ("what would you do if", "what would happen if", "what if")
 _ACTIONS = (Asks.WHY_DID, Asks.WHY_NOT, Asks.DID)
 _UNFILLED = {
     Asks.PLAN: ("what is your plan", "what do you plan to do", "what will you do",
@@ -131,12 +148,16 @@ class Query:
 
 @dataclass(frozen=True)
 class _Thing:
-    """Something named in a question; ``located`` where its place is meant."""
+    """Something named in a question.
+
+    ``located`` where its place is meant, ``acts`` where it is who is asked.
+    """
 
     term: str
     sorts: frozenset[str]
     located: bool = False
     said: str = ""
+    acts: bool = False
 
 
 @dataclass(frozen=True)
@@ -189,7 +210,7 @@ class PlanningQuestions:
         self._vocabulary = sorted(
             {word for _, words in self._skeletons for word in words}
             | {word for name in self._names for word in name}
-            | {*_DROPPED, *_SAME, *_TELLING, *_LOCATION, "step", "your"}
+            | {*_DROPPED, *_SAME, *_TELLING, *_LOCATION, "step", "your"}.union(*_VERBS)
             | set(domain.words.possessives.values())
         )
         self._located = {
@@ -316,7 +337,7 @@ class PlanningQuestions:
         text = _SLOT.sub(named, template.raw)
         for said, meant in _ADDRESSED:
             text = re.sub(rf"\b{said}\b", meant, text)
-        return text
+        return re.sub(r"\b(?:if|that) you \w+s\b", lambda found: base(found.group()), text)
 
     def _with_names(self, words: list[str]) -> list[str]:
         """The words with "her" said as "Sally's", where Sally was named before."""
@@ -349,7 +370,8 @@ class PlanningQuestions:
                 term = self._names.get(tuple(words[place : place + length]))
                 if term is not None:
                     said = " ".join(words[place : place + length])
-                    marked.append(_Thing(term, self._sorts[term], said=said))
+                    acts = term == self.domain.robot
+                    marked.append(_Thing(term, self._sorts[term], said=said, acts=acts))
                     place += length
                     break
             else:
@@ -423,6 +445,8 @@ def _chosen(
     for place, own in enumerate(marked):
         if isinstance(own, str) or place in kept:
             yield own
+        elif own.acts:
+            yield "you"
         else:
             yield own.said or own.term.replace("_", " ")
 
@@ -430,12 +454,22 @@ def _chosen(
 def _fits(asks: Asks, read: Sequence[str], skeleton: Sequence[str], alike: float) -> bool:
     if asks is Asks.DID and read[:2] != skeleton[:2]:
         return False
+    # A word that the other side lacks may say the opposite: to lose is not to have.
+    lacking = [*_lacking(read, skeleton), *_lacking(skeleton, read)]
     if asks in _ACTIONS:
-        return (alike >= _ALIKE_ACTION and _HOLE in read) or alike >= _ALIKE
-    telling = [word for word in skeleton if word not in _FREE]
-    return alike >= _ALIKE and all(
-        max(fuzz.ratio(word, other) for other in read) >= _ALIKE for word in telling
-    )
+        enough = (alike >= _ALIKE_ACTION and _HOLE in read) or alike >= _ALIKE
+        return enough and all(
+            any(word in verbs and verbs.intersection(other) for verbs in _VERBS)
+            for word, other in lacking
+        )
+    return alike >= _ALIKE and not lacking
+
+
+def _lacking(words: Sequence[str], others: Sequence[str]) -> Iterator[tuple[str, Sequence[str]]]:
+    """The words that carry meaning and are none of the others, with the others."""
+    for word in words:
+        if word not in _FREE and max(fuzz.ratio(word, other) for other in others) < _ALIKE:
+            yield word, others
 
 
 def _told(words: Sequence[str]) -> list[str]:
@@ -471,6 +505,10 @@ def _templates(domain: PlanningDomain) -> Iterator[_Template]:
                     yield _Template(
                         asks, text, name, len(predicate.sorts), predicate.sorts, positive
                     )
+        elif predicate.kind is PredicateKind.EXOGENOUS_ACTION:
+            table = domain.words.actions.get(name)
+            for asks, text in _if_it_happened(None, table):
+                yield _Template(asks, text, name, len(predicate.sorts), predicate.sorts)
         elif predicate.kind is PredicateKind.ACTION:
             table = domain.words.actions.get(name)
             do = (table.do or table.did) if table else f"{_words(name)} {_all(predicate.sorts)}"
@@ -488,6 +526,7 @@ def _templates(domain: PlanningDomain) -> Iterator[_Template]:
                 (Asks.WHY_DID, f"why are you {gerund(do)}"),
                 (Asks.DID, f"have you {table.did if table else do}"),
                 *((Asks.DID, f"{start} {part}") for start, part in _less(do, table)),
+                *_if_it_happened(do, table),
             ):
                 yield _Template(asks, text, name, len(predicate.sorts), predicate.sorts)
 
@@ -498,6 +537,20 @@ def _less(do: str, table: ActionTable | None) -> Iterator[tuple[str, str]]:
         found = re.fullmatch(r"(.*\{\d+\}) [a-z ]+ \{\d+\}", text)
         if found:
             yield start, found.group(1)
+
+
+def _if_it_happened(do: str | None, table: ActionTable | None) -> Iterator[tuple[Asks, str]]:
+    """Questions for what would be done after an action or event."""
+    if table is None:
+        return
+    clauses = [table.did if do is None or table.do is None else f"you {table.did}"]
+    # "the message was lost": "you lost the message"
+    passive = re.fullmatch(r"(\{\d+\}) was (\w+)", table.did)
+    if passive:
+        clauses.append(f"you {passive.group(2)} {passive.group(1)}")
+    for clause in clauses:
+        for beginning in _SUPPOSING:
+            yield Asks.WHAT_IF, f"{beginning} {clause}"
 
 
 def _asking_which(clause: str) -> Iterator[str]:
@@ -539,7 +592,7 @@ def _about_a_fluent(clause: str, positive: bool) -> Iterator[tuple[Asks, str]]:
                       "why do you believe"):  # fmt: skip
         yield Asks.WHY_BELIEVE, f"{beginning} {clause}"
     were = re.sub(r"\bis\b", "were", clause, count=1)
-    for beginning in ("what would you do if", "what would happen if", "what if"):
+    for beginning in _SUPPOSING:
         yield Asks.WHAT_IF, f"{beginning} {were}"
 
 

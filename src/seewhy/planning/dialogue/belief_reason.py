@@ -17,7 +17,7 @@ from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis import Diagnosis, SurpriseKind, diagnose
-from seewhy.planning.dialogue.instances import Instances, unified
+from seewhy.planning.dialogue.instances import Instances, has_sentence, unified
 from seewhy.planning.dialogue.speech import Speech
 from seewhy.planning.domain import PlanningDomain
 
@@ -327,11 +327,6 @@ def together_said(reasons: tuple[Reason, ...], speech: Speech, *, past: bool = F
     """The beliefs of several reasons as one clause."""
     own = [reason.literal for reason in reasons]
     return speech.every_past(own) if past else speech.every(own)
-
-
-def has_sentence(axiom: Axiom) -> bool:
-    """Whether the author put a sentence above the axiom."""
-    return axiom.text.rstrip(".") != str(axiom).rstrip(".")
 
 
 def _symbol(literal: Literal) -> clingo.Symbol:

@@ -11,16 +11,15 @@ import clingo
 
 from seewhy.errors import QuestionError
 from seewhy.knowledge.axiom import Literal
-from seewhy.knowledge.ground import complement_of, fluent_of, key_of
+from seewhy.knowledge.ground import complement_of, fluent_of, key_of, literal_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis import SurpriseKind, diagnose
 from seewhy.planning.dialogue.action_reason import Against, Failing, Intentions
 from seewhy.planning.dialogue.asking import Asks, PlanningQuestions, Query
 from seewhy.planning.dialogue.belief_answers import BeliefAnswers
-from seewhy.planning.dialogue.belief_reason import has_sentence
 from seewhy.planning.dialogue.goal_words import say_goal
-from seewhy.planning.dialogue.instances import Applied
+from seewhy.planning.dialogue.instances import Applied, has_sentence
 from seewhy.planning.dialogue.speech import Speech, past, sentences, subjunctive
 from seewhy.planning.dialogue.supposing import known_at, supposed_history
 from seewhy.planning.domain import PlanningDomain
@@ -323,6 +322,8 @@ class RunAnswers:
 
     def _what_if(self, query: Query) -> tuple[str, dict[str, Any]]:
         literal = query.symbol()
+        if not self.domain.knowledge.signature.kind(literal.name).is_fluent:
+            return self._what_if_it_happened(query, literal)
         history = known_at(self.run.history, query.step)
         supposed = f"if {subjunctive(self.speech.say(literal))}"
         reasons: dict[str, Any] = {"literal": str(literal)}
@@ -333,6 +334,33 @@ class RunAnswers:
             clause = self.speech.say(literal)
             said = f"nothing that I know of could bring it about that {clause}"
             return sentences([said]), reasons
+        return self._would(supposing, supposed, reasons, present=history, literal=literal)
+
+    def _what_if_it_happened(
+        self, query: Query, event: clingo.Symbol
+    ) -> tuple[str, dict[str, Any]]:
+        """What would be done after an action or event that was not."""
+        history = known_at(self.run.history, query.step)
+        state = self._step_at(history.last_step).believed
+        reasons: dict[str, Any] = {"action": str(event)}
+        supposed = f"if {self.speech.happened(event)}"
+        if state_after(self.domain.knowledge, [event], start=state) is None:
+            obstacle = self._obstacle(self.intentions.obstacles(event, state))
+            said = f"it cannot be that {self.speech.happened(event)}"
+            return sentences([f"{said}: {obstacle}" if obstacle else said]), reasons
+        supposing = history.with_occurrence(literal_of(str(event)), step=history.last_step)
+        return self._would(supposing, supposed, reasons, present=history)
+
+    def _would(
+        self,
+        supposing: History,
+        supposed: str,
+        reasons: dict[str, Any],
+        *,
+        present: History,
+        literal: clingo.Symbol | None = None,
+    ) -> tuple[str, dict[str, Any]]:
+        """What would be done after a supposed history."""
         step = self._decided(supposing)
         reasons |= {
             "decision": step.decision.value,
@@ -351,11 +379,11 @@ class RunAnswers:
             hoped = self._supposed(Run(self.run.goal, supposing, [step]), step)
             hoped = hoped or "something changes that I saw before"
             return sentences([f"{would}, hoping that {hoped}", "no plan would be sure"]), reasons
-        present = self._step_at(history.last_step).plan
-        if step.plan == present:
+        otherwise = self._step_at(present.last_step).plan
+        if step.plan == otherwise:
             would += ", just as otherwise"
-        elif present and len(step.plan) != len(present):
-            would += f": {_count(len(step.plan))} instead of {len(present)}"
+        elif otherwise and len(step.plan) != len(otherwise):
+            would += f": {_count(len(step.plan))} instead of {len(otherwise)}"
         return sentences([would]), reasons
 
     def _why_changed(self, query: Query) -> tuple[str, dict[str, Any]]:
