@@ -514,6 +514,91 @@ def test_what_else_is_asked(delivered: Run, question: str) -> None:
     assert asked(delivered, question) == ALSO_ASKED[question]
 
 
+TO_THE_KITCHEN = DELIVERED["why did you move to the kitchen?"]
+BY_BOB = (
+    f"{TO_THE_KITCHEN} Had I chosen to move to Bob's office, the plan would have been longer: 5 "
+    "actions (move to Bob's office, move to the library, move to the kitchen, move to Sally's "
+    "office and deliver the first message to Sally) instead of 3."
+)
+PRINTING = (
+    f'{TO_THE_KITCHEN} I could not print the first message at step 0: "a message that the robot '
+    'has needs no printing", and I had the first message.'
+)
+CONTRASTS = {
+    "why did you move to the kitchen rather than to Bob's office?": BY_BOB,
+    "why did you move to the kitchen instead of Bob's office?": BY_BOB,
+    "why to the kitchen and not to Bob's office?": BY_BOB,
+    "why did you move to the kitchen rather than to Bob's office at step 0?": BY_BOB,
+    "why did you move to the kitchen rather than print the first message?": PRINTING,
+    "why did you move to the kitchen rather than printing the first message?": PRINTING,
+    "why to the bathroom rather than to the kitchen?": "I did not move to the bathroom.",
+    "why is Sally in her office rather than in the kitchen?": (
+        "I believe that Sally is in her office. I saw at step 3 that Sally was in her office. I "
+        "believe that Sally is not in the kitchen. I saw at step 1 that Sally was not in the "
+        "kitchen; nothing that I know of has changed it since."
+    ),
+    "why is Sally in the kitchen rather than in her office?": (
+        "I do not believe that; I believe that Sally is not in the kitchen. I saw at step 1 that "
+        "Sally was not in the kitchen; nothing that I know of has changed it since."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", CONTRASTS)
+def test_a_contrast_is_answered(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == CONTRASTS[question]
+
+
+@pytest.fixture(scope="module")
+def tower() -> tuple[PlanningDomain, Run]:
+    domain = load_planning_domain("tower_building")
+    goal = read_goal("height(b1, 3)", domain.knowledge)
+    *_, run = execute(domain, goal, sensed=[], act=lambda _: [])
+    return domain, run
+
+
+ON_THE_SECOND = (
+    "I put the first small box on the second small box at step 3 because my goal was that the "
+    "height of the first small box is 3. "
+)
+ON_THE_TABLE = (
+    f"{ON_THE_SECOND}Had I chosen to put the first small box on the table, the plan would have "
+    "been longer: 3 actions (put the first small box on the table, pick up the first small box "
+    "and put the first small box on the second small box) instead of 1."
+)
+ROLES = {
+    "why did you put the first small box on the second small box rather than on the table?": (
+        ON_THE_TABLE
+    ),
+    "why on the second small box rather than on the table?": ON_THE_TABLE,
+    "why on the second small box rather than the table?": ON_THE_TABLE,
+    "why did you put the first small box rather than the ball on the second small box?": (
+        f'{ON_THE_SECOND}I could not put the ball on the second small box at step 3: "only a box '
+        'that is held can be put somewhere", and I did not hold the ball.'
+    ),
+    "why on the table?": "I did not put anything on the table.",
+}
+
+
+@pytest.mark.parametrize("question", ROLES)
+def test_things_keep_their_roles_in_a_contrast(
+    tower: tuple[PlanningDomain, Run], question: str
+) -> None:
+    domain, run = tower
+    assert asked(run, question, domain) == ROLES[question]
+
+
+@pytest.mark.parametrize(
+    "question",
+    ["where is Sally rather than Bob?", "why did you move to the kitchen rather than to Harry?"],
+)
+def test_a_contrast_that_is_not_understood_is_not_passed_over(
+    delivered: Run, question: str
+) -> None:
+    with pytest.raises(QuestionError, match="is not understood"):
+        answer(OFFICE, delivered, question)
+
+
 def test_a_robot_says_why_it_gave_up(shut_in: Run) -> None:
     said = (
         "I gave up: the goal could not be reached, since Bob's office, John's office and the "

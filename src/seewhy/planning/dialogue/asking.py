@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations, islice
 
@@ -31,6 +31,7 @@ _STEP = re.compile(r"(?: (?:at|in|during|after))? step (\d{1,6})\b")
 _AT_FIRST = re.compile(
     r" (?:(?:at|in|from)(?: the)? (?:first|start|beginning|outset)|initially|to begin with)\b"
 )
+_CONTRAST = re.compile(r" (?:rather than|instead of|and not) ")
 _HOLE = "§"
 _DROPPED = {"a", "an", "the", "any", "some", "instead", "now", "then", "please", "currently",
             "really", "just", "actually", "still", "so", "far", "straight", "directly"}  # fmt: skip
@@ -86,6 +87,7 @@ class Asks(StrEnum):
 
 _SUPPOSING = ("what would you do if", "what would happen if", "what if")
 _ACTIONS = (Asks.WHY_DID, Asks.WHY_NOT, Asks.DID)
+_CONTRASTED = (Asks.WHY_DID, Asks.WHY_BELIEVE)
 _UNFILLED = {
     Asks.PLAN: ("what is your plan", "what do you plan to do", "what will you do",
                 "what will you do next", "what do you intend to do", "what do you plan",
@@ -120,6 +122,8 @@ class Query:
     whose : int or None
         The argument that stands for the place of the thing: "Sally's location".
     step : int or None
+    foil : Query or None
+        What it is contrasted with: "rather than on the table".
     """
 
     asks: Asks
@@ -129,6 +133,7 @@ class Query:
     positive: bool = True
     whose: int | None = None
     step: int | None = None
+    foil: Query | None = None
 
     def symbol(self) -> clingo.Symbol:
         """The literal or action that is asked about; what is left open is ``_``."""
@@ -143,6 +148,7 @@ class Query:
             "text": self.text,
             "about": None if self.predicate is None else str(self.symbol()),
             "step": self.step,
+            "rather_than": None if self.foil is None else str(self.foil.symbol()),
         }
 
 
@@ -235,7 +241,38 @@ class PlanningQuestions:
             raise self._refusal(
                 f"the question has {len(text)} characters, at most {LONGEST_QUESTION} are read", []
             )
-        joined = " ".join(self._mended(word) for word in words_of(text))
+        words = words_of(text)
+        contrast = _CONTRAST.search(" ".join(words))
+        if contrast is None:
+            return self._understood(words, text)
+        before, after = (part.split() for part in contrast.string.split(contrast.group(), 1))
+        return self._contrasted(before, after, text)
+
+    def _contrasted(self, before: list[str], after: list[str], text: str) -> Query:
+        """Read a question with a contrast, whose words take the place of the ones before it."""
+        *_, step = [None, *_STEP.finditer(f" {' '.join(after)}")]
+        when = step.group().split() if step else []
+        for length in range(len(after) - len(when), 0, -1):
+            foil, rest = after[:length], after[length:]
+            asked = self._readable([*before, *rest], text)
+            if asked is None or asked.asks not in _CONTRASTED:
+                continue
+            verbs = [["why", "did", "you"], ["why", "are", "you"]]
+            beginnings = [*(before[:place] for place in range(len(before), 0, -1)), *verbs]
+            for beginning in beginnings:
+                other = self._readable([*beginning, *foil, *rest], text)
+                if other is not None and other.asks is asked.asks and _differ(asked, other):
+                    return replace(asked, foil=other)
+        return self._understood([*before, "rather", *after], text)
+
+    def _readable(self, words: Sequence[str], text: str) -> Query | None:
+        try:
+            return self._understood(words, text)
+        except QuestionError:
+            return None
+
+    def _understood(self, read_words: Sequence[str], text: str) -> Query:
+        joined = " ".join(self._mended(word) for word in read_words)
         joined = _AT_FIRST.sub(" step 0", joined.replace("first plan", "plan at first"))
         step = _STEP.search(joined)
         words = _STEP.sub("", joined).split()
@@ -451,6 +488,16 @@ def _chosen(
             yield own.said or own.term.replace("_", " ")
 
 
+def _differ(asked: Query, other: Query) -> bool:
+    """Whether two queries are about different things, none of which was only left open."""
+    if asked.predicate != other.predicate:
+        return True
+    pairs = list(zip(asked.arguments, other.arguments, strict=True))
+    return any(one != two for one, two in pairs) and all(
+        one is None or two is not None for one, two in pairs
+    )
+
+
 def _fits(asks: Asks, read: Sequence[str], skeleton: Sequence[str], alike: float) -> bool:
     if asks is Asks.DID and read[:2] != skeleton[:2]:
         return False
@@ -526,9 +573,17 @@ def _templates(domain: PlanningDomain) -> Iterator[_Template]:
                 (Asks.WHY_DID, f"why are you {gerund(do)}"),
                 (Asks.DID, f"have you {table.did if table else do}"),
                 *((Asks.DID, f"{start} {part}") for start, part in _less(do, table)),
+                *((Asks.WHY_DID, short) for short in _elliptical(do)),
                 *_if_it_happened(do, table),
             ):
                 yield _Template(asks, text, name, len(predicate.sorts), predicate.sorts)
+
+
+def _elliptical(do: str) -> Iterator[str]:
+    """What is asked with the place of an action alone: "why on the table"."""
+    found = re.fullmatch(r".* ([a-z]+ \{\d+\})", do)
+    if found:
+        yield f"why {found.group(1)}"
 
 
 def _less(do: str, table: ActionTable | None) -> Iterator[tuple[str, str]]:

@@ -139,6 +139,10 @@ class RunAnswers:
             Asks.WHY_ENDED: self._why_ended,
         }
         text, reasons = asked[query.asks](query)
+        if query.foil is not None:
+            also, against = self._rather_than(query, query.foil, reasons)
+            text = " ".join(filter(None, [text, also]))
+            reasons = reasons | {"rather_than": against}
         return PlanningReply(text, query, reasons)
 
     def _plan(self, query: Query) -> tuple[str, dict[str, Any]]:
@@ -319,6 +323,30 @@ class RunAnswers:
             f"of {len(step.plan)}"
         )
         return sentences([said]), reasons
+
+    def _rather_than(
+        self, query: Query, foil: Query, reasons: dict[str, Any]
+    ) -> tuple[str, dict[str, Any]]:
+        """What speaks against the other of a contrast, where the one is so."""
+        if query.asks is Asks.WHY_BELIEVE:
+            if not reasons.get("believed"):
+                return "", {}
+            return self.beliefs.why_believe(replace(foil, positive=not foil.positive))
+        if "action" not in reasons:
+            return "", {}
+        if foil.predicate == query.predicate:
+            # What the contrast does not name is as it was.
+            done = clingo.parse_term(reasons["action"]).arguments
+            named = zip(foil.arguments, done, strict=True)
+            foil = replace(foil, arguments=tuple(own or str(term) for own, term in named))
+        foil = replace(foil, asks=Asks.WHY_NOT, step=reasons["step"])
+        text, against = self._why_not(foil)
+        do = self.speech.do(clingo.parse_term(against["action"]))
+        if against["against"] == Against.LONGER.value:
+            text = text.replace("The plan would", f"Had I chosen to {do}, the plan would", 1)
+        elif against["against"] == Against.AS_GOOD.value:
+            text = text.replace("I could have as well", f"I could as well have chosen to {do}", 1)
+        return text, against
 
     def _what_if(self, query: Query) -> tuple[str, dict[str, Any]]:
         literal = query.symbol()
@@ -526,11 +554,18 @@ class RunAnswers:
         ]
 
     def _asked(self, query: Query) -> str:
+        if re.match(r"(why )?(did|do|have|are) you", query.text) is None:
+            # Of "why on the table", what is to be done to anything.
+            return self._anything(query)
         named = re.sub(r"^(why )?(did|do|have|are) you (not )?", "", query.text)
         if query.text.startswith("why are you "):
             # Of "are you moving", what is to be done.
             return self.speech.do(self._actions(query)[0])
         return re.sub(r" at step \d+$", "", named)
+
+    def _anything(self, query: Query) -> str:
+        terms = [clingo.parse_term(own or '"anything"') for own in query.arguments]
+        return self.speech.do(clingo.Function(query.predicate or "", terms))
 
     def _decided(self, history: History) -> Step:
         """What would be decided after a history."""
