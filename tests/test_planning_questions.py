@@ -549,6 +549,67 @@ def test_a_contrast_is_answered(delivered: Run, question: str) -> None:
     assert asked(delivered, question) == CONTRASTS[question]
 
 
+IN_HER_OFFICE = DELIVERED["is Sally in the kitchen?"]
+DENIALS = {
+    "why do you not believe that Sally is in her office?": (
+        "But I do believe that Sally is in her office. I saw at step 3 that Sally was in her "
+        "office."
+    ),
+    "why don't you think that Sally is in the kitchen?": (
+        "I believe that Sally is not in the kitchen. I saw at step 1 that Sally was not in the "
+        "kitchen; nothing that I know of has changed it since."
+    ),
+    "why do you not believe that the bathroom is cluttered?": DELIVERED[
+        "is the bathroom cluttered?"
+    ],
+    "why did you not believe that you were in the kitchen at step 1?": (
+        "But at step 1 I did believe that I was in the kitchen. I saw at step 1 that I was in "
+        "the kitchen."
+    ),
+    "isn't Sally in the kitchen?": IN_HER_OFFICE,
+    "is Sally not in the kitchen?": IN_HER_OFFICE,
+    "don't you believe that Sally is in the kitchen?": IN_HER_OFFICE,
+    "can't you tell me is Sally in the kitchen?": IN_HER_OFFICE,
+    "would you please tell me whether Sally is in the kitchen?": IN_HER_OFFICE,
+    "can't you tell me where Bob is?": DELIVERED["where is Bob?"],
+    "don't you have the first message?": DELIVERED["do you have the first message?"],
+    "is the kitchen not open?": DELIVERED["is the kitchen open?"],
+}
+
+
+@pytest.mark.parametrize("question", DENIALS)
+def test_a_not_of_belief_or_politeness_is_not_the_facts(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == DENIALS[question]
+
+
+PAST = {
+    "why did you believe that you were in the kitchen?": (
+        "At step 1 I believed that I was in the kitchen. I saw at step 1 that I was in the kitchen."
+    ),
+    "why did you believe that the first message for Sally was undelivered?": (
+        "At step 2 I believed that the first message for Sally was undelivered. That is usual: "
+        '"messages are not yet delivered"; nothing that I know of has changed it since.'
+    ),
+    "why did you not believe that you were in the kitchen?": (
+        'At step 2 I believed that I was not in the kitchen. It follows from "nobody is at two '
+        "places\": I was in Sally's office. I saw at step 2 that I was in Sally's office."
+    ),
+    "why did you believe that Bob was in the kitchen?": (
+        "I do not believe that; I believe that Bob is not in the kitchen. I saw at step 1 that "
+        "Bob was not in the kitchen; nothing that I know of has changed it since."
+    ),
+    "why do you believe that you are in the kitchen?": (
+        'I do not believe that; I believe that I am not in the kitchen. It follows from "nobody '
+        "is at two places\": I am in Sally's office. I saw at step 3 that I was in Sally's office."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", PAST)
+def test_a_past_belief_is_told_as_it_was_when_last_acted_on(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == PAST[question]
+
+
 @pytest.fixture(scope="module")
 def tower() -> tuple[PlanningDomain, Run]:
     domain = load_planning_domain("tower_building")

@@ -32,6 +32,11 @@ _AT_FIRST = re.compile(
     r" (?:(?:at|in|from)(?: the)? (?:first|start|beginning|outset)|initially|to begin with)\b"
 )
 _CONTRAST = re.compile(r" (?:rather than|instead of|and not) ")
+_NOT_YOU = re.compile(r"\b(do|did|would|have|are) not you\b")
+_POLITE = re.compile(
+    r"^(?:please )?(?:(?:can|could|will|would|do)(?: not)?(?: you)?(?: not)?(?: please)? )?"
+    r"tell me(?: please)? (?=(?:wh\w+|how|if|is|are|was|were|do|does|did|has|have)\b)"
+)
 _HOLE = "§"
 _DROPPED = {"a", "an", "the", "any", "some", "instead", "now", "then", "please", "currently",
             "really", "just", "actually", "still", "so", "far", "straight", "directly"}  # fmt: skip
@@ -77,6 +82,7 @@ class Asks(StrEnum):
     WHY_DID = "why_did"
     WHY_NOT = "why_not"
     WHY_BELIEVE = "why_believe"
+    WHY_DISBELIEVE = "why_disbelieve"
     WHAT_IF = "what_if"
     WHY_CHANGED = "why_changed"
     WHICH = "which"
@@ -241,7 +247,10 @@ class PlanningQuestions:
             raise self._refusal(
                 f"the question has {len(text)} characters, at most {LONGEST_QUESTION} are read", []
             )
-        words = words_of(text)
+        plain = _NOT_YOU.sub(r"\1 you not", _POLITE.sub("", " ".join(words_of(text))))
+        words = plain.split()
+        if words[:1] in (["whether"], ["if"]):
+            words = ["is", "it", "so", "that", *words[1:]]
         contrast = _CONTRAST.search(" ".join(words))
         if contrast is None:
             return self._understood(words, text)
@@ -642,6 +651,16 @@ def _about_a_fluent(clause: str, positive: bool) -> Iterator[tuple[Asks, str]]:
     if positive or not re.search(r"\b(not|no)\b", clause):
         yield Asks.IS, asked
         yield Asks.IS, f"is it so that {clause}"
+    if positive or not re.search(r"\b(not|no)\b", clause):
+        # "is Sally not in the kitchen" asks what "is Sally in the kitchen" does.
+        auxiliary, *rest = asked.split()
+        for place in (0, 1):
+            if place < len(rest) and auxiliary != "is it":
+                yield Asks.IS, " ".join([auxiliary, *rest[:place], "not", *rest[place:]])
+    for beginning in ("do you believe that", "do you not believe that"):
+        yield Asks.IS, f"{beginning} {clause}"
+    for beginning in ("why do you not believe that", "why did you not believe that"):
+        yield Asks.WHY_DISBELIEVE, f"{beginning} {clause}"
     yield Asks.WHY_BELIEVE, f"why {asked}"
     for beginning in ("why do you believe that", "why did you believe that", "how do you know that",
                       "why do you believe"):  # fmt: skip

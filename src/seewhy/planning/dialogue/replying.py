@@ -131,6 +131,7 @@ class RunAnswers:
             Asks.WHY_DID: self._why_did,
             Asks.WHY_NOT: self._why_not,
             Asks.WHY_BELIEVE: self.beliefs.why_believe,
+            Asks.WHY_DISBELIEVE: self.beliefs.why_disbelieve,
             Asks.WHAT_IF: self._what_if,
             Asks.WHY_CHANGED: self._why_changed,
             Asks.WHICH: self.beliefs.which,
