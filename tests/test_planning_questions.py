@@ -610,6 +610,23 @@ def test_a_past_belief_is_told_as_it_was_when_last_acted_on(delivered: Run, ques
     assert asked(delivered, question) == PAST[question]
 
 
+RECORDED = (
+    "what did you do?",
+    "what did you do at step 1?",
+    "did you move to the kitchen?",
+    "why did you move to the kitchen?",
+    "why did you deliver the first message to Sally?",
+    "why did you not move to Bob's office at step 0?",
+    "are you done?",
+)
+
+
+@pytest.mark.parametrize("question", RECORDED)
+def test_a_recorded_history_is_asked_as_its_run_is(delivered: Run, question: str) -> None:
+    recorded = Run(TO_SALLY, read_history(str(delivered.history), OFFICE.knowledge.signature))
+    assert asked(recorded, question) == asked(delivered, question)
+
+
 @pytest.fixture(scope="module")
 def tower() -> tuple[PlanningDomain, Run]:
     domain = load_planning_domain("tower_building")

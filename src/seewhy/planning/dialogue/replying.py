@@ -20,6 +20,7 @@ from seewhy.planning.dialogue.asking import Asks, PlanningQuestions, Query
 from seewhy.planning.dialogue.belief_answers import BeliefAnswers
 from seewhy.planning.dialogue.goal_words import say_goal
 from seewhy.planning.dialogue.instances import Applied, has_sentence
+from seewhy.planning.dialogue.recalling import recalled
 from seewhy.planning.dialogue.speech import Speech, past, sentences, subjunctive
 from seewhy.planning.dialogue.supposing import known_at, supposed_history
 from seewhy.planning.domain import PlanningDomain
@@ -96,6 +97,7 @@ class RunAnswers:
     def __init__(self, domain: PlanningDomain, run: Run) -> None:
         # Without errors there may be no explanation of what networks read.
         domain = replace(domain, seen_by_networks=run.sensors_err)
+        run = recalled(domain, run)
         self.domain = domain
         self.run = run
         self.questions = PlanningQuestions(domain)
