@@ -323,6 +323,57 @@ BEFORE = {
 }
 
 
+LOSING = (
+    "If the first message was lost, I would print the first message, move to the kitchen, move "
+    "to Sally's office and deliver the first message to Sally: 4 actions instead of 3."
+)
+SUPPOSED_EVENTS = {
+    "what would you do if the robot lost the first message?": LOSING,
+    "what would you do if you lost the first message?": LOSING,
+    "what if the first message was lost?": LOSING,
+    "what if Sally walked to the library?": (
+        "If Sally walked to the library, I would deliver the first message to Sally: 1 action "
+        "instead of 3."
+    ),
+    "what if you moved to Bob's office?": (
+        "If I moved to Bob's office, I would move to the library, move to the kitchen, move to "
+        "Sally's office and deliver the first message to Sally: 4 actions instead of 3."
+    ),
+    "what would you do if you moved to the bathroom?": (
+        'It cannot be that I moved to the bathroom: "the robot moves to places next to its '
+        'own", and I was in the library.'
+    ),
+    "what if somebody opened the kitchen?": (
+        "It cannot be that somebody opened the kitchen: the kitchen was open."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", SUPPOSED_EVENTS)
+def test_events_and_actions_can_be_supposed(question: str) -> None:
+    assert asked(Run(TO_SALLY, OFFICE.history), question) == SUPPOSED_EVENTS[question]
+
+
+# None of these words is known; without them, each is a question that says the opposite.
+OPPOSITE = (
+    "what would you do if the robot dropped the first message?",
+    "what would you do if the robot lost the message?",
+    "what would you do if Sally left her office?",
+    "what if Sally avoided the kitchen?",
+    "do you lack the first message?",
+    "why did you leave the kitchen?",
+    "why did you not leave the kitchen?",
+    "did you avoid the kitchen?",
+    "why do you believe that Sally left her office?",
+)
+
+
+@pytest.mark.parametrize("question", OPPOSITE)
+def test_a_word_that_is_not_known_is_never_passed_over(delivered: Run, question: str) -> None:
+    with pytest.raises(QuestionError, match="is not understood"):
+        answer(OFFICE, delivered, question)
+
+
 @pytest.mark.parametrize("question", BEFORE)
 def test_answers_before_anything_was_done(question: str) -> None:
     assert asked(Run(TO_SALLY, OFFICE.history), question) == BEFORE[question]
@@ -428,6 +479,10 @@ WORDINGS = {
     "what was your plan in the beginning?": "what was your plan at step 0?",
     "what was your first plan?": "what was your plan at step 0?",
     "why did you change your mind?": "why did the plan change?",
+    "did you walk to the kitchen?": "did you move to the kitchen?",
+    "have you brought the first message to Sally?": (
+        "have you delivered the first message to Sally?"
+    ),
     "what's next?": "what is your plan?",
 }
 ALSO_ASKED = {
@@ -457,6 +512,169 @@ def test_the_same_in_other_words(delivered: Run, question: str) -> None:
 @pytest.mark.parametrize("question", ALSO_ASKED)
 def test_what_else_is_asked(delivered: Run, question: str) -> None:
     assert asked(delivered, question) == ALSO_ASKED[question]
+
+
+TO_THE_KITCHEN = DELIVERED["why did you move to the kitchen?"]
+BY_BOB = (
+    f"{TO_THE_KITCHEN} Had I chosen to move to Bob's office, the plan would have been longer: 5 "
+    "actions (move to Bob's office, move to the library, move to the kitchen, move to Sally's "
+    "office and deliver the first message to Sally) instead of 3."
+)
+PRINTING = (
+    f'{TO_THE_KITCHEN} I could not print the first message at step 0: "a message that the robot '
+    'has needs no printing", and I had the first message.'
+)
+CONTRASTS = {
+    "why did you move to the kitchen rather than to Bob's office?": BY_BOB,
+    "why did you move to the kitchen instead of Bob's office?": BY_BOB,
+    "why to the kitchen and not to Bob's office?": BY_BOB,
+    "why did you move to the kitchen rather than to Bob's office at step 0?": BY_BOB,
+    "why did you move to the kitchen rather than print the first message?": PRINTING,
+    "why did you move to the kitchen rather than printing the first message?": PRINTING,
+    "why to the bathroom rather than to the kitchen?": "I did not move to the bathroom.",
+    "why is Sally in her office rather than in the kitchen?": (
+        "I believe that Sally is in her office. I saw at step 3 that Sally was in her office. I "
+        "believe that Sally is not in the kitchen. I saw at step 1 that Sally was not in the "
+        "kitchen; nothing that I know of has changed it since."
+    ),
+    "why is Sally in the kitchen rather than in her office?": (
+        "I do not believe that; I believe that Sally is not in the kitchen. I saw at step 1 that "
+        "Sally was not in the kitchen; nothing that I know of has changed it since."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", CONTRASTS)
+def test_a_contrast_is_answered(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == CONTRASTS[question]
+
+
+IN_HER_OFFICE = DELIVERED["is Sally in the kitchen?"]
+DENIALS = {
+    "why do you not believe that Sally is in her office?": (
+        "But I do believe that Sally is in her office. I saw at step 3 that Sally was in her "
+        "office."
+    ),
+    "why don't you think that Sally is in the kitchen?": (
+        "I believe that Sally is not in the kitchen. I saw at step 1 that Sally was not in the "
+        "kitchen; nothing that I know of has changed it since."
+    ),
+    "why do you not believe that the bathroom is cluttered?": DELIVERED[
+        "is the bathroom cluttered?"
+    ],
+    "why did you not believe that you were in the kitchen at step 1?": (
+        "But at step 1 I did believe that I was in the kitchen. I saw at step 1 that I was in "
+        "the kitchen."
+    ),
+    "isn't Sally in the kitchen?": IN_HER_OFFICE,
+    "is Sally not in the kitchen?": IN_HER_OFFICE,
+    "don't you believe that Sally is in the kitchen?": IN_HER_OFFICE,
+    "can't you tell me is Sally in the kitchen?": IN_HER_OFFICE,
+    "would you please tell me whether Sally is in the kitchen?": IN_HER_OFFICE,
+    "can't you tell me where Bob is?": DELIVERED["where is Bob?"],
+    "don't you have the first message?": DELIVERED["do you have the first message?"],
+    "is the kitchen not open?": DELIVERED["is the kitchen open?"],
+}
+
+
+@pytest.mark.parametrize("question", DENIALS)
+def test_a_not_of_belief_or_politeness_is_not_the_facts(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == DENIALS[question]
+
+
+PAST = {
+    "why did you believe that you were in the kitchen?": (
+        "At step 1 I believed that I was in the kitchen. I saw at step 1 that I was in the kitchen."
+    ),
+    "why did you believe that the first message for Sally was undelivered?": (
+        "At step 2 I believed that the first message for Sally was undelivered. That is usual: "
+        '"messages are not yet delivered"; nothing that I know of has changed it since.'
+    ),
+    "why did you not believe that you were in the kitchen?": (
+        'At step 2 I believed that I was not in the kitchen. It follows from "nobody is at two '
+        "places\": I was in Sally's office. I saw at step 2 that I was in Sally's office."
+    ),
+    "why did you believe that Bob was in the kitchen?": (
+        "I do not believe that; I believe that Bob is not in the kitchen. I saw at step 1 that "
+        "Bob was not in the kitchen; nothing that I know of has changed it since."
+    ),
+    "why do you believe that you are in the kitchen?": (
+        'I do not believe that; I believe that I am not in the kitchen. It follows from "nobody '
+        "is at two places\": I am in Sally's office. I saw at step 3 that I was in Sally's office."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", PAST)
+def test_a_past_belief_is_told_as_it_was_when_last_acted_on(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == PAST[question]
+
+
+RECORDED = (
+    "what did you do?",
+    "what did you do at step 1?",
+    "did you move to the kitchen?",
+    "why did you move to the kitchen?",
+    "why did you deliver the first message to Sally?",
+    "why did you not move to Bob's office at step 0?",
+    "are you done?",
+)
+
+
+@pytest.mark.parametrize("question", RECORDED)
+def test_a_recorded_history_is_asked_as_its_run_is(delivered: Run, question: str) -> None:
+    recorded = Run(TO_SALLY, read_history(str(delivered.history), OFFICE.knowledge.signature))
+    assert asked(recorded, question) == asked(delivered, question)
+
+
+@pytest.fixture(scope="module")
+def tower() -> tuple[PlanningDomain, Run]:
+    domain = load_planning_domain("tower_building")
+    goal = read_goal("height(b1, 3)", domain.knowledge)
+    *_, run = execute(domain, goal, sensed=[], act=lambda _: [])
+    return domain, run
+
+
+ON_THE_SECOND = (
+    "I put the first small box on the second small box at step 3 because my goal was that the "
+    "height of the first small box is 3. "
+)
+ON_THE_TABLE = (
+    f"{ON_THE_SECOND}Had I chosen to put the first small box on the table, the plan would have "
+    "been longer: 3 actions (put the first small box on the table, pick up the first small box "
+    "and put the first small box on the second small box) instead of 1."
+)
+ROLES = {
+    "why did you put the first small box on the second small box rather than on the table?": (
+        ON_THE_TABLE
+    ),
+    "why on the second small box rather than on the table?": ON_THE_TABLE,
+    "why on the second small box rather than the table?": ON_THE_TABLE,
+    "why did you put the first small box rather than the ball on the second small box?": (
+        f'{ON_THE_SECOND}I could not put the ball on the second small box at step 3: "only a box '
+        'that is held can be put somewhere", and I did not hold the ball.'
+    ),
+    "why on the table?": "I did not put anything on the table.",
+}
+
+
+@pytest.mark.parametrize("question", ROLES)
+def test_things_keep_their_roles_in_a_contrast(
+    tower: tuple[PlanningDomain, Run], question: str
+) -> None:
+    domain, run = tower
+    assert asked(run, question, domain) == ROLES[question]
+
+
+@pytest.mark.parametrize(
+    "question",
+    ["where is Sally rather than Bob?", "why did you move to the kitchen rather than to Harry?"],
+)
+def test_a_contrast_that_is_not_understood_is_not_passed_over(
+    delivered: Run, question: str
+) -> None:
+    with pytest.raises(QuestionError, match="is not understood"):
+        answer(OFFICE, delivered, question)
 
 
 def test_a_robot_says_why_it_gave_up(shut_in: Run) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations, islice
 
@@ -24,12 +24,18 @@ LONGEST_QUESTION = 300
 """Characters; nothing in a controlled vocabulary is nearly as long."""
 _ALIKE = 80.0
 _ALIKE_ACTION = 68.0
-"""An action may be called by another verb, where the rest fits: to go is to move."""
+"""An action may be called by another verb of the same meaning: to go is to move."""
 _MOST_READINGS = 64
 _SLOT = re.compile(r"\{(\d+)\}")
 _STEP = re.compile(r"(?: (?:at|in|during|after))? step (\d{1,6})\b")
 _AT_FIRST = re.compile(
     r" (?:(?:at|in|from)(?: the)? (?:first|start|beginning|outset)|initially|to begin with)\b"
+)
+_CONTRAST = re.compile(r" (?:rather than|instead of|and not) ")
+_NOT_YOU = re.compile(r"\b(do|did|would|have|are) not you\b")
+_POLITE = re.compile(
+    r"^(?:please )?(?:(?:can|could|will|would|do)(?: not)?(?: you)?(?: not)?(?: please)? )?"
+    r"tell me(?: please)? (?=(?:wh\w+|how|if|is|are|was|were|do|does|did|has|have)\b)"
 )
 _HOLE = "§"
 _DROPPED = {"a", "an", "the", "any", "some", "instead", "now", "then", "please", "currently",
@@ -44,6 +50,22 @@ _ADDRESSED = (("is you", "are you"), ("you is", "you are"), ("does you", "do you
 _FREE = {"is", "does", "do", "did", "has", "have", "in", "at", "on", "of", "for", "to", "with",
          "from", "by", "that", "it", "there", "you", "your", "would", "will", "happen", "up",
          _HOLE} | _TELLING  # fmt: skip
+_VERBS = (
+    {"move", "go", "walk", "drive", "travel", "head", "come", "run", "enter"},
+    {"moving", "going", "walking", "driving", "travelling", "heading", "coming", "running",
+     "entering"},
+    {"moved", "gone", "went", "walked", "driven", "travelled", "come", "run", "entered"},
+    {"deliver", "bring", "give", "hand", "take", "carry"},
+    {"delivering", "bringing", "giving", "handing", "taking", "carrying"},
+    {"delivered", "brought", "gave", "given", "handed", "taken", "carried"},
+    {"put", "place", "set", "lay", "stack", "drop"},
+    {"putting", "placing", "setting", "laying", "stacking", "dropping"},
+    {"put", "placed", "set", "laid", "stacked", "dropped"},
+    {"pick", "take", "grab", "grasp", "lift", "raise"},
+    {"picking", "taking", "grabbing", "grasping", "lifting", "raising"},
+    {"picked", "taken", "grabbed", "grasped", "lifted", "raised"},
+)  # fmt: skip
+"""Verbs that may stand for one another where an action is asked about; no other verb may."""
 _SELF = ("you", "yourself", "me")
 _LOCATION = ("location", "position", "whereabouts")
 
@@ -60,6 +82,7 @@ class Asks(StrEnum):
     WHY_DID = "why_did"
     WHY_NOT = "why_not"
     WHY_BELIEVE = "why_believe"
+    WHY_DISBELIEVE = "why_disbelieve"
     WHAT_IF = "what_if"
     WHY_CHANGED = "why_changed"
     WHICH = "which"
@@ -68,7 +91,9 @@ class Asks(StrEnum):
     WHY_ENDED = "why_ended"
 
 
+_SUPPOSING = ("what would you do if", "what would happen if", "what if")
 _ACTIONS = (Asks.WHY_DID, Asks.WHY_NOT, Asks.DID)
+_CONTRASTED = (Asks.WHY_DID, Asks.WHY_BELIEVE)
 _UNFILLED = {
     Asks.PLAN: ("what is your plan", "what do you plan to do", "what will you do",
                 "what will you do next", "what do you intend to do", "what do you plan",
@@ -103,6 +128,8 @@ class Query:
     whose : int or None
         The argument that stands for the place of the thing: "Sally's location".
     step : int or None
+    foil : Query or None
+        What it is contrasted with: "rather than on the table".
     """
 
     asks: Asks
@@ -112,6 +139,7 @@ class Query:
     positive: bool = True
     whose: int | None = None
     step: int | None = None
+    foil: Query | None = None
 
     def symbol(self) -> clingo.Symbol:
         """The literal or action that is asked about; what is left open is ``_``."""
@@ -126,17 +154,22 @@ class Query:
             "text": self.text,
             "about": None if self.predicate is None else str(self.symbol()),
             "step": self.step,
+            "rather_than": None if self.foil is None else str(self.foil.symbol()),
         }
 
 
 @dataclass(frozen=True)
 class _Thing:
-    """Something named in a question; ``located`` where its place is meant."""
+    """Something named in a question.
+
+    ``located`` where its place is meant, ``acts`` where it is who is asked.
+    """
 
     term: str
     sorts: frozenset[str]
     located: bool = False
     said: str = ""
+    acts: bool = False
 
 
 @dataclass(frozen=True)
@@ -189,7 +222,7 @@ class PlanningQuestions:
         self._vocabulary = sorted(
             {word for _, words in self._skeletons for word in words}
             | {word for name in self._names for word in name}
-            | {*_DROPPED, *_SAME, *_TELLING, *_LOCATION, "step", "your"}
+            | {*_DROPPED, *_SAME, *_TELLING, *_LOCATION, "step", "your"}.union(*_VERBS)
             | set(domain.words.possessives.values())
         )
         self._located = {
@@ -214,7 +247,41 @@ class PlanningQuestions:
             raise self._refusal(
                 f"the question has {len(text)} characters, at most {LONGEST_QUESTION} are read", []
             )
-        joined = " ".join(self._mended(word) for word in words_of(text))
+        plain = _NOT_YOU.sub(r"\1 you not", _POLITE.sub("", " ".join(words_of(text))))
+        words = plain.split()
+        if words[:1] in (["whether"], ["if"]):
+            words = ["is", "it", "so", "that", *words[1:]]
+        contrast = _CONTRAST.search(" ".join(words))
+        if contrast is None:
+            return self._understood(words, text)
+        before, after = (part.split() for part in contrast.string.split(contrast.group(), 1))
+        return self._contrasted(before, after, text)
+
+    def _contrasted(self, before: list[str], after: list[str], text: str) -> Query:
+        """Read a question with a contrast, whose words take the place of the ones before it."""
+        *_, step = [None, *_STEP.finditer(f" {' '.join(after)}")]
+        when = step.group().split() if step else []
+        for length in range(len(after) - len(when), 0, -1):
+            foil, rest = after[:length], after[length:]
+            asked = self._readable([*before, *rest], text)
+            if asked is None or asked.asks not in _CONTRASTED:
+                continue
+            verbs = [["why", "did", "you"], ["why", "are", "you"]]
+            beginnings = [*(before[:place] for place in range(len(before), 0, -1)), *verbs]
+            for beginning in beginnings:
+                other = self._readable([*beginning, *foil, *rest], text)
+                if other is not None and other.asks is asked.asks and _differ(asked, other):
+                    return replace(asked, foil=other)
+        return self._understood([*before, "rather", *after], text)
+
+    def _readable(self, words: Sequence[str], text: str) -> Query | None:
+        try:
+            return self._understood(words, text)
+        except QuestionError:
+            return None
+
+    def _understood(self, read_words: Sequence[str], text: str) -> Query:
+        joined = " ".join(self._mended(word) for word in read_words)
         joined = _AT_FIRST.sub(" step 0", joined.replace("first plan", "plan at first"))
         step = _STEP.search(joined)
         words = _STEP.sub("", joined).split()
@@ -316,7 +383,7 @@ class PlanningQuestions:
         text = _SLOT.sub(named, template.raw)
         for said, meant in _ADDRESSED:
             text = re.sub(rf"\b{said}\b", meant, text)
-        return text
+        return re.sub(r"\b(?:if|that) you \w+s\b", lambda found: base(found.group()), text)
 
     def _with_names(self, words: list[str]) -> list[str]:
         """The words with "her" said as "Sally's", where Sally was named before."""
@@ -349,7 +416,8 @@ class PlanningQuestions:
                 term = self._names.get(tuple(words[place : place + length]))
                 if term is not None:
                     said = " ".join(words[place : place + length])
-                    marked.append(_Thing(term, self._sorts[term], said=said))
+                    acts = term == self.domain.robot
+                    marked.append(_Thing(term, self._sorts[term], said=said, acts=acts))
                     place += length
                     break
             else:
@@ -423,19 +491,41 @@ def _chosen(
     for place, own in enumerate(marked):
         if isinstance(own, str) or place in kept:
             yield own
+        elif own.acts:
+            yield "you"
         else:
             yield own.said or own.term.replace("_", " ")
+
+
+def _differ(asked: Query, other: Query) -> bool:
+    """Whether two queries are about different things, none of which was only left open."""
+    if asked.predicate != other.predicate:
+        return True
+    pairs = list(zip(asked.arguments, other.arguments, strict=True))
+    return any(one != two for one, two in pairs) and all(
+        one is None or two is not None for one, two in pairs
+    )
 
 
 def _fits(asks: Asks, read: Sequence[str], skeleton: Sequence[str], alike: float) -> bool:
     if asks is Asks.DID and read[:2] != skeleton[:2]:
         return False
+    # A word that the other side lacks may say the opposite: to lose is not to have.
+    lacking = [*_lacking(read, skeleton), *_lacking(skeleton, read)]
     if asks in _ACTIONS:
-        return (alike >= _ALIKE_ACTION and _HOLE in read) or alike >= _ALIKE
-    telling = [word for word in skeleton if word not in _FREE]
-    return alike >= _ALIKE and all(
-        max(fuzz.ratio(word, other) for other in read) >= _ALIKE for word in telling
-    )
+        enough = (alike >= _ALIKE_ACTION and _HOLE in read) or alike >= _ALIKE
+        return enough and all(
+            any(word in verbs and verbs.intersection(other) for verbs in _VERBS)
+            for word, other in lacking
+        )
+    return alike >= _ALIKE and not lacking
+
+
+def _lacking(words: Sequence[str], others: Sequence[str]) -> Iterator[tuple[str, Sequence[str]]]:
+    """The words that carry meaning and are none of the others, with the others."""
+    for word in words:
+        if word not in _FREE and max(fuzz.ratio(word, other) for other in others) < _ALIKE:
+            yield word, others
 
 
 def _told(words: Sequence[str]) -> list[str]:
@@ -471,6 +561,10 @@ def _templates(domain: PlanningDomain) -> Iterator[_Template]:
                     yield _Template(
                         asks, text, name, len(predicate.sorts), predicate.sorts, positive
                     )
+        elif predicate.kind is PredicateKind.EXOGENOUS_ACTION:
+            table = domain.words.actions.get(name)
+            for asks, text in _if_it_happened(None, table):
+                yield _Template(asks, text, name, len(predicate.sorts), predicate.sorts)
         elif predicate.kind is PredicateKind.ACTION:
             table = domain.words.actions.get(name)
             do = (table.do or table.did) if table else f"{_words(name)} {_all(predicate.sorts)}"
@@ -488,8 +582,17 @@ def _templates(domain: PlanningDomain) -> Iterator[_Template]:
                 (Asks.WHY_DID, f"why are you {gerund(do)}"),
                 (Asks.DID, f"have you {table.did if table else do}"),
                 *((Asks.DID, f"{start} {part}") for start, part in _less(do, table)),
+                *((Asks.WHY_DID, short) for short in _elliptical(do)),
+                *_if_it_happened(do, table),
             ):
                 yield _Template(asks, text, name, len(predicate.sorts), predicate.sorts)
+
+
+def _elliptical(do: str) -> Iterator[str]:
+    """What is asked with the place of an action alone: "why on the table"."""
+    found = re.fullmatch(r".* ([a-z]+ \{\d+\})", do)
+    if found:
+        yield f"why {found.group(1)}"
 
 
 def _less(do: str, table: ActionTable | None) -> Iterator[tuple[str, str]]:
@@ -498,6 +601,20 @@ def _less(do: str, table: ActionTable | None) -> Iterator[tuple[str, str]]:
         found = re.fullmatch(r"(.*\{\d+\}) [a-z ]+ \{\d+\}", text)
         if found:
             yield start, found.group(1)
+
+
+def _if_it_happened(do: str | None, table: ActionTable | None) -> Iterator[tuple[Asks, str]]:
+    """Questions for what would be done after an action or event."""
+    if table is None:
+        return
+    clauses = [table.did if do is None or table.do is None else f"you {table.did}"]
+    # "the message was lost": "you lost the message"
+    passive = re.fullmatch(r"(\{\d+\}) was (\w+)", table.did)
+    if passive:
+        clauses.append(f"you {passive.group(2)} {passive.group(1)}")
+    for clause in clauses:
+        for beginning in _SUPPOSING:
+            yield Asks.WHAT_IF, f"{beginning} {clause}"
 
 
 def _asking_which(clause: str) -> Iterator[str]:
@@ -534,12 +651,22 @@ def _about_a_fluent(clause: str, positive: bool) -> Iterator[tuple[Asks, str]]:
     if positive or not re.search(r"\b(not|no)\b", clause):
         yield Asks.IS, asked
         yield Asks.IS, f"is it so that {clause}"
+    if positive or not re.search(r"\b(not|no)\b", clause):
+        # "is Sally not in the kitchen" asks what "is Sally in the kitchen" does.
+        auxiliary, *rest = asked.split()
+        for place in (0, 1):
+            if place < len(rest) and auxiliary != "is it":
+                yield Asks.IS, " ".join([auxiliary, *rest[:place], "not", *rest[place:]])
+    for beginning in ("do you believe that", "do you not believe that"):
+        yield Asks.IS, f"{beginning} {clause}"
+    for beginning in ("why do you not believe that", "why did you not believe that"):
+        yield Asks.WHY_DISBELIEVE, f"{beginning} {clause}"
     yield Asks.WHY_BELIEVE, f"why {asked}"
     for beginning in ("why do you believe that", "why did you believe that", "how do you know that",
                       "why do you believe"):  # fmt: skip
         yield Asks.WHY_BELIEVE, f"{beginning} {clause}"
     were = re.sub(r"\bis\b", "were", clause, count=1)
-    for beginning in ("what would you do if", "what would happen if", "what if"):
+    for beginning in _SUPPOSING:
         yield Asks.WHAT_IF, f"{beginning} {were}"
 
 

@@ -117,8 +117,33 @@ class BeliefAnswers:
         now = step == self.run.history.last_step
         return sentences([(self.speech.every if now else self.speech.every_past)(found)]), reasons
 
+    def why_disbelieve(self, query: Query) -> tuple[str, dict[str, Any]]:
+        """Why something is not believed, where it is not."""
+        query = self._when_it_mattered(replace(query, positive=not query.positive))
+        denied = replace(query, positive=not query.positive)
+        beliefs, step = self._beliefs(query)
+        literal = denied.symbol()
+        if not beliefs.holds(literal, step):
+            return self.why_believe(query)
+        why = beliefs.why(literal, step)
+        reasons = {"literal": str(literal), "believed": True, "why": why.to_dict()}
+        said = f"but I do believe that {self.speech.say(literal)}"
+        if step != self.run.history.last_step:
+            said = f"but at step {step} I did believe that {self.speech.said(literal)}"
+        return sentences([said, *self._because(literal, beliefs, step)]), reasons
+
+    def _when_it_mattered(self, query: Query) -> Query:
+        """A question for a past belief, at the last step at which it was there to act on."""
+        if query.step is not None or not query.text.startswith("why did you "):
+            return query
+        literal = query.symbol()
+        acting = [own for own in self.run.steps if own.action is not None]
+        held = [own.number for own in acting if literal in own.believed.holds]
+        return replace(query, step=held[-1]) if held else query
+
     def why_believe(self, query: Query) -> tuple[str, dict[str, Any]]:
         """Why something is believed."""
+        query = self._when_it_mattered(query)
         beliefs, step = self._beliefs(query)
         literal = query.symbol()
         known = self._known(literal, beliefs, step)
@@ -176,7 +201,7 @@ class BeliefAnswers:
         said = self.speech.say(literal)
         return [
             own.replace(f"it is usual that {said}", "that is usual")
-            for own in tell(beliefs.why(literal, step), self.speech)
+            for own in tell(beliefs.why(literal, step), self.speech, now=self.run.history.last_step)
         ]
 
     def _beliefs(self, query: Query) -> tuple[Beliefs, int]:

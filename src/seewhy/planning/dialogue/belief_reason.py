@@ -17,7 +17,7 @@ from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis import Diagnosis, SurpriseKind, diagnose
-from seewhy.planning.dialogue.instances import Instances, unified
+from seewhy.planning.dialogue.instances import Instances, has_sentence, unified
 from seewhy.planning.dialogue.speech import Speech
 from seewhy.planning.domain import PlanningDomain
 
@@ -266,14 +266,14 @@ class Beliefs:
         return diagnose(self.domain.knowledge, history, last=last, sensors_err=errors)
 
 
-def tell(reason: Reason, speech: Speech) -> list[str]:
-    """Return the reason as sentences, the nearest first."""
+def tell(reason: Reason, speech: Speech, *, now: int | None = None) -> list[str]:
+    """Return the reason as sentences, the nearest first; what is before ``now`` as past."""
     told: list[str] = []
-    _tell(reason, speech, told)
+    _tell(reason, speech, told, now)
     return list(dict.fromkeys(told))
 
 
-def _tell(reason: Reason, speech: Speech, told: list[str]) -> None:
+def _tell(reason: Reason, speech: Speech, told: list[str], now: int | None) -> None:
     said = speech.said(reason.literal)
     children = reason.children
     axiom = f'"{reason.axiom.text}"' if reason.axiom and has_sentence(reason.axiom) else ""
@@ -282,14 +282,15 @@ def _tell(reason: Reason, speech: Speech, told: list[str]) -> None:
     elif reason.basis is Basis.USUAL:
         told.append(f"it is usual that {reason.text}{': ' if axiom else ''}{axiom}")
     elif reason.basis is Basis.UNCHANGED:
-        _tell_unchanged(children[0], speech, told)
+        _tell_unchanged(children[0], speech, told, now)
         return
     elif reason.basis is Basis.EFFECT:
         assert reason.action is not None
         done = speech.happened(reason.action)
         told.append(f"{done} at step {reason.step - 1}{', and ' if axiom else ''}{axiom}")
     elif reason.basis is Basis.FOLLOWS:
-        since = together_said(children, speech)
+        before = now is not None and reason.step < now
+        since = together_said(children, speech, past=before)
         told.append(
             f"it follows {'from ' + axiom if axiom else 'from what I know'}"
             f"{': ' if since else ''}{since}"
@@ -304,12 +305,12 @@ def _tell(reason: Reason, speech: Speech, told: list[str]) -> None:
         )
         return
     for child in _first_of_each(children):
-        _tell(child, speech, told)
+        _tell(child, speech, told, now)
 
 
-def _tell_unchanged(child: Reason, speech: Speech, told: list[str]) -> None:
+def _tell_unchanged(child: Reason, speech: Speech, told: list[str], now: int | None) -> None:
     below: list[str] = []
-    _tell(child, speech, below)
+    _tell(child, speech, below, now)
     told += [f"{below[0]}; nothing that I know of has changed it since", *below[1:]]
 
 
@@ -327,11 +328,6 @@ def together_said(reasons: tuple[Reason, ...], speech: Speech, *, past: bool = F
     """The beliefs of several reasons as one clause."""
     own = [reason.literal for reason in reasons]
     return speech.every_past(own) if past else speech.every(own)
-
-
-def has_sentence(axiom: Axiom) -> bool:
-    """Whether the author put a sentence above the axiom."""
-    return axiom.text.rstrip(".") != str(axiom).rstrip(".")
 
 
 def _symbol(literal: Literal) -> clingo.Symbol:

@@ -6,7 +6,8 @@ import re
 
 import clingo
 
-from seewhy.planning.dialogue.belief_reason import Beliefs, has_sentence
+from seewhy.planning.dialogue.belief_reason import Beliefs
+from seewhy.planning.dialogue.instances import has_sentence
 from seewhy.planning.dialogue.speech import plural
 from seewhy.planning.dialogue.whereabouts import Place, places
 from seewhy.wording import join_words

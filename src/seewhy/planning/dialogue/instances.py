@@ -91,7 +91,10 @@ class Instances:
         bindings = sorted(
             atom.symbol.arguments[0] for atom in found.by_signature("applies", 1) if atom.is_fact
         )
-        return [self._applied(own, binding, facts) for binding in bindings]
+        instances = [self._applied(own, binding, facts) for binding in bindings]
+        if has_sentence(axiom):
+            return instances
+        return [replace(one, axiom=replace(one.axiom, text=str(one.axiom))) for one in instances]
 
     def counted(self, axiom: Axiom, state: Iterable[clingo.Symbol]) -> list[clingo.Symbol]:
         """Return the literals that the aggregates of an axiom without variables count."""
@@ -138,6 +141,11 @@ class Instances:
         if rules:
             found = BoundedControl("\n".join([facts, *rules]), size=axioms_size([axiom], signature))
             yield from sorted(atom.symbol.arguments[0] for atom in found.by_signature("counted", 1))
+
+
+def has_sentence(axiom: Axiom) -> bool:
+    """Whether the author put a sentence above the axiom."""
+    return axiom.text.rstrip(".") != str(axiom).rstrip(".")
 
 
 def unified(axiom: Axiom, literal: Literal | None, symbol: clingo.Symbol) -> Axiom | None:

@@ -11,16 +11,16 @@ import clingo
 
 from seewhy.errors import QuestionError
 from seewhy.knowledge.axiom import Literal
-from seewhy.knowledge.ground import complement_of, fluent_of, key_of
+from seewhy.knowledge.ground import complement_of, fluent_of, key_of, literal_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis import SurpriseKind, diagnose
 from seewhy.planning.dialogue.action_reason import Against, Failing, Intentions
 from seewhy.planning.dialogue.asking import Asks, PlanningQuestions, Query
 from seewhy.planning.dialogue.belief_answers import BeliefAnswers
-from seewhy.planning.dialogue.belief_reason import has_sentence
 from seewhy.planning.dialogue.goal_words import say_goal
-from seewhy.planning.dialogue.instances import Applied
+from seewhy.planning.dialogue.instances import Applied, has_sentence
+from seewhy.planning.dialogue.recalling import recalled
 from seewhy.planning.dialogue.speech import Speech, past, sentences, subjunctive
 from seewhy.planning.dialogue.supposing import known_at, supposed_history
 from seewhy.planning.domain import PlanningDomain
@@ -97,6 +97,7 @@ class RunAnswers:
     def __init__(self, domain: PlanningDomain, run: Run) -> None:
         # Without errors there may be no explanation of what networks read.
         domain = replace(domain, seen_by_networks=run.sensors_err)
+        run = recalled(domain, run)
         self.domain = domain
         self.run = run
         self.questions = PlanningQuestions(domain)
@@ -132,6 +133,7 @@ class RunAnswers:
             Asks.WHY_DID: self._why_did,
             Asks.WHY_NOT: self._why_not,
             Asks.WHY_BELIEVE: self.beliefs.why_believe,
+            Asks.WHY_DISBELIEVE: self.beliefs.why_disbelieve,
             Asks.WHAT_IF: self._what_if,
             Asks.WHY_CHANGED: self._why_changed,
             Asks.WHICH: self.beliefs.which,
@@ -140,6 +142,10 @@ class RunAnswers:
             Asks.WHY_ENDED: self._why_ended,
         }
         text, reasons = asked[query.asks](query)
+        if query.foil is not None:
+            also, against = self._rather_than(query, query.foil, reasons)
+            text = " ".join(filter(None, [text, also]))
+            reasons = reasons | {"rather_than": against}
         return PlanningReply(text, query, reasons)
 
     def _plan(self, query: Query) -> tuple[str, dict[str, Any]]:
@@ -321,8 +327,34 @@ class RunAnswers:
         )
         return sentences([said]), reasons
 
+    def _rather_than(
+        self, query: Query, foil: Query, reasons: dict[str, Any]
+    ) -> tuple[str, dict[str, Any]]:
+        """What speaks against the other of a contrast, where the one is so."""
+        if query.asks is Asks.WHY_BELIEVE:
+            if not reasons.get("believed"):
+                return "", {}
+            return self.beliefs.why_believe(replace(foil, positive=not foil.positive))
+        if "action" not in reasons:
+            return "", {}
+        if foil.predicate == query.predicate:
+            # What the contrast does not name is as it was.
+            done = clingo.parse_term(reasons["action"]).arguments
+            named = zip(foil.arguments, done, strict=True)
+            foil = replace(foil, arguments=tuple(own or str(term) for own, term in named))
+        foil = replace(foil, asks=Asks.WHY_NOT, step=reasons["step"])
+        text, against = self._why_not(foil)
+        do = self.speech.do(clingo.parse_term(against["action"]))
+        if against["against"] == Against.LONGER.value:
+            text = text.replace("The plan would", f"Had I chosen to {do}, the plan would", 1)
+        elif against["against"] == Against.AS_GOOD.value:
+            text = text.replace("I could have as well", f"I could as well have chosen to {do}", 1)
+        return text, against
+
     def _what_if(self, query: Query) -> tuple[str, dict[str, Any]]:
         literal = query.symbol()
+        if not self.domain.knowledge.signature.kind(literal.name).is_fluent:
+            return self._what_if_it_happened(query, literal)
         history = known_at(self.run.history, query.step)
         supposed = f"if {subjunctive(self.speech.say(literal))}"
         reasons: dict[str, Any] = {"literal": str(literal)}
@@ -333,6 +365,33 @@ class RunAnswers:
             clause = self.speech.say(literal)
             said = f"nothing that I know of could bring it about that {clause}"
             return sentences([said]), reasons
+        return self._would(supposing, supposed, reasons, present=history, literal=literal)
+
+    def _what_if_it_happened(
+        self, query: Query, event: clingo.Symbol
+    ) -> tuple[str, dict[str, Any]]:
+        """What would be done after an action or event that was not."""
+        history = known_at(self.run.history, query.step)
+        state = self._step_at(history.last_step).believed
+        reasons: dict[str, Any] = {"action": str(event)}
+        supposed = f"if {self.speech.happened(event)}"
+        if state_after(self.domain.knowledge, [event], start=state) is None:
+            obstacle = self._obstacle(self.intentions.obstacles(event, state))
+            said = f"it cannot be that {self.speech.happened(event)}"
+            return sentences([f"{said}: {obstacle}" if obstacle else said]), reasons
+        supposing = history.with_occurrence(literal_of(str(event)), step=history.last_step)
+        return self._would(supposing, supposed, reasons, present=history)
+
+    def _would(
+        self,
+        supposing: History,
+        supposed: str,
+        reasons: dict[str, Any],
+        *,
+        present: History,
+        literal: clingo.Symbol | None = None,
+    ) -> tuple[str, dict[str, Any]]:
+        """What would be done after a supposed history."""
         step = self._decided(supposing)
         reasons |= {
             "decision": step.decision.value,
@@ -351,11 +410,11 @@ class RunAnswers:
             hoped = self._supposed(Run(self.run.goal, supposing, [step]), step)
             hoped = hoped or "something changes that I saw before"
             return sentences([f"{would}, hoping that {hoped}", "no plan would be sure"]), reasons
-        present = self._step_at(history.last_step).plan
-        if step.plan == present:
+        otherwise = self._step_at(present.last_step).plan
+        if step.plan == otherwise:
             would += ", just as otherwise"
-        elif present and len(step.plan) != len(present):
-            would += f": {_count(len(step.plan))} instead of {len(present)}"
+        elif otherwise and len(step.plan) != len(otherwise):
+            would += f": {_count(len(step.plan))} instead of {len(otherwise)}"
         return sentences([would]), reasons
 
     def _why_changed(self, query: Query) -> tuple[str, dict[str, Any]]:
@@ -498,11 +557,18 @@ class RunAnswers:
         ]
 
     def _asked(self, query: Query) -> str:
+        if re.match(r"(why )?(did|do|have|are) you", query.text) is None:
+            # Of "why on the table", what is to be done to anything.
+            return self._anything(query)
         named = re.sub(r"^(why )?(did|do|have|are) you (not )?", "", query.text)
         if query.text.startswith("why are you "):
             # Of "are you moving", what is to be done.
             return self.speech.do(self._actions(query)[0])
         return re.sub(r" at step \d+$", "", named)
+
+    def _anything(self, query: Query) -> str:
+        terms = [clingo.parse_term(own or '"anything"') for own in query.arguments]
+        return self.speech.do(clingo.Function(query.predicate or "", terms))
 
     def _decided(self, history: History) -> Step:
         """What would be decided after a history."""
