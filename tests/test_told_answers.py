@@ -429,3 +429,35 @@ def test_the_commands_speak(run: Run, model_folder: Path, no_voice: Path) -> Non
     told = run("ask", model_folder, image, "is it good?", "--speech", no_voice / "answer.wav")
     assert told.code == 0
     assert (no_voice / "spoken").read_text().endswith(told.out.splitlines()[0])
+
+
+def test_one_question_that_is_not_understood_leaves_the_others_answered(run: Run) -> None:
+    told = run(
+        *("decide", "structure_stability", "block_displaced=yes"),
+        *("--ask", "do fish sing?", "--ask", "is it stable?"),
+    )
+    assert told.code == 2
+    assert told.out.splitlines()[0] == "class: unstable"
+    assert told.out.splitlines()[-2:] == ["is it stable?", "No, the structure is unstable."]
+    assert told.err.startswith("seewhy: 'do fish sing?' is not understood; ask for instance: ")
+
+
+@pytest.mark.parametrize("domain", ["structure_stability", "traffic_signs", "robot_assistant"])
+def test_whatever_is_not_known_every_question_has_an_answer(domain: str) -> None:
+    agent = Agent(load_domain(domain))
+    features = agent.domain.features
+    rng = np.random.default_rng(0)
+    asked = [*agent.questions.one_of_each()[:40]]
+    asked += [
+        agent.questions.understand(text)
+        for text in ("how sure are you?", "which rule did you use?", "what should I check?")
+    ]
+    why = agent.questions.understand("why?")
+    for known in range(len(features) + 1):
+        some = rng.permutation(list(features))[:known]
+        values = {name: str(rng.choice(features[name].values)) for name in some}
+        scene = agent.classify_values(values)
+        for question in asked:
+            reply = agent.answer(scene, question)
+            assert reply.text
+            assert agent.answer(scene, why, previous=reply).text

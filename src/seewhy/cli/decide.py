@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from seewhy.cli.options import DomainName, Json
-from seewhy.cli.screen import print_json, say
+from seewhy.cli.screen import complain, print_json, say
 
 if TYPE_CHECKING:
     from seewhy.domain import Domain
-    from seewhy.reply import Reply
+    from seewhy.reply import Classification, Reply
 
 
 def decide(
@@ -34,17 +34,37 @@ def decide(
     from seewhy.agent import Agent
     from seewhy.dialogue.question import Asks, Question
     from seewhy.domain import load_domain
+    from seewhy.errors import QuestionError
 
     loaded = load_domain(domain)
     agent = Agent(loaded)
     scene = agent.classify_values(named_values(loaded, values or ()))
     reply = agent.answer(scene, Question(Asks.CLASS, "what is it", ()))
-    replies: list[Reply] = []
+    replies: dict[str, Reply] = {}
+    before: Reply | None = None
     for question in ask or ():
-        before = replies[-1] if replies else None
-        asked = before.question if before else None
-        understood = agent.questions.understand(question, previous=asked)
-        replies.append(agent.answer(scene, understood, previous=before))
+        try:
+            asked = agent.questions.understand(
+                question, previous=before.question if before else None
+            )
+        except QuestionError as problem:
+            complain(str(problem))  # the others are answered all the same
+            continue
+        before = replies[question] = agent.answer(scene, asked, previous=before)
+    _print(loaded, scene, reply, replies, json=json)
+    if len(replies) < len(set(ask or ())):
+        raise typer.Exit(2)
+
+
+def _print(
+    loaded: Domain,
+    scene: Classification,
+    reply: Reply,
+    replies: Mapping[str, Reply],
+    *,
+    json: bool,
+) -> None:
+    """Print what is decided and why, and the answers to questions."""
     if json:
         told = {"features": loaded.named(scene.vector), "class": scene.label}
         print_json(
@@ -59,7 +79,7 @@ def decide(
                         "text": own.text,
                         "justification": own.justification.to_dict(),
                     }
-                    for own in replies
+                    for own in replies.values()
                 ],
             }
         )
@@ -69,7 +89,7 @@ def decide(
     say("because:")
     for line in reply.justification.to_text().splitlines():
         say(f"  {line}")
-    for question, own in zip(ask or (), replies, strict=True):
+    for question, own in replies.items():
         say()
         say(question)
         say(own.text)

@@ -157,6 +157,7 @@ def least_sure_told(previous: Ground | None, scene: Classification, told: Node) 
     grounds = [
         Ground(feature, scene.features[feature].value, scene.features[feature].probability)
         for feature in told.features()
+        if feature in scene.features
     ]
     return min([*grounds, *([previous] if previous else [])], key=_probability, default=None)
 

@@ -36,7 +36,9 @@ def narrate(domain: Domain, reply: Reply) -> str:
         )
     seen = say_features(domain, reply.scene.vector, features)
     if seen:
-        sure = [reply.features[feature].probability for feature in features]
+        # An absence may rest on what is not known.
+        known = [feature for feature in features if feature in reply.features]
+        sure = [reply.features[feature].probability for feature in known]
         each = "each with a probability of at least" if len(sure) > 1 else "with a probability of"
         adverb = certainty_of(least_sure_told(None, reply.scene, justification)).adverb
         begun = f"{adverb} {seen}" if adverb else f"I see that {seen}"
