@@ -193,6 +193,10 @@ def test_two_classes_at_once_are_said_to_be_two(tmp_path: Path) -> None:
         reply.justification.text
         == "the knowledge does not decide: it concludes more than one class"
     )
+    assert [child.to_text() for child in reply.justification.children] == [
+        'the tile is good: "red is good" (knowledge.al:8)\n└─ the tile is red (p = 0.90)',
+        'the tile is bad: "red is ugly" (knowledge.al:10)\n└─ the tile is red (p = 0.90)',
+    ]
 
 
 # Forms of answer ------------------------------------------------------------------------------

@@ -229,6 +229,9 @@ class ReasonedAnswers:
                 children=cases,
             )
         children: list[Node] = []
+        if verdict is Verdict.SEVERAL:
+            concluded = (self._why(vector, own.literal) for own in self.domain.classes.values())
+            children += [node for node in concluded if node is not None]
         if verdict is Verdict.SILENT:
             nearest = self.nearest_classes(vector, most=_CLASSES_SHOWN)
             children += [self.why_not_class(vector, label) for label in nearest]
