@@ -19,7 +19,7 @@ from seewhy.nearest import did_you_mean, nearest
 _SURE_WORDS = 7
 """So many of the words for a class mean nothing else; later ones may name a feature."""
 
-_ALIKE = 85.0  # of 100, see rapidfuzz's ratio
+_ALIKE = 82.0  # of 100, see rapidfuzz's ratio: two letters of six changed places are 83
 _LONG = 4
 
 _CROSSES = frozenset({"x", "yes", "y", "1", "true", "✓", "✔", "*"})
@@ -142,6 +142,9 @@ def doubtful_values(said: ClassFeatures) -> list[str]:
     >>> rows = {str(n): {"index": "stretched"} for n in range(3)} | {"8": {"index": "streched"}}
     >>> doubtful_values(ClassFeatures(("index",), rows, "fingers.csv"))
     ["fingers.csv: 'streched' of 'index' is the value of 8 alone; is 'stretched' meant?"]
+    >>> rows = {str(n): {"thumb": "folded"} for n in range(3)} | {"9": {"thumb": "fodled"}}
+    >>> doubtful_values(ClassFeatures(("thumb",), rows, "fingers.csv"))
+    ["fingers.csv: 'fodled' of 'thumb' is the value of 9 alone; is 'folded' meant?"]
     """
     found = []
     for feature in said.features:
