@@ -94,9 +94,13 @@ class Remembered:
         return {**test.features, CLASS: test.classes}
 
     def shown(self, name: str) -> frozenset[str]:
-        """The classes that the network of the class was trained on a picture of."""
-        assert name == CLASS
-        return self._seen.classes_shown
+        """The values of a feature, or the classes, that training pictures showed."""
+        if name == CLASS:
+            return self._seen.classes_shown
+        scenes = self._seen.train.scenes
+        column = list(scenes.domain.features).index(name)
+        values = (vector[column] for vector in scenes.vectors)
+        return frozenset(value for value in values if value is not None)
 
 
 def see(setting: Setting, trial: Trial) -> Seen:
