@@ -72,7 +72,7 @@ def meanings(text: str) -> list[str]:
 
 def judge(path: Path) -> tuple[Counter[str], list[tuple[str, str, str]]]:
     """Return how many wordings are right, missed and misread, and those that are not right."""
-    name = next(own for own in bundled_domains() if path.stem.endswith(own))
+    name = next(domain_name for domain_name in bundled_domains() if path.stem.endswith(domain_name))
     questions = Questions(load_domain(name))
     counted: Counter[str] = Counter()
     wrong = []

@@ -75,11 +75,11 @@ def _print(
                 "justification": reply.justification.to_dict(),
                 "answers": [
                     {
-                        "question": f"{own.question.text}?",
-                        "text": own.text,
-                        "justification": own.justification.to_dict(),
+                        "question": f"{answered.question.text}?",
+                        "text": answered.text,
+                        "justification": answered.justification.to_dict(),
                     }
-                    for own in replies.values()
+                    for answered in replies.values()
                 ],
             }
         )
@@ -89,10 +89,10 @@ def _print(
     say("because:")
     for line in reply.justification.to_text().splitlines():
         say(f"  {line}")
-    for question, own in replies.items():
+    for question, answered in replies.items():
         say()
         say(question)
-        say(own.text)
+        say(answered.text)
 
 
 def named_values(domain: Domain, assignments: Sequence[str]) -> dict[str, str]:

@@ -39,7 +39,9 @@ class Suggestions:
                 continue
             by_text.setdefault(text, Question(asks, text, ()))
         self._by_kind: dict[tuple[str, bool], dict[str, Query]] = {}
-        by_text = {text: own for text, own in by_text.items() if words_of(text).count("not") < 2}
+        by_text = {
+            text: question for text, question in by_text.items() if words_of(text).count("not") < 2
+        }
         for text, question in by_text.items():
             self._by_kind.setdefault(_kind(text), {}).setdefault(text, question.query)
         self._all = {text: question.query for text, question in by_text.items()}
@@ -49,10 +51,10 @@ class Suggestions:
         kind = _kind(text)
         same = self._by_kind.get(kind, {})
         as_denying = {
-            own: query
+            wording: query
             for (_, denies), pool in self._by_kind.items()
             if denies == kind[1]
-            for own, query in pool.items()
+            for wording, query in pool.items()
         }
         chosen: dict[Query, str] = {}
         about = _about(text)

@@ -45,7 +45,9 @@ def completed(readings: Readings, words: Sequence[str], previous: Question) -> l
         rest = rest[2:]
     elif not linked:
         return []
-    return [own for question in readings.read(rest) for own in _carried(question, previous)]
+    return [
+        follow_up for question in readings.read(rest) for follow_up in _carried(question, previous)
+    ]
 
 
 def _why(previous: Question, *, denied: bool) -> list[Question]:

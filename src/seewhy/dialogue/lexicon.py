@@ -281,8 +281,8 @@ def words_in(entries: Iterable[Entries]) -> set[str]:
     """Return all words of phrases."""
     return {
         word
-        for own in entries
-        for phrases in own.by_first.values()
+        for entry in entries
+        for phrases in entry.by_first.values()
         for phrase, _ in phrases
         for word in phrase
         if word not in ARTICLES

@@ -72,7 +72,7 @@ class Readings:
         self.entries = lexicon_of(domain, normalise)
         self._grammar = Grammar(
             phrases=_phrases(),
-            lexicon={name: own.at for name, own in self.entries.items()},
+            lexicon={name: entry.at for name, entry in self.entries.items()},
             folds={
                 **dict.fromkeys(_STATEMENTS, self._fold),
                 **_ROLES,
@@ -114,22 +114,28 @@ class Readings:
 
     def _named_plainly(self, question: Question) -> bool:
         """Whether the values it names go by their words alone, as the domain's templates say."""
-        named = {question.feature, *(own.feature for own in question.statements)} - {None}
+        named = {question.feature, *(statement.feature for statement in question.statements)} - {
+            None
+        }
         return named <= self._plain
 
     def _fold(self, bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
         """What is stated by a phrase, where its parts go together."""
         said = self._said(bindings)
-        rest = tuple(own for own in bindings if own.role in ("feature", "group", "said", "counts"))
+        rest = tuple(
+            binding
+            for binding in bindings
+            if binding.role in ("feature", "group", "said", "counts")
+        )
         if said is None:
             return
         if said == ():
-            if any(own.role in ("fact", "label", "about") for own in bindings):
+            if any(binding.role in ("fact", "label", "about") for binding in bindings):
                 return
             yield rest
             return
-        kept = tuple(own for own in bindings if own.role == "said")
-        yield (*kept, *(Binding("said", own) for own in said))
+        kept = tuple(binding for binding in bindings if binding.role == "said")
+        yield (*kept, *(Binding("said", clause) for clause in said))
 
     def _fold_named(self, bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
         """What is named first of two things of which the same is said."""
@@ -138,11 +144,13 @@ class Readings:
 
     def _said(self, bindings: tuple[Binding, ...]) -> tuple[_Said, ...] | None:
         """The one statement of a phrase; () where it states nothing, None where it is none."""
-        facts = [own.meaning for own in bindings if own.role == "fact"]
-        labels = list(dict.fromkeys(own.meaning for own in bindings if own.role == "label"))
-        about = {own.meaning for own in bindings if own.role in ("feature", "about")}
-        denied = sum(own.role == "denied" for own in bindings) % 2 == 1
-        forward = any(own.role == "forward" for own in bindings)
+        facts = [binding.meaning for binding in bindings if binding.role == "fact"]
+        labels = list(
+            dict.fromkeys(binding.meaning for binding in bindings if binding.role == "label")
+        )
+        about = {binding.meaning for binding in bindings if binding.role in ("feature", "about")}
+        denied = sum(binding.role == "denied" for binding in bindings) % 2 == 1
+        forward = any(binding.role == "forward" for binding in bindings)
         if not facts and not labels:
             return ()
         if len(facts) + len(labels) > 1:
@@ -174,10 +182,13 @@ class Readings:
 
     def joined(self, bindings: tuple[Binding, ...], asks: Asks) -> Iterator[Question]:
         """Whether several things are so, or one of them."""
-        said = [self._turned(own) if own.denied else own.statement for own in _all_said(bindings)]
+        said = [
+            self._turned(spoken) if spoken.denied else spoken.statement
+            for spoken in _all_said(bindings)
+        ]
         if len(set(said)) < 2:
             return
-        features = {own.feature for own in said}
+        features = {clause.feature for clause in said}
         if asks is Asks.EITHER and len(features) == 1:
             feature = said[0].feature
             yield (
@@ -192,14 +203,14 @@ class Readings:
 
     def neither(self, bindings: tuple[Binding, ...]) -> Iterator[Question]:
         """Whether none of two things is so."""
-        denied = [replace(own, denied=not own.denied) for own in _all_said(bindings)]
-        yield from self.joined(tuple(Binding("said", own) for own in denied), Asks.ALL)
+        denied = [replace(spoken, denied=not spoken.denied) for spoken in _all_said(bindings)]
+        yield from self.joined(tuple(Binding("said", binding) for binding in denied), Asks.ALL)
 
     def why(self, bindings: tuple[Binding, ...], *, denied: bool = False) -> Iterator[Question]:
         """Why something is so, or is not."""
-        for own in _all_said(bindings)[:1]:
-            statement = own.statement
-            if own.denied or own.forward or denied:
+        for spoken in _all_said(bindings)[:1]:
+            statement = spoken.statement
+            if spoken.denied or spoken.forward or denied:
                 asks = Asks.WHY_NOT_CLASS if statement.label else Asks.WHY_NOT_VALUE
             else:
                 asks = Asks.WHY_CLASS if statement.label else Asks.WHY_VALUE
@@ -218,24 +229,24 @@ class Readings:
         """What would be if some features were different."""
         parts: list[Statement] = []
         said = _all_said(bindings)
-        if any(own.named for own in said):
-            said = [replace(own, denied=said[-1].denied, named=False) for own in said]
-        for own in said:
-            statement = own.statement
+        if any(clause.named for clause in said):
+            said = [replace(clause, denied=said[-1].denied, named=False) for clause in said]
+        for clause in said:
+            statement = clause.statement
             if statement.label is not None:
                 return
-            if own.denied or own.forward:
-                opposite = self._turned(own)
+            if clause.denied or clause.forward:
+                opposite = self._turned(clause)
                 if opposite == statement:
                     return
                 statement = opposite
             parts.append(statement)
-        if parts and len({own.feature for own in parts}) == len(parts):
+        if parts and len({part.feature for part in parts}) == len(parts):
             yield _question(Asks.WHAT_IF, statements=tuple(parts))
 
     def change(self, bindings: tuple[Binding, ...], *, away: bool = False) -> Iterator[Question]:
         """What would have to change for a class, or so that it is none."""
-        goals = [own for own in bindings if own.role == "said"]
+        goals = [binding for binding in bindings if binding.role == "said"]
         if len(goals) != 1:
             return
         said = goals[0].meaning
@@ -252,13 +263,13 @@ class Readings:
 
     def difference(self, bindings: tuple[Binding, ...]) -> Iterator[Question]:
         """What tells what is shown from a class."""
-        for own in _all_said(bindings)[:1]:
-            yield _question(Asks.DIFFERENCE_TO_CLASS, label=own.statement.label)
+        for spoken in _all_said(bindings)[:1]:
+            yield _question(Asks.DIFFERENCE_TO_CLASS, label=spoken.statement.label)
 
     def sure(self, bindings: tuple[Binding, ...]) -> Iterator[Question]:
         """How sure something is."""
-        for own in _all_said(bindings)[:1]:
-            statement = own.statement
+        for spoken in _all_said(bindings)[:1]:
+            statement = spoken.statement
             if statement.label is not None:
                 yield _question(Asks.HOW_SURE, label=statement.label)
             else:
@@ -269,8 +280,8 @@ class Readings:
 
     def where(self, bindings: tuple[Binding, ...]) -> Iterator[Question]:
         """Where something is seen."""
-        for own in _all_said(bindings)[:1]:
-            statement = own.statement
+        for spoken in _all_said(bindings)[:1]:
+            statement = spoken.statement
             if statement.label is not None:
                 yield _question(Asks.WHERE, label=statement.label)
             else:
@@ -286,31 +297,31 @@ class Readings:
         if len(features) != 1:
             return
         feature = next(iter(features))
-        facts = [own.meaning for own in bindings if own.role == "fact"]
+        facts = [binding.meaning for binding in bindings if binding.role == "fact"]
         if all(_stated(fact).feature == feature for fact in facts):
             yield _question(Asks.FEATURE_VALUE, feature=feature)
 
     def choice(self, bindings: tuple[Binding, ...]) -> Iterator[Question]:
         """Which of the values that are named."""
-        said = [own.statement for own in _all_said(bindings)]
-        facts = [own.meaning for own in bindings if own.role == "fact"]
+        said = [spoken.statement for spoken in _all_said(bindings)]
+        facts = [binding.meaning for binding in bindings if binding.role == "fact"]
         said += map(_stated, facts)
         about = set(_roles(bindings, "feature"))
         if len(set(said)) < 2:
             return
-        features = {own.feature for own in said}
+        features = {clause.feature for clause in said}
         if len(features) == 1 and None not in features and not about - features:
             yield _question(Asks.FEATURE_VALUE, feature=said[0].feature)
 
     def grouped(self, bindings: tuple[Binding, ...], asks: Asks) -> Iterator[Question]:
         """Which features of a group have a value, or how many."""
-        groups = [own.meaning for own in bindings if own.role == "group"]
+        groups = [binding.meaning for binding in bindings if binding.role == "group"]
         said = _all_said(bindings)
         for group in groups[:1]:
             assert isinstance(group, tuple)
-            for own in said:
-                if own.statement.feature in group and own.statement.value is not None:
-                    yield _question(asks, value=own.statement.value, group=group)
+            for clause in said:
+                if clause.statement.feature in group and clause.statement.value is not None:
+                    yield _question(asks, value=clause.statement.value, group=group)
                     return
 
     def whether_or_not(self, bindings: tuple[Binding, ...]) -> Iterator[Question]:
@@ -332,7 +343,9 @@ class Readings:
         """Who is to be seen."""
         persons = self.entries["person"].by_first
         features = tuple(
-            _stated(bindings[0].meaning).feature for own in persons.values() for _, bindings in own
+            _stated(bindings[0].meaning).feature
+            for person in persons.values()
+            for _, bindings in person
         )
         if features:
             yield _question(Asks.DESCRIBE, group=features)
@@ -391,11 +404,11 @@ def _about(asks: Asks, statement: Statement) -> Question:
 
 
 def _all_said(bindings: Iterable[Binding]) -> list[_Said]:
-    return [own.meaning for own in bindings if isinstance(own.meaning, _Said)]
+    return [binding.meaning for binding in bindings if isinstance(binding.meaning, _Said)]
 
 
 def _roles(bindings: Iterable[Binding], role: str) -> list[str]:
-    return [str(own.meaning) for own in bindings if own.role == role]
+    return [str(binding.meaning) for binding in bindings if binding.role == role]
 
 
 def _phrase(name: str) -> Form:

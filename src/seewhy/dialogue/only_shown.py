@@ -33,8 +33,8 @@ def say_only_shown(domain: Domain, features: Collection[str], only_shown: Mappin
     """
     return join_words(
         [
-            f"of the {own.name}, only {own.words[only_shown[key]][0]} was ever shown"
-            for key, own in domain.features.items()
+            f"of the {feature.name}, only {feature.words[only_shown[key]][0]} was ever shown"
+            for key, feature in domain.features.items()
             if key in features and key in only_shown
         ]
     )

@@ -31,7 +31,7 @@ def say_question(domain: Domain, question: Question) -> str:
     >>> say_question(domain, Question(Asks.WHAT_IF, "", (), statements=(wide,)))
     'what if the structure has a wide base'
     """
-    clauses = [_clause(domain, own) for own in question.statements]
+    clauses = [_clause(domain, statement) for statement in question.statements]
     about = Statement(question.label, question.feature, question.value)
     match question.asks:
         case Asks.WHAT_IF:

@@ -19,7 +19,9 @@ def shared_by_pictures(
 
     None where there is nothing such. It is no rule: the text says of how many pictures it is so.
     """
-    counts = {own: classes[label] for own, classes in experience.items() if classes.get(label)}
+    counts = {
+        vector: classes[label] for vector, classes in experience.items() if classes.get(label)
+    }
     shared = {
         key: values[0]
         for key, here, values in zip(

@@ -220,7 +220,7 @@ def _similar(domain: Domain, why: Node, look: Look | None) -> Told:
     if not near:
         text = "I cannot tell: networks that grew on these pictures alone keep none to compare with"
     else:
-        listed = join_words([_near_picture(domain, own) for own in near])
+        listed = join_words([_near_picture(domain, picture) for picture in near])
         text = f"of the pictures of training, the most like it: {listed}"
     return Told(AnswerType("similar"), sentence(text), why)
 
@@ -300,13 +300,15 @@ def _joined(
     values = domain.named(scene.vector)
     so = [_holds(values, scene, statement) for statement in question.statements]
     both = question.asks is Asks.ALL
-    features = [own.feature for own in question.statements if own.feature is not None]
+    features = [
+        statement.feature for statement in question.statements if statement.feature is not None
+    ]
     told = [
-        own
-        for own, holds in zip(question.statements, so, strict=True)
+        statement
+        for statement, holds in zip(question.statements, so, strict=True)
         if both or holds or not any(so)
     ]
-    said = [_say_as_it_is(domain, values, scene, own) for own in told]
+    said = [_say_as_it_is(domain, values, scene, picture) for picture in told]
     text = join_clauses(list(dict.fromkeys(said)), subject=domain.subject)
     known = all(so) if both else any(so)
     if not known and None in so:

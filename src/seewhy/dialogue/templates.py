@@ -170,7 +170,9 @@ def _slots(
         if asks not in _ABOUT_A_CLASS:
             raise DomainError(f"{place}: '{pattern}' names {{class}}, but asks '{asks}'; remove it")
         return [
-            _Slot(word=word, label=key) for key, own in domain.classes.items() for word in own.words
+            _Slot(word=word, label=key)
+            for key, scene_class in domain.classes.items()
+            for word in scene_class.words
         ]
     if asks in _ABOUT_A_CLASS:
         raise DomainError(f"{place}: '{pattern}' asks about a class; name it as {{class}}")
@@ -195,7 +197,7 @@ def _check_table(table: QuestionTable, domain: Domain, place: str) -> Asks:
     if table.asks not in _ASKED_BY_TEMPLATES:
         raise DomainError(
             f"{place}: asks = '{table.asks}' is not known; "
-            f"{did_you_mean(table.asks, [own.value for own in _ASKED_BY_TEMPLATES])}"
+            f"{did_you_mean(table.asks, [asks.value for asks in _ASKED_BY_TEMPLATES])}"
         )
     asks = Asks(table.asks)
     if asks in _ABOUT_A_FEATURE and table.feature is None:

@@ -22,7 +22,9 @@ def tree_says(domain: Domain, tree: DecisionTree, vector: FeatureVector, label: 
     values = domain.named(vector)
 
     def distance(path: TreePath) -> tuple[int, int]:
-        failed = sum(values[own.feature] not in own.values for own in path.conditions)
+        failed = sum(
+            values[condition.feature] not in condition.values for condition in path.conditions
+        )
         return failed, -path.support
 
     path = min(paths, key=distance)

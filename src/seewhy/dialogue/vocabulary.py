@@ -136,7 +136,7 @@ def _check_words(domain: Domain) -> None:
             'write one such as "the apple"'
         )
     questions = domain.questions
-    phrases = {f"synonyms of '{key}'": (key, *own) for key, own in questions.synonyms.items()}
+    phrases = {f"synonyms of '{key}'": (key, *words) for key, words in questions.synonyms.items()}
     phrases["fillers"] = tuple(questions.fillers)
     for where, own in phrases.items():
         for phrase in own:

@@ -72,7 +72,7 @@ class Weighing:
         """The class if some features had other values, and its reasons."""
         domain = self.domain
         values = domain.named(scene.vector)
-        changes = {own.feature or "": own.value or "" for own in supposed}
+        changes = {other.feature or "": other.value or "" for other in supposed}
         already = all(values[key] == value for key, value in changes.items())
         vector = domain.vector({**values, **changes})
         label, node = self._decided(vector)
@@ -173,7 +173,7 @@ class Weighing:
             return self._sure_of_value(scene, question.feature)
         label = question.label
         if label is not None and scene.label is not None and label != scene.label:
-            other = next((own for own in scene.otherwise if own.label == label), None)
+            other = next((other for other in scene.otherwise if other.label == label), None)
             said = f"I take {domain.subject} to be {domain.classes[scene.label].say}"
             if other is not None and other.probability is not None:
                 said += f"; that it is {domain.classes[label].say} has a probability of "

@@ -171,8 +171,8 @@ def _believed(node: Node) -> str:
 
 def _untrue(node: Node, beliefs: Beliefs) -> Iterator[str]:
     """Literals and conditions that are not as they are said to be."""
-    told = [own for own in _said_to_be_so(node) if any(sign in own.literal for sign in "(<>=")]
-    for own, holds in zip(told, holding([own.literal for own in told], beliefs), strict=True):
+    told = [said for said in _said_to_be_so(node) if any(sign in said.literal for sign in "(<>=")]
+    for own, holds in zip(told, holding([node.literal for node in told], beliefs), strict=True):
         if holds is not own.holds:
             yield f"'{own.literal}' is said to {'hold' if own.holds else 'fail'}\n{node.to_text()}"
 
@@ -230,5 +230,5 @@ def _distance(scene: FeatureVector, other: FeatureVector) -> tuple[int, int]:
 
 def _class_of(known: RandomKnowledge, scene: FeatureVector) -> str | None:
     believed = known.believed(scene) or frozenset()
-    classes = [name for name, own in known.schema.classes.items() if str(own) in believed]
+    classes = [name for name, literal in known.schema.classes.items() if str(literal) in believed]
     return classes[0] if len(classes) == 1 else None

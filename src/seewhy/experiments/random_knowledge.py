@@ -127,7 +127,7 @@ class RandomKnowledge:
         return {}
 
     def _solve(self, scene: FeatureVector) -> list[Beliefs]:
-        defaults = [number for number, own in enumerate(self.axioms) if own.default]
+        defaults = [number for number, axiom in enumerate(self.axioms) if axiom.default]
         for size in range(len(defaults) + 1):
             found = [
                 beliefs
@@ -208,7 +208,7 @@ class RandomKnowledge:
 
 def holding(conditions: Sequence[str], beliefs: Beliefs) -> list[bool]:
     """Return for every condition without free variables whether it holds."""
-    lines = [_SORTS, *(f"{own}." for own in sorted(beliefs))]
+    lines = [_SORTS, *(f"{belief}." for belief in sorted(beliefs))]
     lines += [f"holds__({number}) :- {text}." for number, text in enumerate(conditions)]
     control = clingo.Control(["--warn=none"], logger=lambda *_: None)
     control.add("base", [], "\n".join(lines))

@@ -298,7 +298,7 @@ def _try_out(
     request = Request(
         arguments=list(arguments),
         program=program,
-        parts=[(name, [own.number for own in numbers]) for name, numbers in parts],
+        parts=[(name, [number.number for number in numbers]) for name, numbers in parts],
         memory=MEMORY,
         seconds=int(GROUNDING_SECONDS),
         atoms=MOST_ATOMS,

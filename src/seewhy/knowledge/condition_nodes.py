@@ -6,12 +6,12 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from seewhy.knowledge.axiom import AxiomKind, Condition, substitute, variables_in
+from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, substitute, variables_in
 from seewhy.knowledge.evidence import Evidence
 from seewhy.knowledge.foundation import Need
 from seewhy.knowledge.ground import literal_of
 from seewhy.knowledge.justification import Basis, Node
-from seewhy.knowledge.possible import Belief, Instance
+from seewhy.knowledge.possible import Belief
 from seewhy.knowledge.settling import JointCondition
 
 
@@ -76,15 +76,17 @@ def joint_node(
 
 def _not_known_once(evidence: Evidence, children: Sequence[Node]) -> list[Node]:
     """Nodes of which those of a feature that is not known, if there are several, become one."""
-    bare = Counter(own.feature for own in children if own.value is None and not own.children)
+    bare = Counter(
+        child.feature for child in children if child.value is None and not child.children
+    )
     return [
-        evidence.feature_node(own.feature)
-        if own.feature is not None
-        and own.value is None
-        and not own.children
-        and bare[own.feature] > 1
-        else own
-        for own in children
+        evidence.feature_node(child.feature)
+        if child.feature is not None
+        and child.value is None
+        and not child.children
+        and bare[child.feature] > 1
+        else child
+        for child in children
     ]
 
 
@@ -130,10 +132,10 @@ def failed(evidence: Evidence, need: Belief, node: Node) -> Node:
     return replace(node, literal=str(literal), holds=False)
 
 
-def axiom_failed(evidence: Evidence, instance: Instance, children: Sequence[Node]) -> Node:
+def axiom_failed(
+    evidence: Evidence, axiom: Axiom, literal: Literal, children: Sequence[Node]
+) -> Node:
     """Return the node of an axiom that does not apply, given the nodes of its conditions."""
-    axiom = instance.axiom
-    literal = literal_of(instance.head)
     return Node(
         literal=str(literal),
         text=evidence.say(literal),

@@ -65,12 +65,14 @@ class _Words:
 
     def atom(self, atom: ast.AST, *, holds: bool = True) -> str:
         if atom.ast_type is ast.ASTType.BodyAggregate:
-            elements = [self.joined(own.condition) for own in atom.elements]
-            terms = [own.terms for own in atom.elements]
+            elements = [self.joined(element.condition) for element in atom.elements]
+            terms = [element.terms for element in atom.elements]
             function = _FUNCTIONS[atom.function]
             return self.compared(atom, function, elements, terms, holds=holds)
         if atom.ast_type is ast.ASTType.Aggregate:
-            elements = [self.joined([own.literal, *own.condition]) for own in atom.elements]
+            elements = [
+                self.joined([element.literal, *element.condition]) for element in atom.elements
+            ]
             return self.compared(atom, "number", elements, (), holds=holds)
         said = self.symbol(atom) if atom.ast_type is ast.ASTType.SymbolicAtom else str(atom)
         return said if holds else f"{_DENIED}{said}"
@@ -94,9 +96,9 @@ class _Words:
         what = " or ".join(elements)
         if function != "number":
             # What '#sum { W, D : … }' adds up is the first of its terms.
-            summed = " or ".join(dict.fromkeys(self.term(own[0]) for own in terms))
+            summed = " or ".join(dict.fromkeys(self.term(term[0]) for term in terms))
             return f"{denied}the {function} {summed} where {what} is {bounds}"
-        counted = {self.term(own[0]) for own in terms if len(own) == 1}
+        counted = {self.term(term[0]) for term in terms if len(term) == 1}
         named = len(terms) == 1 and len(counted) == 1
         several = "" if [str(term) for _, term in guards] == ["1"] else "s"
         cases = f"value{several} of {counted.pop()}" if named else f"case{several}"
@@ -107,17 +109,21 @@ class _Words:
         if not conditional.condition:
             return said
         sorts = [
-            own.atom.symbol.name.replace("_", " ")
-            for own in conditional.condition
-            if _is_sort(own, self.signature)
+            literal.atom.symbol.name.replace("_", " ")
+            for literal in conditional.condition
+            if _is_sort(literal, self.signature)
         ]
-        others = [own for own in conditional.condition if not _is_sort(own, self.signature)]
+        others = [
+            literal for literal in conditional.condition if not _is_sort(literal, self.signature)
+        ]
         if others:
             return f"{said} whenever {self.joined(others)}"
         return f"{said} for every {' and '.join(sorts)}"
 
     def joined(self, literals: Iterable[ast.AST]) -> str:
-        told = [self.literal(own) for own in literals if not _is_sort(own, self.signature)]
+        told = [
+            self.literal(literal) for literal in literals if not _is_sort(literal, self.signature)
+        ]
         return " and ".join(told) or "any"
 
     def literal(self, literal: ast.AST) -> str:
@@ -128,7 +134,7 @@ class _Words:
         symbol, positive = atom.symbol, True
         while symbol.ast_type is ast.ASTType.UnaryOperation:
             symbol, positive = symbol.argument, not positive
-        arguments = tuple(self.term(own) for own in symbol.arguments)
+        arguments = tuple(self.term(argument) for argument in symbol.arguments)
         return self.say(Literal(symbol.name, arguments, positive))
 
     def term(self, term: ast.AST) -> str:

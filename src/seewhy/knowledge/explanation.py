@@ -281,7 +281,8 @@ class _Explanation:
             if isinstance(need, Belief):
                 node = failed(self.evidence, need, node)
             children.append(node)
-        return axiom_failed(self.evidence, instance, once(children))
+        head = literal_of(instance.head)
+        return axiom_failed(self.evidence, instance.axiom, head, once(children))
 
 
 def _fewest(

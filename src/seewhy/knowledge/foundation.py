@@ -122,7 +122,7 @@ class Foundation:
         if not all(self.is_founded(need, founded) for need in conditions):
             return False
         forced = self.forced(exception)
-        return not forced or any(all(own in founded for own in beliefs) for beliefs in forced)
+        return not forced or any(all(belief in founded for belief in beliefs) for beliefs in forced)
 
     def known(self, condition: JointCondition, founded: Collection[Belief]) -> dict[str, bool]:
         """What is founded of a condition's literals; what had best be left out stands first."""
@@ -134,21 +134,27 @@ class Foundation:
 
     def _founded(self, without: frozenset[Belief], assumed: frozenset[Belief]) -> dict[Belief, int]:
         founded = dict.fromkeys(assumed - without, 0)
-        believed = [own for own in self._cone if own.holds and own not in without]
-        absent = [own for own in self._cone if not own.holds and own not in without]
+        believed = [belief for belief in self._cone if belief.holds and belief not in without]
+        absent = [belief for belief in self._cone if not belief.holds and belief not in without]
         stage = 0
         while True:
             before = len(founded)
             while new := [
-                own for own in believed if own not in founded and self._has_support(own, founded)
+                belief
+                for belief in believed
+                if belief not in founded and self._has_support(belief, founded)
             ]:
                 stage += 1
                 founded.update(dict.fromkeys(new, stage))
-            together = {own for own in absent if own not in founded}
-            while bare := {own for own in together if not self._fails(own, founded, together)}:
+            together = {absence for absence in absent if absence not in founded}
+            while bare := {
+                belief for belief in together if not self._fails(belief, founded, together)
+            }:
                 together -= bare
             stage += 1
-            founded.update(dict.fromkeys((own for own in absent if own in together), stage))
+            founded.update(
+                dict.fromkeys((absence for absence in absent if absence in together), stage)
+            )
             if len(founded) == before:
                 return founded
 
@@ -217,20 +223,20 @@ class Foundation:
     @cached_property
     def _in_circles(self) -> frozenset[Belief]:
         """What rests on a circle and is rested on by one; all circles are in it."""
-        forward = {own: set(rests_on) for own, rests_on in self._cone.items()}
-        backward: dict[Belief, set[Belief]] = {own: set() for own in forward}
-        for own, rests_on in forward.items():
+        forward = {belief: set(rests_on) for belief, rests_on in self._cone.items()}
+        backward: dict[Belief, set[Belief]] = {belief: set() for belief in forward}
+        for belief, rests_on in forward.items():
             for other in rests_on:
-                backward[other].add(own)
+                backward[other].add(belief)
         return frozenset(_peeled(forward, backward) & _peeled(backward, forward))
 
     def _assumptions(self) -> frozenset[Belief]:
         founded = self._founded(frozenset(), frozenset())
-        assumed = [own for own in self._cone if not own.holds and own not in founded]
+        assumed = [belief for belief in self._cone if not belief.holds and belief not in founded]
         if self.root not in self._founded(frozenset(), frozenset(assumed)):
             return frozenset()
         for absence in assumed[:_TRIED]:
-            fewer = [own for own in assumed if own != absence]
+            fewer = [belief for belief in assumed if belief != absence]
             if self.root in self._founded(frozenset(), frozenset(fewer)):
                 assumed = fewer
         self._stages.clear()
@@ -258,10 +264,10 @@ def _peeled(
     graph: Mapping[Belief, set[Belief]], reversed_graph: Mapping[Belief, set[Belief]]
 ) -> set[Belief]:
     """What is left of a graph when what leads nowhere is taken away again and again."""
-    left = {own: len(leads_to) for own, leads_to in graph.items()}
-    ends = [own for own, count in left.items() if not count]
-    for own in ends:
-        for other in reversed_graph[own]:
+    left = {belief: len(leads_to) for belief, leads_to in graph.items()}
+    ends = [belief for belief, count in left.items() if not count]
+    for end in ends:
+        for other in reversed_graph[end]:
             left[other] -= 1
             if not left[other]:
                 ends.append(other)

@@ -41,7 +41,7 @@ def main() -> int:
         control = clingo.Control(["--warn=none", *asked.arguments], logger=lambda *_: None)
         control.add("base", [], asked.program)
         control.ground(
-            [(name, [clingo.Number(own) for own in numbers]) for name, numbers in asked.parts]
+            [(name, [clingo.Number(number) for number in numbers]) for name, numbers in asked.parts]
         )
     except (MemoryError, RuntimeError):
         # The program can be read: what fails is memory.

@@ -69,11 +69,16 @@ def grounding_size(knowledge: Knowledge) -> GroundingSize:
     """
     signature = knowledge.signature
     changing = [
-        own for own in signature.predicates.values() if own.kind.is_fluent or own.kind.is_action
+        predicate
+        for predicate in signature.predicates.values()
+        if predicate.kind.is_fluent or predicate.kind.is_action
     ]
     return _size(
         [
-            *((_instances(own, signature), own.location, str(own)) for own in changing),
+            *(
+                (_instances(predicate, signature), predicate.location, str(predicate))
+                for predicate in changing
+            ),
             *_axioms(knowledge.axioms, signature),
         ]
     )
@@ -119,7 +124,11 @@ def _members(sort: str, signature: Signature) -> int:
 def axiom_instances(axiom: Axiom, signature: Signature) -> int:
     """Return how many instances an axiom may have: those of its variables and ranges."""
     domains: dict[str, int] = {}
-    texts = [str(axiom.action or ""), str(axiom.head), *(own.text for own in axiom.body)]
+    texts = [
+        str(axiom.action or ""),
+        str(axiom.head),
+        *(condition.text for condition in axiom.body),
+    ]
     for text in filter(None, texts):
         for name, arguments in _atoms(text):
             sorts = (name,) if name in signature.sorts else signature.predicates[name].sorts

@@ -62,16 +62,19 @@ def check_numbers(rule: ast.AST, sorts: Mapping[str, Sort], statement: Statement
 
 
 def _of_sort(sort: Sort) -> Bounds | None:
-    numbers = [int(own) for own in sort.members or () if own.lstrip("-").isdecimal()]
+    numbers = [int(member) for member in sort.members or () if member.lstrip("-").isdecimal()]
     return (min(numbers), max(numbers)) if numbers else None
 
 
 def _computed(rule: ast.AST) -> Iterator[tuple[str, ast.AST]]:
     """The variables that a comparison says the value of, with the term that is."""
-    for own in _collected(rule, "Comparison"):
-        guards = own.guards
+    for comparison in _collected(rule, "Comparison"):
+        guards = comparison.guards
         if len(guards) == 1 and guards[0].comparison == ast.ComparisonOperator.Equal:
-            for one, other in ((own.term, guards[0].term), (guards[0].term, own.term)):
+            for one, other in (
+                (comparison.term, guards[0].term),
+                (guards[0].term, comparison.term),
+            ):
                 if one.ast_type is ast.ASTType.Variable:
                     yield one.name, other
 
@@ -103,7 +106,7 @@ def _bounds(term: ast.AST, known: Mapping[str, Bounds]) -> Bounds | None:
             return (int(text), int(text)) if text.lstrip("-").isdecimal() else None
         case ast.ASTType.Interval:
             ends = _bounds(term.left, known), _bounds(term.right, known)
-            return None if None in ends else _around(own for end in ends if end for own in end)
+            return None if None in ends else _around(bound for end in ends if end for bound in end)
         case ast.ASTType.UnaryOperation:
             return _unary(term, known)
         case ast.ASTType.BinaryOperation:
@@ -153,5 +156,5 @@ def _power(left: Bounds, exponent: int) -> Bounds:
 
 
 def _around(numbers: Iterable[int]) -> Bounds:
-    every = [max(-_FAR, min(_FAR, own)) for own in numbers]
+    every = [max(-_FAR, min(_FAR, number)) for number in numbers]
     return min(every), max(every)

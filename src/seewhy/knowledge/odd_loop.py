@@ -41,12 +41,13 @@ class OddLoops:
 
     def __init__(self, knowledge: Knowledge, schema: SceneSchema) -> None:
         self.axioms = knowledge.axioms
-        guarded = [replace(own, body=(*own.body, _kept(own))) for own in knowledge.axioms]
-        choices = "".join(f"{{ holds({_kept(own)}) }}.\n" for own in knowledge.axioms)
+        guarded = [replace(axiom, body=(*axiom.body, _kept(axiom))) for axiom in knowledge.axioms]
+        choices = "".join(f"{{ holds({_kept(axiom)}) }}.\n" for axiom in knowledge.axioms)
         text = program_text(replace(knowledge, axioms=tuple(guarded)), schema) + choices
         self.grounding = Grounding(text, schema, size=grounding_size(knowledge))
         self._literals = {
-            own.identifier: self.grounding.literal(f"holds({_kept(own)})") for own in self.axioms
+            axiom.identifier: self.grounding.literal(f"holds({_kept(axiom)})")
+            for axiom in self.axioms
         }
 
     def of(self, vector: FeatureVector) -> tuple[Axiom, ...]:
@@ -58,13 +59,13 @@ class OddLoops:
         if self._has_answer_set(vector, needed):
             return ()
         for axiom in self.axioms:
-            fewer = [own for own in needed if own is not axiom]
+            fewer = [need for need in needed if need is not axiom]
             if not self._has_answer_set(vector, fewer):
                 needed = fewer
         return tuple(needed)
 
     def _has_answer_set(self, vector: FeatureVector, axioms: list[Axiom]) -> bool:
-        kept = {own.identifier for own in axioms}
+        kept = {axiom.identifier for axiom in axioms}
         return self.grounding.satisfiable(
             [
                 *self.grounding.assume(vector),
@@ -87,7 +88,7 @@ def say_odd_loop(loop: Sequence[Axiom]) -> str:
     >>> say_odd_loop(read_knowledge("#static p. p if not p.").axioms)
     "'p if not p.' (line 1) needs, through 'not', that its own conclusion is not believed"
     """
-    said = " and ".join(f"'{own}' (line {own.location.line})" for own in loop)
+    said = " and ".join(f"'{member}' (line {member.location.line})" for member in loop)
     if len(loop) == 1:
         return f"{said} needs, through 'not', that its own conclusion is not believed"
     return f"{said} need, through 'not', that what they conclude is not believed"

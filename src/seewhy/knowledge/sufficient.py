@@ -92,8 +92,12 @@ class SufficientFeatures:
         grounding = self._grounding
         lacks = grounding.literal(f"holds({key_of(literal)})")
         shared = grounding.assume(vector)
-        fixed = [own for own, name in zip(shared, self.features, strict=True) if name in features]
-        none = [-own for own in grounding.with_predicate("exception", 2).values()]
+        fixed = [
+            is_shared
+            for is_shared, name in zip(shared, self.features, strict=True)
+            if name in features
+        ]
+        none = [-atom for atom in grounding.with_predicate("exception", 2).values()]
         assumed = [grounding.strict, *fixed, *([] if lacks is None else [-lacks])]
         if grounding.satisfiable([*assumed, *none]):
             return False
@@ -120,7 +124,11 @@ class SufficientFeatures:
         key = f"holds({key_of(literal)})"
         lacks = grounding.literal(key)
         shared = grounding.assume(vector)
-        fixed = [own for own, name in zip(shared, self.features, strict=True) if name in features]
+        fixed = [
+            is_shared
+            for is_shared, name in zip(shared, self.features, strict=True)
+            if name in features
+        ]
         assumed = [grounding.strict, *fixed, *([] if lacks is None else [-lacks])]
         believed = clingo.parse_term(key_of(literal))
         for _ in range(_LOOKED_AT):
@@ -144,9 +152,9 @@ class SufficientFeatures:
 
     def _scene_of(self, symbols: Sequence[clingo.Symbol]) -> FeatureVector:
         shown = {
-            str(own.arguments[0]): str(own.arguments[1])
-            for own in symbols
-            if own.name == "observed"
+            str(symbol.arguments[0]): str(symbol.arguments[1])
+            for symbol in symbols
+            if symbol.name == "observed"
         }
         return tuple(None if shown[name] == UNKNOWN else shown[name] for name in self.features)
 

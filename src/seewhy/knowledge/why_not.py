@@ -9,8 +9,8 @@ from weakref import WeakKeyDictionary
 
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, variables_in
 from seewhy.knowledge.bounded_control import BoundedControl
+from seewhy.knowledge.condition_nodes import axiom_failed, failed_comparison, once
 from seewhy.knowledge.condition_nodes import failed as failed_by
-from seewhy.knowledge.condition_nodes import failed_comparison, once
 from seewhy.knowledge.evidence import Evidence, Say, evidence_of
 from seewhy.knowledge.explanation import belief_node, condition_node, need_node
 from seewhy.knowledge.foundation import opposite
@@ -161,14 +161,7 @@ def _failures(
             against = key_of(literal.complement)
             if against in evidence.holds:
                 children.append(belief_node(evidence, against))
-        node = Node(
-            literal=str(literal),
-            text=evidence.say(literal),
-            basis=Basis.DEFAULT if axiom.kind is AxiomKind.DEFAULT else Basis.AXIOM,
-            holds=False,
-            axiom=axiom,
-            children=tuple(children),
-        )
+        node = axiom_failed(evidence, axiom, literal, children)
         found.append(((failed, position), node))
     return found
 

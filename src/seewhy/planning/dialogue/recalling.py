@@ -23,9 +23,9 @@ def recalled(domain: PlanningDomain, run: Run) -> Run:
     knowledge, history = domain.knowledge, run.history
     done = sorted(
         (
-            (own.step, clingo.parse_term(key_of(own.action)))
-            for own in history.occurrences
-            if knowledge.signature.kind(own.action.predicate) is PredicateKind.ACTION
+            (occurrence.step, clingo.parse_term(key_of(occurrence.action)))
+            for occurrence in history.occurrences
+            if knowledge.signature.kind(occurrence.action.predicate) is PredicateKind.ACTION
         ),
         key=lambda own: own[0],
     )
@@ -35,9 +35,13 @@ def recalled(domain: PlanningDomain, run: Run) -> Run:
     steps = []
     for place, (number, action) in enumerate(done):
         found = diagnose(knowledge, known_at(history, number), sensors_err=domain.sensors_err)
-        new = tuple(own for own in found.surprises if own not in known)
+        new = tuple(surprise for surprise in found.surprises if surprise not in known)
         known = found.surprises
-        sensed = tuple(own.literal for own in history.observations if own.step == number)
+        sensed = tuple(
+            observation.literal
+            for observation in history.observations
+            if observation.step == number
+        )
         plan = tuple(later for _, later in done[place:])
         steps.append(Step(number, sensed, found.now, new, Decision.PERSIST, plan, action=action))
     now = diagnose(knowledge, history, sensors_err=domain.sensors_err).now
