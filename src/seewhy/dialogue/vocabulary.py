@@ -138,8 +138,8 @@ def _check_words(domain: Domain) -> None:
     questions = domain.questions
     phrases = {f"synonyms of '{key}'": (key, *words) for key, words in questions.synonyms.items()}
     phrases["fillers"] = tuple(questions.fillers)
-    for where, own in phrases.items():
-        for phrase in own:
+    for where, some in phrases.items():
+        for phrase in some:
             if not words_of(phrase):
                 raise DomainError(
                     f"{domain.folder / 'questions.toml'}: '{phrase}' in the {where} has no word; "

@@ -172,9 +172,10 @@ def _believed(node: Node) -> str:
 def _untrue(node: Node, beliefs: Beliefs) -> Iterator[str]:
     """Literals and conditions that are not as they are said to be."""
     told = [said for said in _said_to_be_so(node) if any(sign in said.literal for sign in "(<>=")]
-    for own, holds in zip(told, holding([node.literal for node in told], beliefs), strict=True):
-        if holds is not own.holds:
-            yield f"'{own.literal}' is said to {'hold' if own.holds else 'fail'}\n{node.to_text()}"
+    for part, holds in zip(told, holding([node.literal for node in told], beliefs), strict=True):
+        if holds is not part.holds:
+            how = "hold" if part.holds else "fail"
+            yield f"'{part.literal}' is said to {how}\n{node.to_text()}"
 
 
 def _said_to_be_so(node: Node) -> Iterator[Node]:
