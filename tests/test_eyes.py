@@ -79,6 +79,16 @@ def test_a_domain_that_says_nothing_is_seen_by_the_backbone(domain: Domain) -> N
     assert (paper.eyes, paper.reading, paper.known_share) == ("none", "argmax", 1.0)
 
 
+def test_where_drawings_come_first_networks_grow_that_know_them(tmp_path: Path) -> None:
+    text = EYES_DOMAIN.replace("[pictures]\n", "[pictures]\ndrawn = 500\n")
+    assert text != EYES_DOMAIN
+    draws = load_domain(write_domain(tmp_path / "draws", domain=text))
+    assert Agent(draws).eyes == "none"
+    assert (draws.eyes_after(500), draws.eyes_after(0)) == ("none", "efficientnet-lite0")
+    said = replace(draws, eyes="efficientnet-lite0")
+    assert Agent(said).eyes == said.eyes_after(500) == "efficientnet-lite0"
+
+
 def test_forty_tiles_are_enough(taught: Agent, scenes: Dataset) -> None:
     test = scenes.of_split("test")
     found = taught.classify_all(test.pictures(taught.picture_size))

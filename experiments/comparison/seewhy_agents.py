@@ -16,7 +16,9 @@ __all__ = ["fit_before", "fit_default"]
 
 def fit_default(train: Dataset, seed: int, drawings: Drawings | None) -> Fitted:
     """What ``seewhy train`` makes of a domain folder: no key but those that the folder has."""
-    return _fitted(Agent(train.domain, seed=seed), train, drawings)
+    domain = train.domain
+    eyes = domain.eyes_after(0 if drawings is None else drawings.count)
+    return _fitted(Agent(domain, seed=seed, eyes=eyes), train, drawings)
 
 
 def fit_before(train: Dataset, seed: int, drawings: Drawings | None) -> Fitted:

@@ -80,7 +80,8 @@ class Agent:
         Two agents with the same seed and data agree, on processors with the same instruction set.
     eyes : str, optional
         The backbone that sees, see :mod:`seewhy.perception.backbones`; ``"none"``: networks that
-        grow on the domain's pictures alone, as in the paper. What the domain says where left out.
+        grow on the domain's pictures alone, as in the paper. Where left out,
+        what the domain says (:meth:`~seewhy.domain.Domain.eyes_after`).
     device : {"auto", "cpu", "cuda", "mps"}, default "auto"
         Where eyes compute: on a graphics processor where there is one. Networks that grow take CUDA
         where there is one, whatever is said.
@@ -141,7 +142,7 @@ class Agent:
     ) -> None:
         self.given = domain
         self.seed = seed
-        self.eyes = domain.eyes if eyes is None else eyes
+        self.eyes = domain.eyes_after(domain.pictures.drawn) if eyes is None else eyes
         require_backbone(self.eyes)
         self.device = device
         grown = self.eyes == NONE

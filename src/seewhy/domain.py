@@ -11,6 +11,7 @@ from types import MappingProxyType
 from seewhy.domain_tables import (
     CLASS,
     EMBEDDED,
+    NONE,
     RESERVED,
     SCENE,
     TOGETHER,
@@ -103,8 +104,8 @@ class Domain:
     folder : Path
     source : str or None
         The importable module that makes pictures (``draw(seed=, index=, size=)``).
-    eyes : str
-        The backbone that sees, or "none" for networks that grow.
+    eyes : str or None
+        The backbone that sees, or "none" for networks that grow; None: see :meth:`eyes_after`.
     reading : {"argmax", "consistent", "with_class"} or None
         How the features of a picture are read, see :mod:`seewhy.reading`; None leaves it to what
         sees.
@@ -134,7 +135,7 @@ class Domain:
     networks: NetworkTable
     folder: Path
     source: str | None
-    eyes: str = EMBEDDED
+    eyes: str | None = None
     reading: ReadingRule | None = None
     known_share: float | None = None
 
@@ -147,6 +148,22 @@ class Domain:
             classes={key: own.literal for key, own in self.classes.items()},
             change_costs={key: feature.change_cost for key, feature in self.features.items()},
         )
+
+    def eyes_after(self, drawn: int) -> str:
+        """Return what sees, where training begins with so many drawings.
+
+        What the folder says. Where it says nothing: networks that grow, where drawings come first,
+        which show what few labels do not; a backbone where none do (docs/eyes.md has figures).
+
+        Examples
+        --------
+        >>> signs = load_domain("traffic_signs")
+        >>> signs.eyes_after(9300), signs.eyes_after(0)
+        ('none', 'efficientnet-lite0')
+        """
+        if self.eyes is not None:
+            return self.eyes
+        return NONE if drawn else EMBEDDED
 
     def vector(self, values: Mapping[str, str | None]) -> FeatureVector:
         """Return the feature vector of named values; features left out are unknown."""

@@ -17,6 +17,9 @@ READINGS: tuple[ReadingRule, ...] = get_args(ReadingRule)
 EMBEDDED = "efficientnet-lite0"
 """The backbone that comes with SeeWhy."""
 
+NONE = "none"
+"""No backbone: networks grow on the domain's pictures alone, as in the paper."""
+
 CLASS = "class"
 """What the network of the class is called among those of the features."""
 
@@ -100,11 +103,12 @@ class DomainTable(_Table):
         description="The Python file of the domain's folder that makes pictures of the domain, for "
         "`seewhy data make`.",
     )
-    eyes: str = Field(
-        default=EMBEDDED,
+    eyes: str | None = Field(
+        default=None,
         description="What sees: the name of a backbone, a network that has seen millions of "
         "pictures before and is tuned to the domain's, or `none` for networks that grow on the "
-        "domain's pictures alone, as in the paper.",
+        f"domain's pictures alone, as in the paper. Where left out, `{EMBEDDED}`; `none` where "
+        "training begins with drawings (`drawn` under `[pictures]`).",
     )
     reading: ReadingRule | None = Field(
         default=None,

@@ -34,7 +34,8 @@ Eyes = Annotated[
     str | None,
     typer.Option(
         "--eyes",
-        help="What sees: a backbone's name, or none for networks that grow (what the domain says).",
+        help="What sees: a backbone's name, or none for networks that grow (what the domain says; "
+        "else the backbone that comes with SeeWhy, and none where drawings come before).",
     ),
 ]
 Device = Annotated[

@@ -87,7 +87,7 @@ def train_model(
     agent = Agent(
         domain,
         seed=seed,
-        eyes=eyes,
+        eyes=eyes or domain.eyes_after(domain.pictures.drawn if drawn is None else drawn),
         device=device,
         reading=reading,
         gate=gate,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from seewhy.domain_tables import EMBEDDED
+from seewhy.domain_tables import EMBEDDED, NONE
 from seewhy.errors import DomainError
 from seewhy.nearest import did_you_mean
 
@@ -13,9 +13,6 @@ if TYPE_CHECKING:
     from seewhy.perception.backbones.backbone import Backbone
 
 __all__ = ["EMBEDDED", "NONE", "load_backbone", "require_backbone"]
-
-NONE = "none"
-"""No backbone: networks grow on the domain's pictures alone, as in the paper."""
 
 
 def _embedded(_: str) -> Backbone:
