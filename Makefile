@@ -28,6 +28,7 @@ lint: $(INSTALLED)
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/mypy
+	$(VENV)/bin/lint-imports
 
 bench: $(INSTALLED)
 	$(VENV)/bin/python -m pytest benchmarks --benchmark-enable --benchmark-only --benchmark-columns=min,median,ops,rounds --benchmark-sort=name
@@ -37,7 +38,7 @@ figures: $(INSTALLED)
 	$(VENV)/bin/seewhy data make structure_stability --count 2500 --seed 0 --out runs/pictures
 	$(VENV)/bin/seewhy data show runs/pictures --rows 2 --columns 7 --out docs/pictures/contact_sheet.png
 	$(VENV)/bin/seewhy check structure_stability --data runs/pictures
-	$(VENV)/bin/python experiments/count_structures.py runs/pictures
+	$(VENV)/bin/python -m seewhy_lab count_structures runs/pictures
 	$(VENV)/bin/seewhy train structure_stability --data runs/pictures --out runs/model
 	$(VENV)/bin/seewhy evaluate runs/model --data runs/pictures
 	$(VENV)/bin/seewhy data make traffic_signs --count 124 --seed 0 --size 96 --out runs/signs

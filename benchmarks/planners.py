@@ -26,11 +26,11 @@ from collections.abc import Iterator
 
 from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import Knowledge, read_knowledge
-from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.goal import Goal, read_goal
-from seewhy.planning.pddl import to_pddl
-from seewhy.planning.planner import plan
-from seewhy.planning.state import State
+from seewhy.planning.planner.pddl import to_pddl
+from seewhy.planning.planner.planner import plan
 
 ENGINES = ("fast-downward-opt", "symk-opt", "pyperplan-opt")
 SIZES = (

@@ -26,7 +26,7 @@ from sklearn.model_selection import GridSearchCV, StratifiedKFold, StratifiedShu
 from sklearn.preprocessing import KBinsDiscretizer
 from sklearn.tree import DecisionTreeClassifier
 
-from seewhy.domain import load_domain
+from seewhy.domain.domain import load_domain
 from seewhy.induction.learning import LearningOptions, decide_by_candidates, learn_axioms
 from seewhy.induction.scene_table import scene_table
 from seewhy.knowledge.reasoner import Reasoner

@@ -7,7 +7,7 @@ import json
 import pytest
 from wide_knowledge import wide_knowledge, wide_schema, wide_vectors
 
-from seewhy.domain import load_domain
+from seewhy.domain.domain import load_domain
 from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.justification import Node
 from seewhy.knowledge.reasoner import Reasoner

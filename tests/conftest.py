@@ -24,13 +24,13 @@ os.environ["SEEWHY_CACHE"] = ""
 
 from PIL import Image, ImageDraw
 
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.cli.main import main
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain, load_domain
+from seewhy.dialogue.reply import Classification, FeatureReading
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception import extractor, fitting_eyes, parallel
-from seewhy.reply import Classification, FeatureReading
 
 DOMAIN = """\
 [domain]

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
-from seewhy.agent import Agent
-from seewhy.domain import load_domain
+from seewhy.agent.agent import Agent
+from seewhy.domain.domain import load_domain
 
 FEATURES: Mapping[str, tuple[str, ...]] = {
     "shape": (

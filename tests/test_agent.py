@@ -11,11 +11,11 @@ from PIL import Image
 
 import seewhy
 from conftest import TRUTH, draw_tile, seen
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import NotFittedError, PictureError, QuestionError
 from seewhy.knowledge.justification import Basis
 

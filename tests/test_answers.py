@@ -9,17 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from conftest import QUESTIONS, seen, write_domain
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.dialogue.answer import AnswerType, word_answer
 from seewhy.dialogue.learned import answer_form
 from seewhy.dialogue.question import Asks
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of, relevant_features
-from seewhy.domain import Domain, load_domain
-from seewhy.errors import DomainError
-from seewhy.knowledge.axiom import Literal
-from seewhy.reply import Reply
-from seewhy.wording import (
+from seewhy.dialogue.reply import Reply
+from seewhy.domain.domain import Domain, load_domain
+from seewhy.domain.wording import (
     draw_together,
     join_words,
     say_features,
@@ -27,6 +25,8 @@ from seewhy.wording import (
     say_one_of,
     say_values,
 )
+from seewhy.errors import DomainError
+from seewhy.knowledge.axiom import Literal
 
 UNDECIDED = (
     "I cannot tell whether the structure is {}: the knowledge does not decide, and there was "

@@ -25,11 +25,11 @@ from belgiumts_archives import (
     unpack,
 )
 from conftest import Run, write_domain
-from seewhy.belgiumts.conversion import ImportedDataset, import_photographs
-from seewhy.belgiumts.layout import Region
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError
+from seewhy_lab.belgiumts.conversion import ImportedDataset, import_photographs
+from seewhy_lab.belgiumts.layout import Region
 
 CLASSES = "class_id,class,said,colour,round\n0,good,a good tile,red,yes\n1,bad,a bad tile,blue,no\n"
 SCENES = """\
@@ -519,8 +519,8 @@ def test_the_command(
     files["Training/00001/00030_00000.ppm"] = b""
     pack(Path("BelgiumTSC_Training.zip"), files)
     unpack(Path("x"), other_half())
-    command = ("data", "import", "belgiumts", "--domain", signs.folder, "--out", "out")
-    result = run(*command, "--from", "BelgiumTSC_Training.zip", "--from", "x")
+    command = ("belgiumts", "import", "--domain", signs.folder, "--out", "out")
+    result = run(*command, "BelgiumTSC_Training.zip", "x")
     assert result.code == 0
     assert result.err == (
         "left out (1): Training/00001/00030_00000.ppm is no PPM, PNG or JPEG picture\n"
@@ -541,7 +541,7 @@ def test_the_command(
         "  classes without a photograph (1): bad",
         "dataset: out (34 photographs)",
     ]
-    result = run(*command, "--from", "x", "--json")
+    result = run(*command, "x", "--json")
     assert json.loads(result.out) == {
         "folder": "out",
         "photographs": 1,
@@ -561,13 +561,13 @@ def test_the_command(
             }
         },
     }
-    result = run(*command, "--from", "x")
+    result = run(*command, "x")
     assert "the training half was not given: no row of scenes.csv has split = train" in result.out
 
 
 def test_the_command_complains(run: Run, tmp_path: Path) -> None:
     out = ("--out", tmp_path / "out")
-    result = run("data", "import", "belgiumts", "--from", tmp_path / "nowhere", *out)
+    result = run("belgiumts", "import", tmp_path / "nowhere", *out)
     assert (result.code, result.out) == (2, "")
     assert result.err == (
         f"seewhy: {tmp_path}/nowhere: there is no such file or folder; check the path\n"
@@ -575,11 +575,11 @@ def test_the_command_complains(run: Run, tmp_path: Path) -> None:
     result = run("data", "import", "germants", "--from", tmp_path, *out)
     assert result.code == 2
     assert "'germants' is no format that is imported; it must be one of: folder, " in result.err
-    result = run("data", "import", "belgiumts", *out)
+    result = run("belgiumts", "import", *out)
     assert result.code == 2
-    assert "there is no SOURCE; name a folder, a zip archive or an exported file" in result.err
-    for name, says in (("import", "that are labelled already"), ("fetch", "from their authors'")):
-        assert says in run("data", name, "--help").out
+    assert "there is no ARCHIVE; name BelgiumTSC_Training.zip, or several" in result.err
+    for name, says in (("import", "that were downloaded before"), ("fetch", "from their authors'")):
+        assert says in run("belgiumts", name, "--help").out
 
 
 # The photographs ------------------------------------------------------------------------------

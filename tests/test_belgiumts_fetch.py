@@ -13,9 +13,9 @@ import pytest
 
 from belgiumts_archives import Files, half, other_half, pack, training
 from conftest import Run, write_domain
-from seewhy.belgiumts import download
-from seewhy.belgiumts.download import ARCHIVES, fetch_archives
 from seewhy.errors import DatasetError
+from seewhy_lab.belgiumts import download
+from seewhy_lab.belgiumts.download import ARCHIVES, fetch_archives
 from test_belgiumts import CLASSES, SCENES
 
 TRAINING, TESTING = ARCHIVES.values()
@@ -93,7 +93,7 @@ def zipped(folder: Path, files: Files) -> bytes:
 def by_hand(address: str) -> str:
     return (
         f"download {address}/BelgiumTSC_Training.zip and {address}/BelgiumTSC_Testing.zip in a "
-        "browser and run 'seewhy data import belgiumts --from BelgiumTSC_Training.zip --from "
+        "browser and run 'seewhy belgiumts import BelgiumTSC_Training.zip "
         "BelgiumTSC_Testing.zip --out DIR'"
     )
 
@@ -108,7 +108,7 @@ def test_the_command(run: Run, server: Server, tmp_path: Path) -> None:
     domain = write_domain(tmp_path / "tiles")
     (domain / "classes.csv").write_text(CLASSES)
     out = tmp_path / "photos"
-    command = ("data", "fetch", "belgiumts", "--domain", domain, "--out", out)
+    command = ("belgiumts", "fetch", "--domain", domain, "--out", out)
     result = run(*command, "--address", server.address, "--json")
     assert (result.code, result.err) == (0, "")
     assert json.loads(result.out)["photographs"] == 5
@@ -233,7 +233,7 @@ def test_an_archive_with_too_few_photographs(run: Run, server: Server, tmp_path:
     server.files[TRAINING] = zipped(tmp_path, half("Training", {0: names}))
     out = tmp_path / "photos"
     result = run(
-        *("data", "fetch", "belgiumts", "--domain", domain, "--out", out),
+        *("belgiumts", "fetch", "--domain", domain, "--out", out),
         *("--address", server.address),
     )
     assert (result.code, result.out) == (2, "")

@@ -11,15 +11,15 @@ from pathlib import Path
 import pytest
 
 from conftest import seen
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.dialogue.answer import AnswerType, answer_templates, word_answer
 from seewhy.dialogue.learned import MOST_EXAMPLES, dealt
 from seewhy.dialogue.question import Asks, Question, Questions
-from seewhy.domain import load_domain
+from seewhy.dialogue.reply import Reply
+from seewhy.domain.domain import load_domain
 from seewhy.errors import DomainError
 from seewhy.evaluation import score_answer
 from seewhy.knowledge.why_not import why_not
-from seewhy.reply import Reply
 from signs_builder import (
     ANSWERS,
     BELIEFS,

@@ -12,7 +12,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from conftest import QUESTIONS, TRUTH, seen, write_domain
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
+from seewhy.agent.trace import trace_of
 from seewhy.cli.ask import print_reply
 from seewhy.dialogue.answer import default_answer_templates
 from seewhy.dialogue.certainty import (
@@ -24,12 +25,11 @@ from seewhy.dialogue.certainty import (
     weakest,
 )
 from seewhy.dialogue.question import Asks
-from seewhy.domain import Domain, load_domain
+from seewhy.dialogue.reply import Classification, FeatureReading
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.candidates import decided_vectors
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.reply import Classification, FeatureReading
-from seewhy.trace import trace_of
 
 TOPPLES = ("5", "narrow", "yes", "no")
 WHY_TOPPLES = "the structure has five blocks and a narrow base, and it leans to one side."

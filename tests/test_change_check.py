@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from seewhy.check.change import check_change
 from seewhy.errors import KnowledgeError, PlanningError, SeeWhyError
-from seewhy.planning.check import check_change
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 
 HEADER = (

@@ -17,10 +17,10 @@ import pytest
 
 from conftest import Run, draw_tile
 from seewhy import classify_pictures
-from seewhy.agent import Agent
-from seewhy.classifying.rows import columns_of
+from seewhy.agent.agent import Agent
+from seewhy.classification.rows import columns_of
 from seewhy.dialogue.question import Questions
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import SeeWhyError
 from seewhy.induction.tree import DecisionTree
 

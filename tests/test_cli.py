@@ -16,10 +16,10 @@ from typing import Any
 import pytest
 
 from conftest import DOMAIN, Result, Run, draw_tile, write_domain, write_tiles
-from seewhy.agent import Agent
-from seewhy.domain import Domain, load_domain
+from seewhy.agent.agent import Agent
+from seewhy.agent.model import replaced_notice
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.learned_file import LEARNED
-from seewhy.model import replaced_notice
 
 COMMANDS = [
     "",

@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 
 from conftest import KNOWLEDGE, write_domain
-from seewhy.agent import Agent
-from seewhy.domain import Domain, load_domain
+from seewhy.agent.agent import Agent
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import ReasoningError, SeeWhyError
 from seewhy.knowledge import bounded_control
 from seewhy.knowledge.abandoned import still_working
@@ -25,7 +25,7 @@ from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
 from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import read_knowledge
 from seewhy.knowledge.reasoner import Reasoner
-from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.diagnosis.diagnosis import diagnose
 
 MANY = """
 #sort number = 1..10000.
@@ -139,7 +139,7 @@ def test_there_are_never_more_instances_than_are_told(axiom: str, instances: int
 
 def interrupted(folder: Path, *command: str, after: float) -> tuple[int, float, str]:
     """The status of a command that is interrupted, the seconds that it then takes, its words."""
-    begins = "import seewhy.cli.main as m, seewhy.domain_check; print(1, flush=True); m.main()"
+    begins = "import seewhy.cli.main as m, seewhy.check.domain; print(1, flush=True); m.main()"
     process = subprocess.Popen(
         [sys.executable, "-c", begins, *command],
         cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,

@@ -24,21 +24,21 @@ from PIL import Image, ImageDraw
 
 from conftest import Run
 from seewhy.data.dataset import Dataset
-from seewhy.domain import load_domain
-from seewhy.locks import locked
+from seewhy.domain.domain import load_domain
+from seewhy.files.locks import locked
 from seewhy.perception import fitting_eyes, training
 
-EXPERIMENTS = Path(__file__).parents[1] / "experiments"
-sys.path.insert(0, str(EXPERIMENTS))
+DOMAINS = Path(__file__).parents[1] / "src" / "seewhy_lab" / "comparison" / "domains"
 
 import compare  # noqa: E402
 import comparison  # noqa: E402
-from comparison import fine_tuned, small_network, trials  # noqa: E402
-from comparison.catalogue import SYSTEMS  # noqa: E402
-from comparison.page import page  # noqa: E402
-from comparison.picture_sets import SETS, drawn_rows  # noqa: E402
-from comparison.system import Drawings, Fitted, System  # noqa: E402
-from comparison.trials import Result, Trial, planned  # noqa: E402
+
+from seewhy_lab.comparison import fine_tuned, small_network, trials  # noqa: E402
+from seewhy_lab.comparison.catalogue import SYSTEMS  # noqa: E402
+from seewhy_lab.comparison.page import page  # noqa: E402
+from seewhy_lab.comparison.picture_sets import SETS, drawn_rows  # noqa: E402
+from seewhy_lab.comparison.system import Drawings, Fitted, System  # noqa: E402
+from seewhy_lab.comparison.trials import Result, Trial, planned  # noqa: E402
 
 PERSONS = (0, 1, 2, 3, 4, 6, 8)
 TESTED = {"0", "6", "8"}  # as `is_tested` says
@@ -47,7 +47,7 @@ COUNT = 20
 
 def hand(digit: str, person: int) -> bytes:
     """Five bars, one a finger, of which the stretched ones are long."""
-    table = (EXPERIMENTS / "domains" / "hands" / "classes.csv").read_text().splitlines()
+    table = (DOMAINS / "hands" / "classes.csv").read_text().splitlines()
     fingers = next(line.split(",")[1:] for line in table if line.startswith(f"{digit},"))
     image = Image.new("RGB", (48, 48), (230, 225 - person, 220))
     draw = ImageDraw.Draw(image)
@@ -79,7 +79,7 @@ def read(out: Path, name: str) -> dict[str, Any]:
 def test_the_command_runs_goes_on_and_reports(archives: Path, tmp_path: Path) -> None:
     """The real program, twice: what was interrupted goes on, what is there is not run again."""
     common = [
-        *(sys.executable, EXPERIMENTS / "compare.py", "--out", tmp_path / "out"),
+        *(sys.executable, "-m", "seewhy_lab", "compare", "--out", tmp_path / "out"),
         *("--data", archives, "--sets", "hands", "--systems", "frozen_features"),
         *("--counts", COUNT),
     ]
@@ -332,7 +332,7 @@ def test_what_nobody_has_the_patience_for_is_not_planned() -> None:
 
 @pytest.mark.parametrize("name", ["hands", "set_cards"])
 def test_the_domains_are_sound(name: str, run: Run) -> None:
-    folder = EXPERIMENTS / "domains" / name
+    folder = DOMAINS / name
     checked = run("check", folder)
     assert (checked.code, checked.out.splitlines()[-1]) == (0, "nothing is wrong")
     domain = load_domain(folder)

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from conftest import TRUTH, Run, draw_tile, write_domain, write_tiles
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.evaluation import evaluate
 
 KINDS = list(TRUTH)

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from conftest import write_tiles
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.data.dataset_domain import domain_of
 from seewhy.data.picture_listing import list_pictures
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError, PictureError
 from seewhy.report.contact_sheet import draw_contact_sheet
 

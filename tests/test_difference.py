@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 
 from conftest import seen
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.dialogue.answer import AnswerType, word_answer
 from seewhy.dialogue.learned import answer_form
 from seewhy.dialogue.question import Asks, Question
-from seewhy.domain import Domain
+from seewhy.dialogue.reply import Reply
+from seewhy.domain.domain import Domain
 from seewhy.evaluation import EXPLANATORY, score_answer
 from seewhy.knowledge.change import ChangeFinder
-from seewhy.reply import Reply
 from signs_builder import FOUR, trained_signs
 
 

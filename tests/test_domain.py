@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from conftest import DOMAIN, KNOWLEDGE, QUESTIONS
-from seewhy.domain import Domain, bundled_domains, domain_folder, load_domain
+from seewhy.domain.domain import Domain, bundled_domains, domain_folder, load_domain
 from seewhy.errors import DomainError, KnowledgeError, SeeWhyError
+from seewhy.files.toml_file import line_of
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.reasoner import Reasoner
-from seewhy.toml_file import line_of
 
 FILES = {"domain.toml": DOMAIN, "knowledge.al": KNOWLEDGE, "questions.toml": QUESTIONS}
 BUNDLED = "structure_stability"

@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from conftest import DOMAIN, KNOWLEDGE, QUESTIONS, write_domain
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.question import Questions
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DomainError, SeeWhyError
+from seewhy.files.toml_file import line_of
 from seewhy.knowledge.program import program_text
-from seewhy.slots import filled, wrong_slot
-from seewhy.toml_file import line_of
+from seewhy.text.slots import filled, wrong_slot
 
 
 def refused(tmp_path: Path, **texts: str) -> str:

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from seewhy.check.domain import check_domain
 from seewhy.dialogue.question import Questions
-from seewhy.domain import domain_folder, load_domain
-from seewhy.domain_check import check_domain
+from seewhy.domain.domain import domain_folder, load_domain
 from seewhy.errors import QuestionError, SeeWhyError
 
 
@@ -71,7 +71,7 @@ def folder(tmp_path: Path) -> Path:
         ),
         (
             "domain.toml",
-            "seewhy.domains.structure_stability.source",
+            "seewhy_lab.simulators.structure_stability.source",
             "nowhere.py",
             "domain.toml: source = 'nowhere.py' must be a file of this folder that has a function "
             "draw(seed=, index=, size=) (No such file or directory)",

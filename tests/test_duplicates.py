@@ -12,7 +12,7 @@ from PIL import Image, ImageDraw
 from seewhy.data.dataset import Dataset
 from seewhy.data.duplicates import settle_duplicates
 from seewhy.data.likeness import alike_pairs, described, same_pixels
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError, PictureError
 
 

@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from conftest import KNOWLEDGE, seen, write_domain, write_tiles
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue.answer import AnswerType
-from seewhy.domain import Domain, load_domain
+from seewhy.dialogue.reply import Classification
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.evaluation import (
     AxiomRecord,
     Misreading,
@@ -21,7 +22,6 @@ from seewhy.evaluation import (
     evaluate,
     score_answer,
 )
-from seewhy.reply import Classification
 
 
 @pytest.mark.parametrize(

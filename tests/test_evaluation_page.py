@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from conftest import Run
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.evaluation import Evaluation, Misreading, WrongPicture, evaluate
 from seewhy.report.evaluation_page import evaluation_page
 from test_advice import evaluation, point, recognised

@@ -15,17 +15,18 @@ from gymnasium.utils.env_checker import check_env
 
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.language import Knowledge
-from seewhy.planning import execution
-from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.diagnosis.diagnosis import diagnose
+from seewhy.planning.diagnosis.persistence_doubt import Doubt
 from seewhy.planning.domain import load_planning_domain
-from seewhy.planning.doubt import Doubt
-from seewhy.planning.environment import PlanningEnvironment
-from seewhy.planning.execution import Decision, Outcome, Run, execute
-from seewhy.planning.following import suppositions
+from seewhy.planning.execution import execution
+from seewhy.planning.execution.environment import PlanningEnvironment
+from seewhy.planning.execution.execution import Decision, Outcome, Run, execute
+from seewhy.planning.execution.plan_monitoring import suppositions
+from seewhy.planning.execution.world import World
 from seewhy.planning.goal import Goal, read_goal
-from seewhy.planning.planner import Plan
-from seewhy.planning.state import State
-from seewhy.planning.world import World
+from seewhy.planning.planner.planner import Plan
+from seewhy_lab.gymnasium_environment import GymnasiumEnvironment
 
 OFFICE = load_planning_domain("robot_assistant")
 TO_SALLY = read_goal("message_status(m1, sally, delivered)", OFFICE.knowledge)
@@ -145,7 +146,7 @@ def test_the_most_steps_bound_a_run(environment: PlanningEnvironment) -> None:
 
 
 def test_the_environment_is_one_of_gymnasium(environment: PlanningEnvironment) -> None:
-    check_env(environment, skip_render_check=True)
+    check_env(GymnasiumEnvironment(environment), skip_render_check=True)
 
 
 def test_a_seed_settles_everything(environment: PlanningEnvironment) -> None:

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import pytest
 
-from seewhy.agent import Agent
-from seewhy.domain import load_domain
+from seewhy.agent.agent import Agent
+from seewhy.dialogue.reply import Classification, FeatureReading
+from seewhy.domain.domain import load_domain
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.reply import Classification, FeatureReading
 
 EXAMPLE: FeatureVector = ("5", "narrow", "no", "no")
 # Annotated structures: (vector, stable, unstable), in the proportions that the simulation gives.

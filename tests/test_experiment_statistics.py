@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from seewhy.experiments.statistics import Interval, compare, holm, interval
+from seewhy_lab.experiments.statistics import Interval, compare, holm, interval
 
 OURS = [0.81, 0.84, 0.79, 0.88, 0.83, 0.86, 0.80]
 THEIRS = [0.78, 0.85, 0.74, 0.81, 0.82, 0.80, 0.74]

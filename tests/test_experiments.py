@@ -20,31 +20,31 @@ import numpy as np
 import pytest
 
 from conftest import DOMAIN, Run, write_domain
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
+from seewhy.agent.learning_from_pictures import AnnotatedScenes
 from seewhy.cli.main import main
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue import learned
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import ExperimentError
-from seewhy.experiments import coupling, drawing, running
-from seewhy.experiments.axioms import agreement, explanations, incomplete, learned_again
-from seewhy.experiments.catalogue import NAMES, experiment
-from seewhy.experiments.conclusions import conclude, summary
-from seewhy.experiments.drawing import divide, in_fold, load_pictures, pool_of, require_enough
-from seewhy.experiments.effort import Effort, efforts
-from seewhy.experiments.end_to_end import questions_to_learn
-from seewhy.experiments.experiment import ALL, Plan, Row, Setting, Trial
-from seewhy.experiments.origin import here
-from seewhy.experiments.questioning import answer_scores, draw_questions, suitable
-from seewhy.experiments.rows import ROWS, TIMINGS, trial_file, write_trial
-from seewhy.experiments.vqa import annotator
+from seewhy.files.locks import locked
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.reasoner import Reasoner
-from seewhy.learning import AnnotatedScenes
-from seewhy.locks import locked
+from seewhy_lab.experiments import coupling, drawing, running
+from seewhy_lab.experiments.axioms import agreement, explanations, incomplete, learned_again
+from seewhy_lab.experiments.catalogue import NAMES, experiment
+from seewhy_lab.experiments.conclusions import conclude, summary
+from seewhy_lab.experiments.drawing import divide, in_fold, load_pictures, pool_of, require_enough
+from seewhy_lab.experiments.effort import Effort, efforts
+from seewhy_lab.experiments.end_to_end import questions_to_learn
+from seewhy_lab.experiments.experiment import ALL, Plan, Row, Setting, Trial
+from seewhy_lab.experiments.origin import here
+from seewhy_lab.experiments.questioning import answer_scores, draw_questions, suitable
+from seewhy_lab.experiments.rows import ROWS, TIMINGS, trial_file, write_trial
+from seewhy_lab.experiments.vqa import annotator
 
 SMALL = ("--trials", 2, "--sizes", "20,30", "--tested", 15, "--jobs", 1)
 EXPLAINED = ("explanations_strict", "explanations_sufficient")
@@ -299,7 +299,7 @@ def test_pictures_are_drawn_where_none_are_given(
     out = tmp_path / "out"
     plan = Plan(trials=1, sizes=(12,), pictures=40, tested=20)
     small = replace(experiment("reading"), quick={"": plan})
-    monkeypatch.setattr("seewhy.experiments.running.experiment", lambda _: small)
+    monkeypatch.setattr("seewhy_lab.experiments.running.experiment", lambda _: small)
     command = ("experiment", "reading", "--domain", folder, "--out", out, "--quick", "--jobs", 1)
     runs_code = (
         f"{folder / 'pictures.py'} is a program, which now runs with your rights; run only those "
@@ -557,12 +557,12 @@ def test_pictures_are_kept_where_a_folder_is_refused(
 ) -> None:
     plan = Plan(trials=1, sizes=(20,), pictures=30, tested=5)
     vqa = replace(experiment("vqa"), full={"": plan}, trial=lambda *_: [])
-    monkeypatch.setattr("seewhy.experiments.running.experiment", lambda _: vqa)
+    monkeypatch.setattr("seewhy_lab.experiments.running.experiment", lambda _: vqa)
     running.prepare("vqa", "structure_stability", tmp_path, workers=1)
     table = tmp_path / "pictures" / "scenes.csv"
     kept = table.read_bytes()
     smaller = replace(vqa, full={"": replace(plan, pictures=28)})
-    monkeypatch.setattr("seewhy.experiments.running.experiment", lambda _: smaller)
+    monkeypatch.setattr("seewhy_lab.experiments.running.experiment", lambda _: smaller)
     for tested, why in ((4, "other settings (tested)"), (5, "30 pictures, and 28 are asked for")):
         with pytest.raises(ExperimentError) as error:
             running.prepare("vqa", "structure_stability", tmp_path, tested=tested, workers=1)

@@ -13,9 +13,9 @@ import torch
 from PIL import Image, ImageDraw
 
 from conftest import DOMAIN, Run, draw_tile, write_domain, write_tiles
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError, ModelError
 from seewhy.perception import tail_training
 from seewhy.perception.backbones import efficientnet_lite, load_backbone

@@ -9,7 +9,7 @@ import pytest
 
 from conftest import write_tiles
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError, SeeWhyError
 
 pandas = pytest.importorskip("pandas", reason="pandas is not installed")

@@ -14,13 +14,13 @@ from seewhy.errors import PlanningError
 from seewhy.knowledge.ground import complement_of, fluent_of, literal_of
 from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import Knowledge, read_knowledge
-from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.diagnosis.diagnosis import diagnose
+from seewhy.planning.diagnosis.persistence_doubt import Doubt
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
-from seewhy.planning.doubt import Doubt
-from seewhy.planning.execution import Decision, execute
+from seewhy.planning.execution.execution import Decision, execute
 from seewhy.planning.goal import Goal, read_goal
-from seewhy.planning.planner import Plan, PlanStatus, plan
-from seewhy.planning.state import State
+from seewhy.planning.planner.planner import Plan, PlanStatus, plan
 
 OFFICE = load_planning_domain("robot_assistant")
 WORLD = """

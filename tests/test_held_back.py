@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from conftest import Run
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError
 from seewhy.evaluation.held_back import Proposal, hold_back, learn_judged
 from seewhy.evaluation.other_knowledge import with_axioms

@@ -821,10 +821,8 @@ def test_the_command(tmp_path: Path, run: Run) -> None:
     [
         (["foldr", "s"], "'foldr' is no format that is imported; did you mean 'folder'?"),
         (["s"], "'s' is a source; say its format before it: folder, coco, voc, yolo, labelstudio, "
-         "cvat, table, belgiumts"),
+         "cvat, table"),
         (["folder"], "there is no SOURCE; name a folder, a zip archive or an exported file"),
-        (["belgiumts", "s", "--group", "x"], "--group x: does not go with belgiumts; leave it out"),
-        (["folder", "s", "--domain", "x"], "--domain x: does not go with folder; leave it out"),
         (["folder", "s", "t"], "there are 2 sources (s, t); give one: a folder may hold several "
          "exports"),
     ],

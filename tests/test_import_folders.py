@@ -16,7 +16,7 @@ from seewhy.data.dataset import Dataset
 from seewhy.data.importers import ImportRequest, import_pictures
 from seewhy.data.importers.names import distinct_names, predicate_name, valid_name
 from seewhy.data.importers.placing import image_names
-from seewhy.domain import load_domain
+from seewhy.domain.domain import load_domain
 from seewhy.errors import DatasetError
 from seewhy.knowledge.language import read_knowledge
 

@@ -13,7 +13,7 @@ from joblib import register_parallel_backend
 from joblib.parallel import SequentialBackend
 
 from seewhy.errors import ExperimentError
-from seewhy.experiments.jobs import RAY, run_all
+from seewhy_lab.experiments.jobs import RAY, run_all
 
 
 def write(folder: Path, number: int) -> None:

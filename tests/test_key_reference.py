@@ -11,21 +11,21 @@ from pydantic import BaseModel, Field
 
 from conftest import Run, write_tiles
 from seewhy.dialogue.question import Asks, Question
-from seewhy.domain import load_domain
-from seewhy.domain_tables import (
+from seewhy.domain.domain import load_domain
+from seewhy.domain.tables import (
     DomainFile,
     DomainTable,
     PictureTable,
     QuestionsFile,
     QuestionTable,
 )
-from seewhy.key_reference import (
+from seewhy.planning.tables import PlanningFile
+from seewhy.report.key_reference import (
     TableReference,
     file_references,
     reference_page,
     table_references,
 )
-from seewhy.planning.tables import PlanningFile
 
 PAGE = Path(__file__).parent.parent / "docs" / "reference.md"
 SCHEMAS = {

@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from conftest import KNOWLEDGE, write_domain
-from seewhy.domain import load_domain
-from seewhy.domain_check import check_domain
+from seewhy.check.domain import check_domain
+from seewhy.domain.domain import load_domain
 from seewhy.errors import KnowledgeError, SeeWhyError
 from seewhy.knowledge.dynamics import transition_rules
 from seewhy.knowledge.ground_literal import read_ground_literal

@@ -17,13 +17,21 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from conftest import KNOWLEDGE, Run, draw_tile, write_domain
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
+from seewhy.agent.learning_from_pictures import (
+    AnnotatedScenes,
+    axioms_of,
+    contradicted,
+    learn_for_domain,
+    scenes_of,
+    with_candidates,
+)
+from seewhy.agent.refutation import refuted
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue.question import Asks
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DatasetError, KnowledgeError
-from seewhy.experiments.axioms import explanations
 from seewhy.induction.axiom_text import axiom_statement, conjunctions
 from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
 from seewhy.induction.generalisation import generalised, most_general
@@ -45,15 +53,7 @@ from seewhy.knowledge.learned_file import (
     read_learned,
 )
 from seewhy.knowledge.reasoner import Reasoner
-from seewhy.learning import (
-    AnnotatedScenes,
-    axioms_of,
-    contradicted,
-    learn_for_domain,
-    scenes_of,
-    with_candidates,
-)
-from seewhy.refutation import refuted
+from seewhy_lab.experiments.axioms import explanations
 
 FEATURES = {"size": ("1", "2", "3", "4"), "colour": ("red", "green", "blue"), "lean": ("yes", "no")}
 SPACE = list(product(*FEATURES.values()))
@@ -511,7 +511,7 @@ def test_an_axiom_that_contradicts_what_is_known_is_not_learned(structures: Doma
 
 
 def test_alternatives_become_an_axiom_each_and_what_is_excluded_is_denied() -> None:
-    from seewhy.domain import load_domain
+    from seewhy.domain.domain import load_domain
 
     signs = load_domain("traffic_signs")
     shapes = signs.features["shape"].values

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from conftest import Run
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.errors import DatasetError
 from seewhy.evaluation.curve import growing_parts, learning_curve

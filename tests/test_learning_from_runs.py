@@ -13,16 +13,16 @@ import pytest
 
 from conftest import Run
 from seewhy.errors import PlanningError
-from seewhy.experiments.planning import MEASURES, summary, trial
-from seewhy.experiments.statistics import Interval
-from seewhy.files import write_whole
+from seewhy.files.whole_files import write_whole
 from seewhy.knowledge.history import History, history_text, read_history, read_history_file
 from seewhy.knowledge.language import read_knowledge, read_literal
 from seewhy.knowledge.learned_file import learned_text, parse_learned
-from seewhy.planning.diagnosis import diagnose, explained
+from seewhy.planning.diagnosis.diagnosis import diagnose, explained
 from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.learning.cases import cases_of
 from seewhy.planning.learning.learning import LearnedFromRuns, learn_from_runs
+from seewhy_lab.experiments.planning import MEASURES, summary, trial
+from seewhy_lab.experiments.statistics import Interval
 
 OFFICE = load_planning_domain("robot_assistant")
 AT_WORK = "loc(P, L) if work_place(P, L), not -loc(P, L)"

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from conftest import draw_tile, write_domain
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError, ModelError, NotFittedError
 from seewhy.evaluation import evaluate
 
@@ -204,7 +204,7 @@ def test_an_interrupted_save_leaves_the_old_model_whole(
             raise KeyboardInterrupt
         return rename(self, target)
 
-    monkeypatch.setattr("seewhy.folders._exchanged", lambda *_: False)
+    monkeypatch.setattr("seewhy.files.folders._exchanged", lambda *_: False)
     monkeypatch.setattr(Path, "rename", interrupted)
     with pytest.raises(KeyboardInterrupt):
         agent.save(copy)
@@ -219,7 +219,7 @@ def test_a_save_that_fails_while_writing_leaves_nothing(
     def fails(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("seewhy.model._experience_text", fails)
+    monkeypatch.setattr("seewhy.agent.model._experience_text", fails)
     for folder in (copy, tmp_path / "new"):
         with pytest.raises(OSError, match="No space left"):
             agent.save(folder)

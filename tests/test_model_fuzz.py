@@ -17,9 +17,9 @@ from hypothesis import strategies as st
 from safetensors.torch import load, save
 
 from conftest import draw_tile
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
+from seewhy.agent.model import _digest, _digest_of
 from seewhy.errors import ModelError, SeeWhyError
-from seewhy.model import _digest, _digest_of
 
 JSON = (
     "model.json",

@@ -10,6 +10,7 @@ from itertools import product
 import numpy as np
 import pytest
 
+from seewhy.check.transition_probe import TransitionProbe
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.bounded_control import BoundedControl
@@ -21,14 +22,13 @@ from seewhy.knowledge.language import read_knowledge
 from seewhy.knowledge.odd_loop import OddLoops
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import SceneSchema
-from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.dialogue.instances import Instances
-from seewhy.planning.following import suppositions
+from seewhy.planning.execution.plan_monitoring import suppositions
+from seewhy.planning.execution.world import Transitions
 from seewhy.planning.goal import read_goal
-from seewhy.planning.planner import plan
-from seewhy.planning.reached import holds_in
-from seewhy.planning.transition_probe import TransitionProbe
-from seewhy.planning.world import Transitions
+from seewhy.planning.planner.goal_test import holds_in
+from seewhy.planning.planner.planner import plan
 
 NAME = re.compile(r"(?<![\w'])_*[a-z][\w']*")
 LAMPS = """\

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from conftest import Run, seen, write_tiles
 from exports_builder import coco, draw, draw_all, pack, rows_of, write, write_json
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
+from seewhy.check.domain import check_domain
 from seewhy.data.dataset import Dataset
-from seewhy.domain import load_domain
-from seewhy.domain_check import check_domain
+from seewhy.domain.domain import load_domain
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.new_domain.from_pictures import write_domain_of
 from seewhy.new_domain.proposals import proposals

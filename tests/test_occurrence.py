@@ -9,9 +9,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from knowledge_builders import CLASSES, World, worlds
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.dialogue.question import Asks, Question
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.occurrence import EXPECTED, Occurrence
 from seewhy.knowledge.reasoner import Reasoner

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from conftest import seen
-from seewhy.agent import Agent
-from seewhy.domain import Domain
+from seewhy.agent.agent import Agent
+from seewhy.agent.trace import trace_of
+from seewhy.domain.domain import Domain
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
-from seewhy.trace import trace_of
 
 VECTOR = ("3", "wide", "no", "no")
 

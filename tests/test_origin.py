@@ -13,11 +13,11 @@ from pathlib import Path
 import pytest
 from torch.backends import cpu
 
-from seewhy.experiments import origin, rows
-from seewhy.experiments.experiment import Row, Trial
-from seewhy.experiments.origin import Origin, one_machine, say_machine, say_origins
-from seewhy.experiments.published import take_up
-from seewhy.experiments.rows import (
+from seewhy_lab.experiments import origin, rows
+from seewhy_lab.experiments.experiment import Row, Trial
+from seewhy_lab.experiments.origin import Origin, one_machine, say_machine, say_origins
+from seewhy_lab.experiments.published import take_up
+from seewhy_lab.experiments.rows import (
     finish,
     read_trial,
     trial_file,
@@ -150,7 +150,7 @@ def test_the_machine_says_its_instruction_set() -> None:
     """In a process that PyTorch was told to compute so in."""
     if cpu.get_cpu_capability() == "DEFAULT":
         pytest.skip("this processor has no larger instruction set")
-    say = "from seewhy.experiments.origin import here; print(here().machine)"
+    say = "from seewhy_lab.experiments.origin import here; print(here().machine)"
     done = subprocess.run(
         [sys.executable, "-c", say],
         env={**os.environ, "ATEN_CPU_CAPABILITY": "default"},

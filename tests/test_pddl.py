@@ -7,12 +7,12 @@ import pytest
 from seewhy.errors import PlanningError
 from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import Knowledge, read_knowledge
-from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.goal import read_goal
-from seewhy.planning.pddl import PddlProblem, to_pddl
-from seewhy.planning.planner import plan
-from seewhy.planning.state import State
+from seewhy.planning.planner.pddl import PddlProblem, to_pddl
+from seewhy.planning.planner.planner import plan
 
 
 def start(knowledge: Knowledge, past: str) -> State:

@@ -12,7 +12,7 @@ from joblib.externals.loky import get_reusable_executor
 from conftest import DOMAIN, Run, write_domain
 from seewhy.data.dataset import Dataset
 from seewhy.data.making import determined_share, make_dataset
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError
 
 SOURCE = """\
@@ -194,8 +194,8 @@ def test_a_domain_without_a_source(tiles: Domain, tmp_path: Path) -> None:
     ("source", "text", "why"),
     [
         ("seewhy.domains.no_such_module", None, "there is no such module"),
-        ("seewhy.domain_tables.deeper", None, "there is no such module"),
-        ("seewhy.files", None, "it has no function draw"),
+        ("seewhy.domain.tables.deeper", None, "there is no such module"),
+        ("seewhy.files.whole_files", None, "it has no function draw"),
         ("pictures.py", None, "No such file or directory"),
         ("pictures.py", "def paint(): pass\n", "it has no function draw"),
         ("pictures.py", "def draw(:\n", "line 1: invalid syntax"),
@@ -203,7 +203,7 @@ def test_a_domain_without_a_source(tiles: Domain, tmp_path: Path) -> None:
         ("pictures.py", "from paint import tile as draw\n", None),
         ("pictures.py", "try:\n    from paint import *\nexcept ImportError:\n    pass\n", None),
         ("pictures.py", "paint = draw = print\n", None),
-        ("seewhy.domains.structure_stability.source", None, None),
+        ("seewhy_lab.simulators.structure_stability.source", None, None),
     ],
 )
 def test_check_reads_a_source_and_runs_nothing_of_it(

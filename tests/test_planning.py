@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 from seewhy.errors import KnowledgeError, PlanningError
 from seewhy.knowledge.history import History, read_history
 from seewhy.knowledge.language import Knowledge, read_knowledge
-from seewhy.planning.diagnosis import Diagnosis, diagnose, diagnosis_program
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.diagnosis.diagnosis import Diagnosis, diagnose, diagnosis_program
 from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.goal import REACHED, read_goal, with_goal
-from seewhy.planning.planner import Plan, PlanStatus, plan
-from seewhy.planning.state import State
+from seewhy.planning.planner.planner import Plan, PlanStatus, plan
 
 OFFICE = load_planning_domain("robot_assistant").knowledge
 IN_LIBRARY = "observed loc(rob1, library) at 0. "

@@ -13,7 +13,7 @@ import pytest
 
 from conftest import Run
 from seewhy.planning.domain import load_planning_domain
-from seewhy.planning.environment import PlanningEnvironment
+from seewhy.planning.execution.environment import PlanningEnvironment
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
 
 PAPER = "message_status(m1, sarah, delivered), loc(rob1, L), loc(sally, L)"
@@ -236,7 +236,7 @@ def test_a_domain_can_ask_answer_sets_alone(
     def searched(*_: object, **__: object) -> None:
         raise RuntimeError("the states were searched")
 
-    monkeypatch.setattr("seewhy.planning.planner.ground_problem", searched)
+    monkeypatch.setattr("seewhy.planning.planner.planner.ground_problem", searched)
     assert run(*asked).out.startswith("  1. move to the kitchen\n1 action, ")
     (folder / "planning.toml").write_text(text, encoding="utf-8")
     with pytest.raises(RuntimeError, match="were searched"):

@@ -9,13 +9,13 @@ from pathlib import Path
 import pytest
 
 from conftest import Run
-from seewhy.experiments import planning
-from seewhy.experiments.origin import here
-from seewhy.experiments.planning import MEASURES, SYSTEMS, summary
-from seewhy.planning.execution import Decision, Outcome, Step
-from seewhy.planning.execution import Run as Execution
-from seewhy.planning.simulation import Simulation
-from seewhy.planning.state import State
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.execution.execution import Decision, Outcome, Step
+from seewhy.planning.execution.execution import Run as Execution
+from seewhy.planning.execution.simulation import Simulation
+from seewhy_lab.experiments import planning
+from seewhy_lab.experiments.origin import here
+from seewhy_lab.experiments.planning import MEASURES, SYSTEMS, summary
 
 SMALL = ("--quick", "--trials", 1, "--seed", 3, "--jobs", 1)
 
@@ -28,7 +28,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def finished(run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr("seewhy.experiments.planning_run.QUICK", (1, 7))
+    monkeypatch.setattr("seewhy_lab.experiments.planning_run.QUICK", (1, 7))
     done = run("experiment", "planning", "--out", folder, *SMALL)
     assert (done.code, done.err) == (0, "")
     assert done.out.splitlines()[-1] == f"page: {folder / 'planning' / 'index.html'}"

@@ -15,14 +15,14 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import literal_of
 from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import read_knowledge
-from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.dialogue.replying import answer
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
-from seewhy.planning.execution import Run, execute
+from seewhy.planning.execution.execution import Run, execute
+from seewhy.planning.execution.world import Transitions, World
 from seewhy.planning.goal import read_goal
 from seewhy.planning.tables import ActionTable, FluentTable
 from seewhy.planning.words import PlanningWords
-from seewhy.planning.world import Transitions, World
 
 OFFICE = load_planning_domain("robot_assistant")
 TO_SALLY = read_goal("message_status(m1, sally, delivered)", OFFICE.knowledge)

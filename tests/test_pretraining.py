@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from conftest import DOMAIN, KNOWLEDGE, write_domain, write_tiles
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
+from seewhy.agent.pretraining import is_drawn, pretrained
 from seewhy.cli.main import main
 from seewhy.data.dataset import Dataset
 from seewhy.data.making import make_dataset
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError
-from seewhy.pretraining import is_drawn, pretrained
 
 SOURCE = """\
 import numpy as np

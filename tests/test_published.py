@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from conftest import Run
 from seewhy.errors import ExperimentError
-from seewhy.experiments.catalogue import PLANNING, experiment
-from seewhy.experiments.experiment import Measure, Row, Trial
-from seewhy.experiments.planning import fault as planning_fault
-from seewhy.experiments.published import take_up
-from seewhy.experiments.row_check import fault
-from seewhy.experiments.rows import (
+from seewhy_lab.experiments.catalogue import PLANNING, experiment
+from seewhy_lab.experiments.experiment import Measure, Row, Trial
+from seewhy_lab.experiments.planning import fault as planning_fault
+from seewhy_lab.experiments.published import take_up
+from seewhy_lab.experiments.row_check import fault
+from seewhy_lab.experiments.rows import (
     ROWS,
     TIMINGS,
     TRIALS,

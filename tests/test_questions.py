@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from conftest import write_domain
 from seewhy.dialogue.question import Questions
 from seewhy.dialogue.spelling import english_words
-from seewhy.domain import load_domain
+from seewhy.domain.domain import load_domain
 from seewhy.errors import DomainError, QuestionError
 
 QUESTIONS = Questions(load_domain("structure_stability"))

@@ -6,18 +6,15 @@ import random
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-from seewhy.experiments import justifications
-from seewhy.experiments.justifications import check
-from seewhy.experiments.random_knowledge import JOINT, Beliefs, holding, random_knowledge
 from seewhy.knowledge.justification import Node
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.settling import JointCondition
-
-SCRIPT = Path(__file__).parent.parent / "experiments" / "justifications_hold.py"
+from seewhy_lab.experiments import justifications
+from seewhy_lab.experiments.justifications import check
+from seewhy_lab.experiments.random_knowledge import JOINT, Beliefs, holding, random_knowledge
 
 
 @pytest.mark.parametrize("first", range(0, 40, 10))
@@ -28,7 +25,16 @@ def test_justifications_of_random_knowledge_hold(first: int) -> None:
 
 def test_the_command_prints_what_was_checked() -> None:
     run = subprocess.run(
-        [sys.executable, SCRIPT, "--programs", "2", "--scenes", "1"],
+        [
+            sys.executable,
+            "-m",
+            "seewhy_lab",
+            "justifications_hold",
+            "--programs",
+            "2",
+            "--scenes",
+            "1",
+        ],
         capture_output=True,
         text=True,
         check=False,

@@ -15,26 +15,26 @@ from hypothesis import strategies as st
 
 from conftest import draw_tile, one_process, write_domain
 from knowledge_builders import VALUES, Rule, World, worlds
-from seewhy.agent import Agent
-from seewhy.cli.ask import print_reply
-from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain, load_domain
-from seewhy.domain_tables import CLASS
-from seewhy.errors import DomainError, ModelError, NotFittedError
-from seewhy.knowledge.candidates import decided_vectors, most_probable_decided
-from seewhy.knowledge.justification import Basis
-from seewhy.knowledge.reasoner import Reasoner
-from seewhy.knowledge.scene import FeatureVector
-from seewhy.reading import (
+from seewhy.agent.agent import Agent
+from seewhy.agent.consistent_reading import (
     ConsistentReading,
     ReadingWeights,
     fit_reading_weights,
     open_vectors,
     read_separately,
 )
-from seewhy.reply import FeatureReading
+from seewhy.agent.trace import trace_of
+from seewhy.cli.ask import print_reply
+from seewhy.data.dataset import Dataset
+from seewhy.dialogue.reply import FeatureReading
+from seewhy.domain.domain import Domain, load_domain
+from seewhy.domain.tables import CLASS
+from seewhy.errors import DomainError, ModelError, NotFittedError
+from seewhy.knowledge.candidates import decided_vectors, most_probable_decided
+from seewhy.knowledge.justification import Basis
+from seewhy.knowledge.reasoner import Reasoner
+from seewhy.knowledge.scene import FeatureVector
 from seewhy.report.card import draw_card
-from seewhy.trace import trace_of
 
 SPACE: list[FeatureVector] = list(product(*VALUES.values()))
 many = settings(

@@ -11,7 +11,7 @@ from seewhy.dialogue.answer import word_answer
 from seewhy.dialogue.certainty import Ground, weakest
 from seewhy.dialogue.question import Questions
 from seewhy.dialogue.reasoned import ReasonedAnswers
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.language import read_knowledge, read_literal
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.why import why

@@ -14,7 +14,7 @@ from seewhy.dialogue.recurrent import _improves, fit_answerer
 from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
 from seewhy.dialogue.recurrent_options import AnswererEvent, AnswerExample, RecurrentOptions
 from seewhy.errors import DatasetError, DomainError, ModelError
-from seewhy.one_thread import one_thread
+from seewhy.perception.one_thread import one_thread
 
 FEATURES = {"num_blocks": ["1", "2", "3", "4", "5"], "lean": ["yes", "no"], "base": ["wide", "no"]}
 QUESTIONS = {

@@ -11,14 +11,14 @@ from pathlib import Path
 import pytest
 
 from conftest import seen, write_domain
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain, load_domain
+from seewhy.dialogue.reply import Reply
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import SeeWhyError
 from seewhy.evaluation import evaluate
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.justification import Basis, Node
-from seewhy.reply import Reply
 from seewhy.report.figure import Figure, text_lines
 from seewhy.report.justification import draw_justification
 from seewhy.report.page import report_page

@@ -7,11 +7,11 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from seewhy.domains.robot_assistant import source
-from seewhy.domains.robot_assistant.rendering import Built, render, visible_pixels
-from seewhy.domains.robot_assistant.room import ON_TOP, furnished
-from seewhy.domains.robot_assistant.source import OBJECTS, PEOPLE, draw, photograph
-from seewhy.domains.robot_assistant.view import View, random_decor, random_view
+from seewhy_lab.simulators.robot_assistant import source
+from seewhy_lab.simulators.robot_assistant.rendering import Built, render, visible_pixels
+from seewhy_lab.simulators.robot_assistant.room import ON_TOP, furnished
+from seewhy_lab.simulators.robot_assistant.source import OBJECTS, PEOPLE, draw, photograph
+from seewhy_lab.simulators.robot_assistant.view import View, random_decor, random_view
 
 NAMES = (*OBJECTS, *PEOPLE)
 

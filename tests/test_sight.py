@@ -10,18 +10,18 @@ import numpy as np
 import pytest
 
 from conftest import Run, one_process
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.data.making import make_dataset
-from seewhy.domain import load_domain
+from seewhy.domain.domain import load_domain
 from seewhy.errors import DomainError, PlanningError
-from seewhy.planning.diagnosis import SurpriseKind
+from seewhy.planning.diagnosis.diagnosis import SurpriseKind
 from seewhy.planning.dialogue.replying import answer
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
+from seewhy.planning.execution.recording import record_of
+from seewhy.planning.execution.sight import Look, Sight
+from seewhy.planning.execution.simulation import simulate
 from seewhy.planning.goal import read_goal
-from seewhy.planning.recording import record_of
-from seewhy.planning.sight import Look, Sight
-from seewhy.planning.simulation import simulate
 
 KNOWLEDGE = """\
 #sort view.

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seewhy.domain import load_domain
-from seewhy.domains.traffic_signs.non_signs import draw_non_sign
-from seewhy.domains.traffic_signs.sign import Face, face, paint
-from seewhy.domains.traffic_signs.source import draw, signs
+from seewhy.domain.domain import load_domain
+from seewhy_lab.simulators.traffic_signs.non_signs import draw_non_sign
+from seewhy_lab.simulators.traffic_signs.sign import Face, face, paint
+from seewhy_lab.simulators.traffic_signs.source import draw, signs
 
 STOP = {
     "shape": "octagon",

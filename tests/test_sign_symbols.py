@@ -13,11 +13,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from seewhy.domains.traffic_signs.outlines import arc, flatten, stroke, turned
-from seewhy.domains.traffic_signs.symbols import ROLES, Fill, looks, symbol, symbol_names
 from seewhy.errors import DomainError
+from seewhy_lab.simulators.traffic_signs.outlines import arc, flatten, stroke, turned
+from seewhy_lab.simulators.traffic_signs.symbols import ROLES, Fill, looks, symbol, symbol_names
 
-FOLDER = files("seewhy.domains.traffic_signs")
+FOLDER = files("seewhy_lab.simulators.traffic_signs")
 ROWS = list(csv.DictReader((FOLDER / "classes.csv").read_text(encoding="utf-8").splitlines()))
 DATA = tomllib.loads((FOLDER / "symbols.toml").read_text(encoding="utf-8"))
 SHOWN = sorted(

@@ -15,15 +15,15 @@ import clingo
 import numpy as np
 import pytest
 
-from seewhy.domains import structure_stability
-from seewhy.domains.structure_stability.annotation import GAPS, annotate, is_clear, measure
-from seewhy.domains.structure_stability.generation import random_structure
-from seewhy.domains.structure_stability.physics import build_model, release
-from seewhy.domains.structure_stability.places import places
-from seewhy.domains.structure_stability.rendering import render
-from seewhy.domains.structure_stability.source import draw, draw_structure
-from seewhy.domains.structure_stability.structure import Block, Structure
-from seewhy.domains.structure_stability.view import View, random_view
+from seewhy_lab.simulators import structure_stability
+from seewhy_lab.simulators.structure_stability.annotation import GAPS, annotate, is_clear, measure
+from seewhy_lab.simulators.structure_stability.generation import random_structure
+from seewhy_lab.simulators.structure_stability.physics import build_model, release
+from seewhy_lab.simulators.structure_stability.places import places
+from seewhy_lab.simulators.structure_stability.rendering import render
+from seewhy_lab.simulators.structure_stability.source import draw, draw_structure
+from seewhy_lab.simulators.structure_stability.structure import Block, Structure
+from seewhy_lab.simulators.structure_stability.view import View, random_view
 
 VALUES = {
     "num_blocks": {"1", "2", "3", "4", "5"},
@@ -61,7 +61,7 @@ def test_a_picture_depends_on_seed_and_index_only() -> None:
     forwards = [digest(index) for index in range(3)]
     backwards = [digest(index) for index in (2, 1, 0)]
     code = (
-        "import hashlib; from seewhy.domains.structure_stability.source import draw\n"
+        "import hashlib; from seewhy_lab.simulators.structure_stability.source import draw\n"
         "p, f, c = draw(seed=3, index=1)\n"
         "print(hashlib.sha256(p.tobytes() + repr((f, c)).encode()).hexdigest())"
     )

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reference import experience_of
-from seewhy.experiments.sufficiency import ENOUGH, Sufficiency, answer_suffices
+from seewhy_lab.experiments.sufficiency import ENOUGH, Sufficiency, answer_suffices
 
 FEATURES = ("blocks", "lean", "displaced")
 CLASSES = ("stable", "unstable")

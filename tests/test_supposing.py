@@ -13,21 +13,21 @@ from hypothesis import strategies as st
 
 from conftest import TRUTH, draw_tile, seen
 from knowledge_builders import VALUES, World, worlds
-from seewhy.agent import Agent
-from seewhy.class_shares import with_class_shares
+from seewhy.agent.agent import Agent
+from seewhy.agent.class_shares import with_class_shares
+from seewhy.agent.consistent_reading import ConsistentReading, open_vectors, read_separately
 from seewhy.cli.ask import print_reply
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue.certainty import SURE_FROM, Certainty
 from seewhy.dialogue.question import Asks
-from seewhy.domain import Domain, load_domain
-from seewhy.domain_tables import CLASS
+from seewhy.dialogue.reply import Classification, FeatureReading
+from seewhy.domain.domain import Domain, load_domain
+from seewhy.domain.tables import CLASS
 from seewhy.errors import DomainError
 from seewhy.evaluation import evaluate
 from seewhy.knowledge.candidates import decided_vectors
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.reading import ConsistentReading, open_vectors, read_separately
-from seewhy.reply import Classification, FeatureReading
 from test_reading import SPACE, distributions, logarithm
 
 # What else a picture may be -----------------------------------------------------------------

@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 from conftest import Run, draw_tile, seen
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
+from seewhy.dialogue.reply import Reply
 from seewhy.dialogue.telling import Look
-from seewhy.domain import load_domain
+from seewhy.dialogue.text_to_speech import find_voice
+from seewhy.domain.domain import load_domain
 from seewhy.errors import QuestionError, SpeechError
 from seewhy.perception.familiarity import NearPicture, TrainingPicture
 from seewhy.perception.where import Where
-from seewhy.reply import Reply
-from seewhy.speech import find_voice
 
 HAND = {
     "domain.toml": """\

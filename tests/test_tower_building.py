@@ -8,14 +8,14 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
+from seewhy.check.change import check_change
 from seewhy.knowledge.history import read_history
-from seewhy.planning.check import check_change
-from seewhy.planning.diagnosis import Diagnosis, diagnose
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.diagnosis.diagnosis import Diagnosis, diagnose
 from seewhy.planning.domain import load_planning_domain
+from seewhy.planning.execution.simulation import simulate
 from seewhy.planning.goal import read_goal
-from seewhy.planning.planner import Plan, PlanStatus, plan
-from seewhy.planning.simulation import simulate
-from seewhy.planning.state import State
+from seewhy.planning.planner.planner import Plan, PlanStatus, plan
 
 DOMAIN = load_planning_domain("tower_building")
 KNOWLEDGE = DOMAIN.knowledge

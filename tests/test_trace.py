@@ -12,10 +12,10 @@ import pytest
 from PIL import Image
 
 from conftest import Result, Run, draw_tile, seen, write_domain
-from seewhy.agent import Agent
-from seewhy.domain import load_domain
-from seewhy.reply import UNCERTAIN, UNKNOWN, FeatureReading
-from seewhy.trace import Trace, trace_of
+from seewhy.agent.agent import Agent
+from seewhy.agent.trace import Trace, trace_of
+from seewhy.dialogue.reply import UNCERTAIN, UNKNOWN, FeatureReading
+from seewhy.domain.domain import load_domain
 
 Tracing = Callable[..., Result]
 
@@ -289,7 +289,7 @@ def test_an_uncertain_scene_names_the_feature(agent: Agent) -> None:
 
 
 def test_grey_pictures_are_traced(agent: Agent, tmp_path: Path) -> None:
-    from seewhy.trace import trace
+    from seewhy.agent.trace import trace
 
     Image.new("L", (40, 20), 128).save(tmp_path / "grey.png")
     assert trace(agent, tmp_path / "grey.png").to_text().startswith("networks\n  colour: ")

@@ -18,7 +18,7 @@ from seewhy.dialogue.question import Questions
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.templates import expanded
 from seewhy.dialogue.vocabulary import Vocabulary
-from seewhy.domain import load_domain
+from seewhy.domain.domain import load_domain
 from seewhy.errors import QuestionError
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.change import ChangeFinder

@@ -11,11 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from seewhy.domain import Domain, load_domain
-from seewhy.domains.traffic_signs.source import signs
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import ModelError
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree, PathCondition, TreeNode, TreePath
+from seewhy_lab.simulators.traffic_signs.source import signs
 
 FEATURES = {
     "count": ["1", "2", "3", "4"],

@@ -13,17 +13,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from conftest import DOMAIN, QUESTIONS, one_process, seen, write_domain, write_tiles
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.cli.main import main
 from seewhy.cli.train import print_refusal
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain, load_domain
+from seewhy.dialogue.reply import Classification
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DomainError
 from seewhy.evaluation import evaluate
+from seewhy.perception.conformal_threshold import refusal_threshold
 from seewhy.perception.extractor import Seen
 from seewhy.perception.familiarity import Familiarity, Known
-from seewhy.refusal import refusal_threshold
-from seewhy.reply import Classification
 
 
 @given(

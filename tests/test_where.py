@@ -11,9 +11,9 @@ import pytest
 from PIL import Image
 
 from conftest import RGB, Run, draw_tile
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError, NotFittedError, PictureError
 from seewhy.perception.extractor import Seen
 from seewhy.perception.where import ACROSS, MATTERS, Where, filled_in, find_where

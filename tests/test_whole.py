@@ -14,21 +14,22 @@ from pathlib import Path
 
 import pytest
 
-from seewhy import folders
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.errors import BusyError
-from seewhy.files import whole_file, write_whole
-from seewhy.folders import scratch_folder, settle_folder, whole_folder
-from seewhy.locks import locked, sole_writer
+from seewhy.files import folders
+from seewhy.files.folders import scratch_folder, settle_folder, whole_folder
+from seewhy.files.locks import locked, sole_writer
+from seewhy.files.whole_files import whole_file, write_whole
 
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from seewhy import files, folders
+from seewhy.files import whole_files as files
+from seewhy.files import folders
 
 target, what, way, step = Path(sys.argv[1]), sys.argv[2], sys.argv[3], int(sys.argv[4])
 if what not in ("file", "folder"):
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
 
     agent = Agent.load(what)
 if way == "in two steps":
@@ -189,7 +190,7 @@ def test_the_second_writer_is_refused(tmp_path: Path) -> None:
 def test_the_lock_of_a_killed_process_is_free(tmp_path: Path) -> None:
     work = tmp_path / "result.json"
     script = (
-        "import sys, time\nfrom pathlib import Path\nfrom seewhy.locks import locked\n"
+        "import sys, time\nfrom pathlib import Path\nfrom seewhy.files.locks import locked\n"
         "with locked(Path(sys.argv[1])) as ours:\n    print(ours, flush=True)\n    time.sleep(60)"
     )
     with subprocess.Popen(
@@ -236,7 +237,7 @@ def test_scratch_folders_of_the_killed_are_removed_and_those_of_the_living_are_n
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     (tmp_path / "seewhy-apples").mkdir()  # whatever it is, no scratch folder
     script = (
-        "import time\nfrom seewhy.folders import scratch_folder\n"
+        "import time\nfrom seewhy.files.folders import scratch_folder\n"
         "with scratch_folder() as folder:\n    (folder / 'a').write_text('a')\n"
         "    print(folder, flush=True)\n    time.sleep(60)"
     )

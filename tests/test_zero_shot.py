@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 
 from conftest import draw_tile, one_process, write_domain, write_tiles
-from seewhy.agent import Agent
+from seewhy.agent.agent import Agent
 from seewhy.cli.evaluation_tables import print_classes
 from seewhy.cli.main import main
 from seewhy.cli.training import trained_already
 from seewhy.data.dataset import Dataset
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DatasetError
 from seewhy.evaluation import evaluate
 

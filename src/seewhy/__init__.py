@@ -11,14 +11,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
-    from seewhy.classifying import classify_pictures
+    from seewhy.agent.agent import Agent
+    from seewhy.classification import classify_pictures
     from seewhy.data.dataset import Dataset
-    from seewhy.domain import Domain, load_domain
+    from seewhy.dialogue.reply import Reply
+    from seewhy.domain.domain import Domain, load_domain
     from seewhy.errors import SeeWhyError
     from seewhy.evaluation import Evaluation, evaluate
     from seewhy.knowledge.justification import Node
-    from seewhy.reply import Reply
 
 __all__ = [
     "Agent",
@@ -34,16 +34,16 @@ __all__ = [
 ]
 
 _HOMES = {
-    "Agent": "seewhy.agent",
+    "Agent": "seewhy.agent.agent",
     "Dataset": "seewhy.data.dataset",
-    "Domain": "seewhy.domain",
+    "Domain": "seewhy.domain.domain",
     "Evaluation": "seewhy.evaluation",
     "Node": "seewhy.knowledge.justification",
-    "Reply": "seewhy.reply",
+    "Reply": "seewhy.dialogue.reply",
     "SeeWhyError": "seewhy.errors",
-    "classify_pictures": "seewhy.classifying",
+    "classify_pictures": "seewhy.classification",
     "evaluate": "seewhy.evaluation",
-    "load_domain": "seewhy.domain",
+    "load_domain": "seewhy.domain.domain",
 }
 
 

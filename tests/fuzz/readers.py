@@ -17,7 +17,7 @@ from seewhy.data.importers import ImportRequest, import_pictures
 from seewhy.data.importers.class_features import read_class_features
 from seewhy.data.importers.picture_files import read_header
 from seewhy.data.picture_listing import list_pictures
-from seewhy.domain import Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import SeeWhyError
 from seewhy.perception.picture import pixels_digest, read_picture
 

@@ -22,7 +22,7 @@ from seewhy.cli.options import (
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
-    from seewhy.reply import Classification, Reply
+    from seewhy.dialogue.reply import Classification, Reply
 
 
 def ask(
@@ -47,8 +47,8 @@ def ask(
 ) -> None:
     """Answer a question about a picture, with the reasons."""
     share_cores()
-    from seewhy.agent import Agent
-    from seewhy.speech import find_voice
+    from seewhy.agent.agent import Agent
+    from seewhy.dialogue.text_to_speech import find_voice
 
     # Where nothing speaks, that is said before the answer is worked out.
     voices = [find_voice()] if speak else []

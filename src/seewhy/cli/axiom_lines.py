@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from seewhy.cli.screen import percent
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.knowledge.axiom import Axiom
     from seewhy.knowledge.learned_file import Withdrawn
 

@@ -24,7 +24,7 @@ def axioms(
     json: Json = False,
 ) -> None:
     """List the axioms of a model as sentences, given and learned, and those known no more."""
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
 
     agent = Agent.load(model)
     if remove is not None:

@@ -18,7 +18,7 @@ from seewhy.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from seewhy.reply import Reply
+    from seewhy.dialogue.reply import Reply
 
 
 def chat(
@@ -36,8 +36,8 @@ def chat(
     With --json every answer is one line of JSON.
     """
     share_cores()
-    from seewhy.agent import Agent
-    from seewhy.speech import find_voice
+    from seewhy.agent.agent import Agent
+    from seewhy.dialogue.text_to_speech import find_voice
 
     voice = find_voice() if speak else None
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)

@@ -21,9 +21,9 @@ def check(
     json: Json = False,
 ) -> None:
     """Check a domain folder: its files, words, axioms and questions."""
+    from seewhy.check.domain import check_domain
     from seewhy.cli.read_data import read_data
-    from seewhy.domain import load_domain
-    from seewhy.domain_check import check_domain
+    from seewhy.domain.domain import load_domain
     from seewhy.planning.domain import plans, plans_only
 
     planning = _checked_planning(domain) if plans(domain) else None
@@ -64,7 +64,7 @@ def check(
 
 
 def _checked_planning(domain: str) -> dict[str, Any]:
-    from seewhy.planning.check import check_change
+    from seewhy.check.change import check_change
     from seewhy.planning.domain import load_planning_domain
 
     own = load_planning_domain(domain)

@@ -12,7 +12,7 @@ from seewhy.cli.options import Device, Gate, Json, KnownShare, ModelFolder, Outs
 from seewhy.cli.screen import print_json, progress, remark, say
 
 if TYPE_CHECKING:
-    from seewhy.classifying.running import Classified
+    from seewhy.classification.running import Classified
 
 
 def classify(
@@ -44,18 +44,18 @@ def classify(
 
     An interrupted run goes on where it was when the same command is given again.
     """
-    from seewhy.classifying.table_files import check_table
+    from seewhy.classification.table_files import check_table
 
     check_table(out)
     share_cores()
-    from seewhy.agent import Agent
-    from seewhy.classifying.running import classify_to_table
+    from seewhy.agent.agent import Agent
+    from seewhy.agent.model import MANIFEST
+    from seewhy.classification.running import classify_to_table
     from seewhy.data.digest import digest_of
     from seewhy.data.importers.annotation import Note
     from seewhy.data.importers.source_files import LINKS_OUT
     from seewhy.data.picture_listing import list_pictures
     from seewhy.errors import DatasetError
-    from seewhy.model import MANIFEST
 
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     listing = list_pictures(pictures, agent.domain, with_class=all_, outside=outside)

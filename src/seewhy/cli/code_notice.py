@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seewhy.cli.screen import remark
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 
 __all__ = ["remark_code"]
 

@@ -14,7 +14,7 @@ from seewhy.cli.options import DomainName, Json, Outside, Seed
 from seewhy.cli.screen import percent, print_json, progress, remark, say
 
 if TYPE_CHECKING:
-    from seewhy.domain import Domain
+    from seewhy.domain.domain import Domain
 
 MANY_CLASSES = 8
 """Of more, the share of each would say less than their range."""
@@ -43,7 +43,7 @@ def make(
     """
     from seewhy.cli.code_notice import remark_code
     from seewhy.data.making import make_dataset
-    from seewhy.domain import load_domain
+    from seewhy.domain.domain import load_domain
     from seewhy.errors import SeeWhyError
 
     if workers == 0:
@@ -109,8 +109,8 @@ def show(
     from seewhy.data.dataset import Dataset
     from seewhy.data.dataset_domain import domain_of
     from seewhy.data.making import determined_share
-    from seewhy.domain import load_domain
-    from seewhy.files import whole_file
+    from seewhy.domain.domain import load_domain
+    from seewhy.files.whole_files import whole_file
     from seewhy.report.contact_sheet import draw_contact_sheet
 
     own = load_domain(domain) if domain else domain_of(folder)
@@ -150,4 +150,3 @@ def show(
 
 
 app.command("import")(data_import.import_)
-app.command("fetch")(data_import.fetch)

@@ -11,8 +11,8 @@ from seewhy.cli.options import DomainName, Json
 from seewhy.cli.screen import complain, print_json, say
 
 if TYPE_CHECKING:
-    from seewhy.domain import Domain
-    from seewhy.reply import Classification, Reply
+    from seewhy.dialogue.reply import Classification, Reply
+    from seewhy.domain.domain import Domain
 
 
 def decide(
@@ -31,9 +31,9 @@ def decide(
     json: Json = False,
 ) -> None:
     """Reason about named values, so that rules can be tried before anything is trained."""
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.dialogue.question import Asks, Question
-    from seewhy.domain import load_domain
+    from seewhy.domain.domain import load_domain
     from seewhy.errors import QuestionError
 
     loaded = load_domain(domain)
@@ -105,12 +105,12 @@ def named_values(domain: Domain, assignments: Sequence[str]) -> dict[str, str]:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> named_values(load_domain("structure_stability"), ["base=wide", "lean=no"])
     {'base': 'wide', 'lean': 'no'}
     """
     from seewhy.errors import DomainError
-    from seewhy.nearest import did_you_mean
+    from seewhy.text.nearest import did_you_mean
 
     found: dict[str, str] = {}
     for assignment in assignments:

@@ -12,9 +12,9 @@ from seewhy.cli.options import Json, Seed
 from seewhy.cli.screen import output, print_json, progress, say
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.data.dataset import Dataset, Scene
-    from seewhy.reply import Classification, Reply
+    from seewhy.dialogue.reply import Classification, Reply
 
 
 FEW_CLASSES = 4
@@ -36,9 +36,9 @@ def demo(
     from seewhy.cli.training import train_model, trained_already
     from seewhy.data.dataset import Dataset
     from seewhy.data.making import make_dataset
-    from seewhy.domain import load_domain
+    from seewhy.domain.domain import load_domain
     from seewhy.evaluation import evaluate
-    from seewhy.files import write_whole
+    from seewhy.files.whole_files import write_whole
     from seewhy.report.page import report_page
 
     start = perf_counter()

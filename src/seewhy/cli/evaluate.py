@@ -21,7 +21,7 @@ from seewhy.cli.options import (
 from seewhy.cli.screen import print_json, progress, remark, say, warn
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.data.dataset import Dataset
     from seewhy.evaluation import Evaluation
     from seewhy.evaluation.curve import LearningCurve
@@ -65,7 +65,7 @@ def evaluate(
     """Evaluate a model on a dataset (on the rows with split = test, where there are splits)."""
     from dataclasses import replace
 
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.cli.evaluation_tables import print_curve, print_evaluation
     from seewhy.cli.read_data import read_data
     from seewhy.errors import SeeWhyError
@@ -165,7 +165,7 @@ def _curve(agent: Agent, dataset: Dataset, model: Path) -> LearningCurve:
 
 def _write_page(page: Path, agent: Agent, result: Evaluation, *, most: int | None) -> None:
     from seewhy.cli.command_line import as_typed
-    from seewhy.files import write_whole
+    from seewhy.files.whole_files import write_whole
     from seewhy.report.evaluation_page import MOST_PICTURES, evaluation_page
 
     shown = MOST_PICTURES if most is None else most

@@ -117,7 +117,7 @@ def learn(
         raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the model")
     if even_if_worse and not yes:
         raise SeeWhyError("--even-if-worse goes with --yes; without it you are asked")
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.cli.read_data import read_data
     from seewhy.evaluation.held_back import learn_judged, not_worse
     from seewhy.induction.learning import DEFAULTS, LearningOptions
@@ -142,7 +142,7 @@ def learn(
     if not only_shown:
         found.agent.save(model)
     if picture is not None:
-        from seewhy.files import write_whole
+        from seewhy.files.whole_files import write_whole
         from seewhy.report.tree import draw_tree
 
         learning = found.learning

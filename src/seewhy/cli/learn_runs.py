@@ -30,7 +30,7 @@ def learn_from_record(
     json: bool,
 ) -> None:
     """Learn from all records in a folder, and write what was accepted."""
-    from seewhy.files import write_whole
+    from seewhy.files.whole_files import write_whole
     from seewhy.knowledge.history import read_history_file
     from seewhy.knowledge.learned_file import learned_text
     from seewhy.planning.learning.learning import SUPPORT, learn_from_runs

@@ -7,6 +7,8 @@ import gc
 import io
 import os
 import sys
+from importlib import import_module
+from importlib.util import find_spec
 from typing import Any
 
 import typer
@@ -21,7 +23,6 @@ from seewhy.cli import (
     decide,
     demo,
     evaluate,
-    experiment,
     learn,
     new,
     plan,
@@ -31,6 +32,9 @@ from seewhy.cli import (
     train,
 )
 from seewhy.cli.screen import complain
+
+LABORATORY = "seewhy_lab"
+"""Adds commands of its own where it is there."""
 
 _INTERRUPTED = 130
 # Typer names only some of the errors of a command line; this is what they have in common.
@@ -60,7 +64,8 @@ app.command("reference")(reference.reference)
 app.command("plan")(plan.plan)
 app.command("simulate")(simulate.simulate)
 app.command("demo")(demo.demo)
-app.command("experiment")(experiment.experiment)
+if find_spec(LABORATORY) is not None:
+    import_module(f"{LABORATORY}.cli").add_commands(app)
 
 
 def main() -> None:

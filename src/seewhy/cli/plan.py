@@ -14,8 +14,8 @@ from seewhy.cli.screen import print_json, remark, say
 if TYPE_CHECKING:
     from clingo import Symbol
 
-    from seewhy.planning.pddl import PddlProblem
-    from seewhy.planning.planner import Plan
+    from seewhy.planning.planner.pddl import PddlProblem
+    from seewhy.planning.planner.planner import Plan
     from seewhy.planning.words import PlanningWords
 
 GoalText = Annotated[
@@ -52,12 +52,12 @@ def plan(
     """Find a shortest plan to a goal."""
     from seewhy.knowledge.ground_literal import read_ground_literal
     from seewhy.knowledge.history import read_history_file
-    from seewhy.planning.diagnosis import diagnose
+    from seewhy.planning.diagnosis.diagnosis import diagnose
     from seewhy.planning.domain import load_planning_domain
-    from seewhy.planning.following import suppositions
+    from seewhy.planning.execution.plan_monitoring import suppositions
     from seewhy.planning.goal import read_goal
-    from seewhy.planning.pddl import to_pddl
-    from seewhy.planning.planner import plan as find_plan
+    from seewhy.planning.planner.pddl import to_pddl
+    from seewhy.planning.planner.planner import plan as find_plan
 
     own = with_knowledge_of_robot(load_planning_domain(domain), learned=learned, without=without)
     knowledge = own.knowledge
@@ -84,7 +84,7 @@ def plan(
 
 
 def _write_pddl(problem: PddlProblem, folder: Path) -> None:
-    from seewhy.files import write_whole
+    from seewhy.files.whole_files import write_whole
 
     folder.mkdir(parents=True, exist_ok=True)
     write_whole(folder / "domain.pddl", problem.domain)
@@ -93,7 +93,7 @@ def _write_pddl(problem: PddlProblem, folder: Path) -> None:
 
 
 def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...]) -> None:
-    from seewhy.planning.planner import PlanStatus
+    from seewhy.planning.planner.planner import PlanStatus
 
     if found.status is PlanStatus.ALREADY_TRUE:
         holds = "may hold" if supposed else "holds"

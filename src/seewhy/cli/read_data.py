@@ -10,7 +10,7 @@ from seewhy.cli.screen import progress, remark
 
 if TYPE_CHECKING:
     from seewhy.data.dataset import Dataset
-    from seewhy.domain import Domain
+    from seewhy.domain.domain import Domain
 
 
 def read_data(

@@ -20,8 +20,8 @@ def reference(
     json: Json = False,
 ) -> None:
     """Say what may stand in a domain's files: each key, its range, its default, its meaning."""
-    from seewhy.files import write_whole
-    from seewhy.key_reference import reference_dict, reference_page
+    from seewhy.files.whole_files import write_whole
+    from seewhy.report.key_reference import reference_dict, reference_page
 
     if out is not None:
         write_whole(out, reference_page())

@@ -15,8 +15,8 @@ from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
     from seewhy.planning.domain import PlanningDomain
-    from seewhy.planning.sight import Sight
-    from seewhy.planning.simulation import Simulation
+    from seewhy.planning.execution.sight import Sight
+    from seewhy.planning.execution.simulation import Simulation
 
 
 def simulate(
@@ -56,14 +56,14 @@ def simulate(
     knowledge.al, whatever the robot knows of it.
     """
     from seewhy.errors import PlanningError
-    from seewhy.files import write_whole
+    from seewhy.files.whole_files import write_whole
     from seewhy.knowledge.history import history_text
     from seewhy.planning.dialogue.replying import RunAnswers
     from seewhy.planning.domain import load_planning_domain
+    from seewhy.planning.execution.recording import record_of
+    from seewhy.planning.execution.run_narration import narrate_end, narrate_step
+    from seewhy.planning.execution.simulation import simulate as run_simulation
     from seewhy.planning.goal import read_goal
-    from seewhy.planning.narration import narrate_end, narrate_step
-    from seewhy.planning.recording import record_of
-    from seewhy.planning.simulation import simulate as run_simulation
     from seewhy.report.run_page import run_page
 
     if out is not None and out.suffix.lower() != ".html":
@@ -117,10 +117,10 @@ def simulate(
 
 
 def _sight(domain: PlanningDomain, model: Path) -> Sight:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.cli.code_notice import remark_code
-    from seewhy.domain import load_domain
-    from seewhy.planning.sight import Sight
+    from seewhy.domain.domain import load_domain
+    from seewhy.planning.execution.sight import Sight
 
     remark_code(load_domain(domain.folder))
     return Sight(domain, Agent.load(model))

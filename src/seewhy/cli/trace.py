@@ -26,8 +26,8 @@ def trace(
 ) -> None:
     """Show what each component did: networks, knowledge, tree, question, answer."""
     share_cores()
-    from seewhy.agent import Agent
-    from seewhy.trace import trace as traced
+    from seewhy.agent.agent import Agent
+    from seewhy.agent.trace import trace as traced
 
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     found = traced(agent, image, question)

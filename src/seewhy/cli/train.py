@@ -23,7 +23,7 @@ from seewhy.cli.screen import add_row, output, percent, print_json, table
 from seewhy.cli.training import train_model
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
 
 
 def train(
@@ -65,7 +65,7 @@ def train(
 
     Training that is killed goes on where it was when the same command is given again.
     """
-    from seewhy.domain import load_domain
+    from seewhy.domain.domain import load_domain
 
     own = load_domain(domain)
     agent = train_model(

@@ -12,9 +12,9 @@ from seewhy.cli.screen import percent, progress, remark
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.data.dataset import Dataset
-    from seewhy.domain import Domain
+    from seewhy.domain.domain import Domain
     from seewhy.perception.events import EyesEvent, TrainingEvent
 
 
@@ -23,8 +23,8 @@ def trained_already(folder: Path, dataset: Dataset, *, seed: int) -> Agent | Non
 
     One that was trained with other options than the domain's is not what is looked for.
     """
-    from seewhy.agent import Agent
-    from seewhy.domain import FILES
+    from seewhy.agent.agent import Agent
+    from seewhy.domain.domain import FILES
     from seewhy.errors import ModelError
 
     try:
@@ -64,7 +64,7 @@ def train_model(
 ) -> Agent:
     """Train an agent on the dataset in ``data`` and write it to ``out``.
 
-    The options are those of :class:`~seewhy.agent.Agent` and of its ``fit``. Checkpoints lie
+    The options are those of :class:`~seewhy.agent.agent.Agent` and of its ``fit``. Checkpoints lie
     beside ``out`` until the model is written.
 
     Raises
@@ -72,14 +72,14 @@ def train_model(
     BusyError
         If another process trains a model for ``out``.
     """
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
+    from seewhy.agent.model import check_target, replaced_notice
+    from seewhy.agent.pretraining import is_drawn
     from seewhy.cli.code_notice import remark_code
     from seewhy.cli.read_data import read_data
     from seewhy.data.coverage import coverage_notices
-    from seewhy.locks import sole_writer
-    from seewhy.model import check_target, replaced_notice
+    from seewhy.files.locks import sole_writer
     from seewhy.perception.backbones import NONE
-    from seewhy.pretraining import is_drawn
 
     check_target(out)
     earlier = Agent.load(start_from) if start_from else None
@@ -125,7 +125,7 @@ def train_model(
 
 def networks_progress(bars: Progress, agent: Agent) -> Callable[[TrainingEvent], None]:
     """Show a bar for every network that grows."""
-    from seewhy.domain_tables import CLASS, TOGETHER
+    from seewhy.domain.tables import CLASS, TOGETHER
 
     domain = agent.domain
     at_first = {TOGETHER} if domain.networks.together else set(domain.features)

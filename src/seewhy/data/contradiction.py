@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from seewhy.domain_tables import CLASS
+from seewhy.domain.tables import CLASS
 from seewhy.errors import DatasetError
 
 if TYPE_CHECKING:

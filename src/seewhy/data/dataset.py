@@ -20,11 +20,11 @@ from seewhy.data.reading_ahead import read_ahead
 from seewhy.data.scene import Scene, TablePlace
 from seewhy.data.scene_rows import OPTIONAL, columns_of, scenes_of_rows
 from seewhy.data.table import read_table
-from seewhy.domain import Domain
-from seewhy.domain_tables import CLASS
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
 from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 if TYPE_CHECKING:
     import pandas as pd

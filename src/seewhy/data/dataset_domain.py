@@ -7,7 +7,7 @@ from pathlib import Path
 from seewhy.data.dataset import TABLE
 from seewhy.data.scene_rows import OPTIONAL, columns_of
 from seewhy.data.table import read_table
-from seewhy.domain import Domain, bundled_domains, load_domain
+from seewhy.domain.domain import Domain, bundled_domains, load_domain
 from seewhy.errors import DatasetError
 
 

@@ -14,11 +14,11 @@ from pydantic import TypeAdapter, ValidationError
 
 from seewhy.data.dataset import TABLE
 from seewhy.data.picture_source import draw_picture, load_source
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError, DomainError
-from seewhy.files import put_all_on_disk, whole_file, write_whole
+from seewhy.files.locks import sole_writer
+from seewhy.files.whole_files import put_all_on_disk, whole_file, write_whole
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.locks import sole_writer
 
 MADE = "made.json"
 

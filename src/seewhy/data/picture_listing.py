@@ -15,8 +15,8 @@ from seewhy.data.picture_path import require_own_table
 from seewhy.data.scene import TablePlace
 from seewhy.data.scene_rows import IMAGE, OPTIONAL, columns_of, scenes_of_rows
 from seewhy.data.table import read_table
-from seewhy.domain import Domain
-from seewhy.domain_tables import CLASS
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
 from seewhy.errors import DatasetError
 
 __all__ = ["PictureListing", "list_pictures"]
@@ -82,7 +82,7 @@ def list_pictures(
     Examples
     --------
     >>> import tempfile
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> folder = Path(tempfile.mkdtemp())
     >>> for name in ("b.jpg", "a.png", "notes.txt"):
     ...     (folder / name).touch()

@@ -9,7 +9,7 @@ from errno import EACCES, ELOOP, ENAMETOOLONG
 from pathlib import Path
 
 from seewhy.errors import DatasetError
-from seewhy.files import lies_in
+from seewhy.files.whole_files import lies_in
 
 __all__ = ["picture_finder", "require_own_table"]
 

@@ -12,7 +12,7 @@ from importlib.machinery import ModuleSpec
 from pathlib import Path
 from typing import Any, Protocol
 
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
 
 
@@ -49,7 +49,7 @@ def load_source(domain: Domain) -> Draw:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> picture, features, label = load_source(load_domain("structure_stability"))(
     ...     seed=0, index=0, size=32)
     >>> picture.shape
@@ -63,7 +63,7 @@ def code_notice(domain: Domain) -> str | None:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> code_notice(load_domain("structure_stability")) is None
     True
     """
@@ -82,7 +82,7 @@ def check_source(domain: Domain) -> None:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> check_source(load_domain("structure_stability"))
     """
     source, folder = _named_source(domain), domain.folder
@@ -146,7 +146,7 @@ def load_depict(domain: Domain) -> Depict:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> depict = load_depict(load_domain("robot_assistant"))
     >>> depict({"desk": "yes", "sally": "yes"}, seed=0, size=32).shape
     (32, 32, 3)

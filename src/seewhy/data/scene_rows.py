@@ -7,11 +7,11 @@ from pathlib import Path
 
 from seewhy.data.picture_path import picture_finder
 from seewhy.data.scene import Scene, TablePlace
-from seewhy.domain import Domain
-from seewhy.domain_tables import CLASS, RESERVED
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS, RESERVED
 from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 __all__ = ["IMAGE", "OPTIONAL", "SPLITS", "columns_of", "scenes_of_rows"]
 
@@ -27,7 +27,7 @@ def columns_of(domain: Domain) -> tuple[str, ...]:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> columns_of(load_domain("structure_stability"))[:4]
     ('image', 'class', 'num_blocks', 'base')
     """

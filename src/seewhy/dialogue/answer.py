@@ -14,14 +14,14 @@ from importlib import resources
 from urllib.parse import unquote
 
 from seewhy.dialogue.question import Question
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
+from seewhy.domain.wording import join_words, say_features, sentence
 from seewhy.errors import DomainError
+from seewhy.files.toml_file import line_of
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.nearest import did_you_mean
-from seewhy.slots import filled, wrong_slot
-from seewhy.toml_file import line_of
-from seewhy.visible import visible
-from seewhy.wording import join_words, say_features, sentence
+from seewhy.text.nearest import did_you_mean
+from seewhy.text.slots import filled, wrong_slot
+from seewhy.text.visible import visible
 
 Changes = tuple[tuple[str, str], ...]
 """What would have to change: (feature, new value) pairs."""
@@ -124,7 +124,7 @@ def word_answer(
     Examples
     --------
     >>> from seewhy.dialogue.question import Questions
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> question = Questions(domain).understand("why is it stable?")
     >>> word_answer(domain, question, AnswerType("reasons", ("base",)),
@@ -198,7 +198,7 @@ def word_supposed(
     Examples
     --------
     >>> from seewhy.dialogue.question import Questions
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> question = Questions(domain).understand("why is it unstable?")
     >>> word_supposed(domain, question, "It leans.", label="stable", supposed="unstable")

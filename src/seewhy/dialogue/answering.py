@@ -13,18 +13,18 @@ from seewhy.dialogue.only_shown import with_only_shown
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience
+from seewhy.dialogue.reply import UNCERTAIN, UNKNOWN, Classification, Reply
 from seewhy.dialogue.shared_by_pictures import shared_by_pictures
 from seewhy.dialogue.telling import Look, Told, tell
 from seewhy.dialogue.tree_says import tree_says
 from seewhy.dialogue.weighing import Weighing
-from seewhy.domain import Domain
-from seewhy.domain_tables import CLASS
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
+from seewhy.domain.wording import say_literal, sentence
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree, TreePath
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.reply import UNCERTAIN, UNKNOWN, Classification, Reply
-from seewhy.wording import say_literal, sentence
 
 if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer

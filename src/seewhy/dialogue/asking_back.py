@@ -8,9 +8,9 @@ from rapidfuzz import fuzz, process
 
 from seewhy.dialogue.asked import Asks, Query, Question
 from seewhy.dialogue.inflection import lemma
+from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.saying_questions import PLAIN_WORDINGS
-from seewhy.domain import Domain
-from seewhy.question_words import words_of
+from seewhy.domain.domain import Domain
 
 __all__ = ["Suggestions"]
 

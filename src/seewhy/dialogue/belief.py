@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property, lru_cache
 
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal
 from seewhy.knowledge.evidence import Evidence, Say, evidence_of
 from seewhy.knowledge.ground import key_of
@@ -38,7 +38,7 @@ class ToldClass:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> told = ToldClass(domain, Reasoner(domain.knowledge, domain.schema), say=str)
     >>> evidence = told.evidence(domain.vector({"num_blocks": "5"}), "stable")

@@ -8,11 +8,11 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 from seewhy.dialogue.answer import AnswerType
-from seewhy.domain_tables import CLASS
+from seewhy.domain.tables import CLASS
 from seewhy.knowledge.justification import Basis, Node
 
 if TYPE_CHECKING:
-    from seewhy.reply import Classification
+    from seewhy.dialogue.reply import Classification
 
 __all__ = [
     "PROBABLE_FROM",

@@ -15,7 +15,7 @@ from seewhy.dialogue.recurrent import fit_answerer
 from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
 from seewhy.dialogue.recurrent_options import AnswerExample, RecurrentOptions
 from seewhy.dialogue.reference import ReferenceAnswers
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import ModelError
 from seewhy.knowledge.scene import FeatureVector
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 from seewhy.dialogue.grammar import Binding, Match
 from seewhy.dialogue.inflection import ARTICLES, lemma
-from seewhy.domain import Domain, Feature
-from seewhy.question_words import words_of
+from seewhy.dialogue.question_words import words_of
+from seewhy.domain.domain import Domain, Feature
 
 __all__ = ["CATEGORIES", "Entries", "Value", "lexicon_of"]
 

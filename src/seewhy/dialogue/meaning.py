@@ -12,8 +12,8 @@ from typing import Any
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.grammar import Binding, Chart, Fold, Form, Grammar, parse_form, words_of_form
 from seewhy.dialogue.lexicon import Normalise, lexicon_of, words_in
-from seewhy.domain import Domain
-from seewhy.question_words import words_of
+from seewhy.dialogue.question_words import words_of
+from seewhy.domain.domain import Domain
 
 __all__ = ["Readings", "aside_phrases", "grammar_words"]
 
@@ -61,7 +61,7 @@ class Readings:
     Examples
     --------
     >>> from seewhy.dialogue.question import Questions
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> read = Questions(load_domain("structure_stability")).understand
     >>> read("what if the base were wide?").query
     ('what_if', None, None, None, 'base=wide')

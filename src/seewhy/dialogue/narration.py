@@ -13,13 +13,13 @@ from seewhy.dialogue.certainty import (
     least_sure_told,
     weakest,
 )
-from seewhy.domain import Domain
-from seewhy.domain_tables import CLASS
+from seewhy.dialogue.reply import Reply
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
+from seewhy.domain.wording import join_words, say_features, sentence
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
-from seewhy.reply import Reply
-from seewhy.slots import filled
-from seewhy.wording import join_words, say_features, sentence
+from seewhy.text.slots import filled
 
 
 def narrate(domain: Domain, reply: Reply) -> str:

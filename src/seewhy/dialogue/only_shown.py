@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
-from seewhy.domain import Domain
-from seewhy.reply import Reply
-from seewhy.wording import join_words, sentence
+from seewhy.dialogue.reply import Reply
+from seewhy.domain.domain import Domain
+from seewhy.domain.wording import join_words, sentence
 
 __all__ = ["say_only_shown", "with_only_shown"]
 
@@ -26,7 +26,7 @@ def say_only_shown(domain: Domain, features: Collection[str], only_shown: Mappin
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> say_only_shown(domain, ["base", "lean"], {"base": "wide"})
     'of the width of the base, only wide was ever shown'

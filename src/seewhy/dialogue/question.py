@@ -11,13 +11,13 @@ from seewhy.dialogue.asking_back import Suggestions
 from seewhy.dialogue.following_up import completed
 from seewhy.dialogue.inflection import ARTICLES
 from seewhy.dialogue.meaning import Readings, aside_phrases, grammar_words
+from seewhy.dialogue.question_words import CONTRACTIONS, words_of
 from seewhy.dialogue.saying_questions import say_question
 from seewhy.dialogue.spelling import Spelling
 from seewhy.dialogue.templates import as_what, embedded, expanded
 from seewhy.dialogue.vocabulary import SUBJECTS, Vocabulary
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.errors import QuestionError
-from seewhy.question_words import CONTRACTIONS, words_of
 
 __all__ = ["Asks", "Query", "Question", "Questions"]
 
@@ -43,7 +43,7 @@ class Questions:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> questions = Questions(load_domain("structure_stability"))
     >>> questions.understand("WHAT makes this tower unstabel??").query
     ('why_class', 'unstable', None, None)

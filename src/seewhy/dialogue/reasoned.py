@@ -8,7 +8,8 @@ from functools import lru_cache
 from seewhy.dialogue.answer import AnswerType, Changes
 from seewhy.dialogue.belief import ToldClass, believed_values, with_basis
 from seewhy.dialogue.question import Asks, Question
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
+from seewhy.domain.wording import join_words, say_literal
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.condition_nodes import once
@@ -22,7 +23,6 @@ from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.why import contradiction, either_or, justify
 from seewhy.knowledge.why_not import refuse, shortfall
-from seewhy.wording import join_words, say_literal
 
 _UNDECIDED = {
     Verdict.SILENT: "no axiom concludes a class",
@@ -57,7 +57,7 @@ class ReasonedAnswers:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> from seewhy.dialogue.question import Questions
     >>> domain = load_domain("structure_stability")
     >>> answers = ReasonedAnswers(domain, Reasoner(domain.knowledge, domain.schema))

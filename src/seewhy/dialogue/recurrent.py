@@ -25,7 +25,7 @@ from seewhy.dialogue.recurrent_network import (
 )
 from seewhy.dialogue.recurrent_options import AnswererEvent, AnswerExample, RecurrentOptions
 from seewhy.errors import DatasetError
-from seewhy.one_thread import one_thread
+from seewhy.perception.one_thread import one_thread
 
 __all__ = ["Asked", "fit_answerer", "grown_network", "hold_out"]
 

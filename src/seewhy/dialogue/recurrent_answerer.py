@@ -11,7 +11,7 @@ import torch
 
 from seewhy.dialogue.recurrent_network import FORMAT, Description, Encoding, Network
 from seewhy.errors import DatasetError, ModelError
-from seewhy.weights import REMEDY, check_tensors, read_weights, write_weights
+from seewhy.perception.weights import REMEDY, check_tensors, read_weights, write_weights
 
 __all__ = ["RecurrentAnswerer"]
 

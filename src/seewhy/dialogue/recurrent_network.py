@@ -14,7 +14,7 @@ from torch.nn.utils.rnn import pack_padded_sequence
 
 from seewhy.dialogue.recurrent_options import MOST_LAYERS, WIDEST
 from seewhy.errors import DatasetError
-from seewhy.weights import Described
+from seewhy.perception.weights import Described
 
 __all__ = ["FORMAT", "PADDING", "UNKNOWN", "Description", "Encoded", "Encoding", "Network"]
 

@@ -17,7 +17,7 @@ import numpy as np
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers, difference
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.knowledge.scene import FeatureVector
 
 Experience = Mapping[FeatureVector, Mapping[str, int]]

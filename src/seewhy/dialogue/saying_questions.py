@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from seewhy.dialogue.asked import Asks, Question, Statement
-from seewhy.domain import Domain
-from seewhy.wording import join_words
+from seewhy.domain.domain import Domain
+from seewhy.domain.wording import join_words
 
 __all__ = ["PLAIN_WORDINGS", "say_question"]
 
@@ -25,7 +25,7 @@ def say_question(domain: Domain, question: Question) -> str:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> wide = Statement(feature="base", value="wide")
     >>> say_question(domain, Question(Asks.WHAT_IF, "", (), statements=(wide,)))

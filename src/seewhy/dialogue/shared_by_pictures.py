@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from seewhy.dialogue.reference import Experience
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
+from seewhy.domain.wording import say_features
 from seewhy.induction.sentence import things
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.wording import say_features
 
 __all__ = ["shared_by_pictures"]
 

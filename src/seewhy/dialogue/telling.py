@@ -10,12 +10,12 @@ from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.certainty import Ground
 from seewhy.dialogue.reasoned import ReasonedAnswers
-from seewhy.domain import Domain
-from seewhy.domain_tables import CLASS
+from seewhy.dialogue.reply import Classification
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
+from seewhy.domain.wording import join_clauses, join_words, say_features, sentence
 from seewhy.errors import QuestionError
 from seewhy.knowledge.justification import Basis, Node
-from seewhy.reply import Classification
-from seewhy.wording import join_clauses, join_words, say_features, sentence
 
 if TYPE_CHECKING:
     from seewhy.perception.familiarity import NearPicture

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from itertools import product, zip_longest
 
 from seewhy.dialogue.asked import Asks, Question
-from seewhy.domain import Domain
-from seewhy.domain_tables import QuestionTable
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import QuestionTable
 from seewhy.errors import DomainError
-from seewhy.nearest import did_you_mean
-from seewhy.slots import filled, wrong_slot
-from seewhy.toml_file import lines_of_tables
-from seewhy.visible import visible
+from seewhy.files.toml_file import lines_of_tables
+from seewhy.text.nearest import did_you_mean
+from seewhy.text.slots import filled, wrong_slot
+from seewhy.text.visible import visible
 
 __all__ = ["MOST_OPTIONAL", "MOST_WORDINGS", "as_what", "embedded", "expanded"]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree, TreePath
 from seewhy.knowledge.justification import Basis, Node

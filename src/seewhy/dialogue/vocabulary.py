@@ -9,9 +9,9 @@ import snowballstemmer
 
 from seewhy.dialogue.inflection import ARTICLES, lemma
 from seewhy.dialogue.meaning import aside_phrases
-from seewhy.domain import Domain
+from seewhy.dialogue.question_words import words_of
+from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
-from seewhy.question_words import words_of
 
 __all__ = ["SUBJECTS", "Vocabulary"]
 
@@ -32,7 +32,7 @@ class Vocabulary:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> words = Vocabulary(load_domain("structure_stability"))
     >>> words.for_grammar("Is the tower tilting, please?")
     ('is', 'structur', 'lean')

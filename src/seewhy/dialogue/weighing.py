@@ -9,17 +9,17 @@ from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.certainty import SURE_FROM, Ground, least_sure
 from seewhy.dialogue.reasoned import ReasonedAnswers
+from seewhy.dialogue.reply import Classification, Reply
 from seewhy.dialogue.telling import Told
 from seewhy.dialogue.tree_says import tree_says
-from seewhy.domain import Domain
-from seewhy.domain_tables import CLASS
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
+from seewhy.domain.wording import join_clauses, join_words, say_features, sentence
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.reply import Classification, Reply
-from seewhy.wording import join_clauses, join_words, say_features, sentence
 
 __all__ = ["Weighing"]
 

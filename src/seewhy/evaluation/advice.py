@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from seewhy.domain_tables import CLASS
+from seewhy.domain.tables import CLASS
 from seewhy.evaluation.share import percent
 
 if TYPE_CHECKING:

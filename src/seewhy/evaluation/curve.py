@@ -21,7 +21,7 @@ from seewhy.evaluation.recognition import (
 )
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.data.dataset import Dataset
 
 __all__ = ["CurvePoint", "LearningCurve", "growing_parts", "learning_curve", "require_splits"]
@@ -202,7 +202,7 @@ def _trained(
     on_progress: Callable[[Any], None] | None,
 ) -> Agent:
     """The model in ``folder`` that was trained on these pictures, or else a new one."""
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
 
     model = with_axioms(like, (), ())
     # Of few pictures no model knows when to say that it does not know: more would seem worse.
@@ -222,7 +222,7 @@ def _trained(
 
 def _identity(like: Agent, part: Dataset) -> str:
     """What tells a training from others: the pictures, what is said of them, domain, options."""
-    from seewhy.domain import FILES
+    from seewhy.domain.domain import FILES
 
     rows = zip(part.picture_digests(), part.vectors, part.labels, part.groups, strict=True)
     texts = [(like.given.folder / name).read_text(encoding="utf-8") for name in FILES]

@@ -11,16 +11,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
+from seewhy.agent.learning_from_pictures import AnnotatedScenes, Learning, scenes_of
 from seewhy.errors import DatasetError
 from seewhy.evaluation.other_knowledge import with_axioms
 from seewhy.evaluation.redeciding import classes_of
 from seewhy.evaluation.share import Share
 from seewhy.induction.learning import DEFAULTS, LearningOptions
 from seewhy.knowledge.learned_file import Withdrawn
-from seewhy.learning import AnnotatedScenes, Learning, scenes_of
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.data.dataset import Dataset
     from seewhy.dialogue.reference import Experience
     from seewhy.knowledge.axiom import Axiom

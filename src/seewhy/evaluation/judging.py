@@ -13,7 +13,8 @@ from seewhy.data.dataset import Dataset
 from seewhy.data.making import determined_share
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
-from seewhy.domain_tables import CLASS
+from seewhy.dialogue.reply import UNKNOWN
+from seewhy.domain.tables import CLASS
 from seewhy.errors import DatasetError
 from seewhy.evaluation.answers import EXPLANATORY, score_answer
 from seewhy.evaluation.axioms import axiom_records
@@ -21,12 +22,11 @@ from seewhy.evaluation.recognition import recognition_of_class, recognition_of_f
 from seewhy.evaluation.redeciding import depended_on, redecided
 from seewhy.evaluation.result import Evaluation
 from seewhy.evaluation.wrong import wrong_pictures
-from seewhy.reply import UNKNOWN
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.dialogue.reference import ReferenceAnswers
-    from seewhy.reply import Classification
+    from seewhy.dialogue.reply import Classification
 
 __all__ = ["classified", "evaluate", "seen_in_training"]
 

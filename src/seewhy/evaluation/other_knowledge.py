@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from seewhy.induction.tree import DecisionTree
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.knowledge.axiom import Axiom
     from seewhy.knowledge.learned_file import Withdrawn
 
@@ -28,7 +28,7 @@ def with_axioms(agent: Agent, learned: Sequence[Axiom], withdrawn: Sequence[With
     >>> with_axioms(agent, (), ()).domain == agent.domain
     True
     """
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
 
     known = Agent(agent.given, minimality=agent.minimality, learned=learned, withdrawn=withdrawn)
     # A copy has all options of the agent, whatever they are, and of these only the knowledge.

@@ -11,7 +11,7 @@ from seewhy.evaluation.confusion import Confusion, confusion_of
 
 if TYPE_CHECKING:
     from seewhy.data.dataset import Dataset
-    from seewhy.reply import Classification
+    from seewhy.dialogue.reply import Classification
 
 __all__ = ["Recognition", "recognition_of", "recognition_of_class", "recognition_of_features"]
 

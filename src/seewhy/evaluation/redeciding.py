@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from seewhy.reply import UNKNOWN
+from seewhy.dialogue.reply import UNKNOWN
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
+    from seewhy.agent.agent import Agent
     from seewhy.data.dataset import Dataset
+    from seewhy.dialogue.reply import Classification
     from seewhy.knowledge.scene import FeatureVector
-    from seewhy.reply import Classification
 
 _BATCH = 16
 """Most features matter to some of so many feature vectors: then no more are looked at."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from seewhy.data.dataset import Dataset
-    from seewhy.reply import Classification
+    from seewhy.dialogue.reply import Classification
 
 __all__ = ["Misreading", "WrongPicture", "wrong_pictures"]
 
@@ -19,7 +19,7 @@ class Misreading:
     """A feature that was seen as another value than it is annotated with, and how surely.
 
     ``overruled`` is what the network alone saw, with its probability, where that did not fit what
-    is known; see :class:`~seewhy.reply.FeatureReading`.
+    is known; see :class:`~seewhy.dialogue.reply.FeatureReading`.
     """
 
     feature: str
@@ -44,7 +44,7 @@ class WrongPicture:
     said : str or None
         The class that the agent said, None where it decided nothing.
     method, verdict : str
-        As of :class:`~seewhy.reply.Classification`.
+        As of :class:`~seewhy.dialogue.reply.Classification`.
     probability : float or None
         Of the class said.
     misread : tuple of Misreading

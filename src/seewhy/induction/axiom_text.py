@@ -23,7 +23,7 @@ def conjunctions(candidate: Candidate, schema: SceneSchema) -> tuple[Candidate, 
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> from seewhy.induction.tree import PathCondition
     >>> schema = load_domain("traffic_signs").schema
     >>> either = Candidate("stop", (PathCondition("shape", ("circle", "octagon")),))
@@ -44,7 +44,7 @@ def axiom_statement(candidate: Candidate, schema: SceneSchema) -> str:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> from seewhy.induction.tree import PathCondition
     >>> schema = load_domain("structure_stability").schema
     >>> axiom_statement(Candidate("unstable", (PathCondition("num_blocks", ("4", "5")),

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
+from seewhy.domain.wording import join_clauses, join_words, say_values
 from seewhy.induction.tree import PathCondition, TreePath
-from seewhy.wording import join_clauses, join_words, say_values
 
 
 def say_path(domain: Domain, path: TreePath) -> str:
@@ -17,7 +17,7 @@ def say_path(domain: Domain, path: TreePath) -> str:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> path = TreePath((PathCondition("num_blocks", ("4", "5")), PathCondition("lean", ("yes",))),
     ...                 label="unstable", support=212, precision=0.94)
     >>> say_path(load_domain("structure_stability"), path)  # doctest: +NORMALIZE_WHITESPACE
@@ -42,7 +42,7 @@ def say_rule(domain: Domain, conditions: Sequence[PathCondition], label: str) ->
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> leans = PathCondition("lean", ("yes",))
     >>> say_rule(load_domain("structure_stability"), [leans], "unstable")
     'if the structure leans to one side, then it is unstable'
@@ -66,7 +66,7 @@ def things(domain: Domain) -> str:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> things(load_domain("structure_stability"))
     'structures'
     """

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from seewhy.errors import ModelError
-from seewhy.files import write_whole
+from seewhy.files.json_file import Strict, read_json
+from seewhy.files.whole_files import write_whole
 from seewhy.induction.tree_nodes import TreeNodes, TreeTable
-from seewhy.json_file import Strict, read_json
 from seewhy.knowledge.scene import FeatureVector
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from seewhy.json_file import Strict
+from seewhy.files.json_file import Strict
 
 if TYPE_CHECKING:
     from sklearn.tree import DecisionTreeClassifier

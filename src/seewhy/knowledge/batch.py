@@ -31,7 +31,7 @@ class Batch:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> batch = Batch(domain.knowledge, domain.schema)
     >>> batch.outcomes([domain.vector({"block_displaced": "yes"}), domain.vector({})])

@@ -46,7 +46,7 @@ def decided_vectors(reasoner: Reasoner, *, limit: int) -> tuple[FeatureVector, .
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> reasoner = Reasoner(domain.knowledge, domain.schema)
     >>> vectors = decided_vectors(reasoner, limit=1000)
@@ -101,7 +101,7 @@ def most_probable_decided(
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> reasoner = Reasoner(domain.knowledge, domain.schema)
     >>> sure = [[0.1, 0.6, 0.1, 0.1, 0.1], [0.4, 0.6], [0.7, 0.3], [0.2, 0.8]]

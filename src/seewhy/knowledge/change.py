@@ -58,7 +58,7 @@ class ChangeFinder:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> finder = ChangeFinder(Reasoner(domain.knowledge, domain.schema))
     >>> vector = domain.vector({"num_blocks": "2", "base": "wide", "lean": "no",

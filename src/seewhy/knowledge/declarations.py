@@ -11,7 +11,7 @@ from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import STRING
 from seewhy.knowledge.signature import Location, Predicate, PredicateKind, Sort
 from seewhy.knowledge.statements import Statement, one_line
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 _NAME = r"_*[a-z][A-Za-z0-9_]*"
 _NAMES = re.compile(_NAME)

@@ -11,7 +11,7 @@ from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.language import read_literal
 from seewhy.knowledge.signature import Location, Predicate, Signature
 from seewhy.knowledge.statements import NumberError, one_line
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 Kind = OneOf["fluent", "action"]
 

@@ -13,7 +13,7 @@ from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.ground_literal import read_ground_literal
 from seewhy.knowledge.signature import Signature
 from seewhy.knowledge.statements import Statement, statements
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 _STATEMENT = re.compile(r"([a-z]+)(\s+)(.+?)\s+at\s+(\d{1,6})\s*$", re.DOTALL)
 _WORDS = ("observed", "happened", "attempted")

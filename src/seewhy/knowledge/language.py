@@ -23,7 +23,7 @@ from seewhy.knowledge.declarations import Declarations
 from seewhy.knowledge.number_range import check_numbers
 from seewhy.knowledge.signature import Signature, Sort
 from seewhy.knowledge.statements import NumberError, Statement, one_line, statements
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 _WORD = re.compile(r"\"(?:[^\"\\]|\\.)*\"|[A-Za-z0-9_']+")
 _CLINGO_ERROR = re.compile(r":(\d+):(\d+)(?:-[\d:]+)?: error: (.+)", re.DOTALL)

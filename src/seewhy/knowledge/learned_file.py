@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seewhy.errors import KnowledgeError
-from seewhy.files import write_whole
+from seewhy.files.whole_files import write_whole
 from seewhy.knowledge.axiom import Axiom, Origin
 from seewhy.knowledge.language import read_axioms
 from seewhy.knowledge.signature import Signature

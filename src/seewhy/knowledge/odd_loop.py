@@ -27,7 +27,7 @@ class OddLoops:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> from seewhy.knowledge.language import read_axioms
     >>> domain = load_domain("structure_stability")
     >>> odd = "stable(S) if base(S, narrow), not stable(S)."

@@ -44,7 +44,7 @@ def program_text(
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> rule = "holds(-stable(S)) :- holds(block_displaced(S)); sort(structure, S)."
     >>> rule in program_text(domain.knowledge, domain.schema)

@@ -88,7 +88,7 @@ class Reasoner:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> reasoner = Reasoner(domain.knowledge, domain.schema)
     >>> reasoner.decide(domain.vector({"block_displaced": "yes"})).label

@@ -37,7 +37,7 @@ class JointCondition:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> from seewhy.knowledge.reasoner import Reasoner
     >>> domain = load_domain("structure_stability")
     >>> possible = Reasoner(domain.knowledge, domain.schema).possible

@@ -51,7 +51,7 @@ class SufficientFeatures:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> from seewhy.knowledge.reasoner import Reasoner
     >>> domain = load_domain("structure_stability")
     >>> sufficient = Reasoner(domain.knowledge, domain.schema).sufficient

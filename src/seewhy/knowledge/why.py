@@ -31,7 +31,7 @@ def why(
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> reasoner = Reasoner(domain.knowledge, domain.schema)
     >>> node = why(reasoner, domain.vector({"block_displaced": "yes"}),

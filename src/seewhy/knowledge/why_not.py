@@ -37,7 +37,7 @@ def why_not(reasoner: Reasoner, vector: FeatureVector, literal: Literal, *, say:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("structure_stability")
     >>> reasoner = Reasoner(domain.knowledge, domain.schema)
     >>> node = why_not(reasoner, domain.vector({"block_displaced": "no"}),

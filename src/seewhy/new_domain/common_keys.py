@@ -7,8 +7,8 @@ import re
 import textwrap
 from collections.abc import Collection, Mapping
 
-from seewhy.domain_tables import DomainFile
-from seewhy.key_reference import table_references
+from seewhy.domain.tables import DomainFile
+from seewhy.report.key_reference import table_references
 
 __all__ = ["common_keys", "with_common_keys"]
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from seewhy.domain import Domain, load_domain
-from seewhy.domain_check import check_domain
-from seewhy.folders import whole_folder
+from seewhy.check.domain import check_domain
+from seewhy.domain.domain import Domain, load_domain
+from seewhy.files.folders import whole_folder
 from seewhy.induction.axiom_text import axiom_statement
 from seewhy.induction.candidate import Candidate
 from seewhy.induction.sentence import say_rule

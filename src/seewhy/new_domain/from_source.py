@@ -21,11 +21,11 @@ from seewhy.data.importers.writing import (
     class_table,
     write_dataset,
 )
+from seewhy.dialogue.question_words import words_of
 from seewhy.errors import DomainError
 from seewhy.new_domain.from_pictures import WrittenDomain, write_domain_of
 from seewhy.new_domain.sketch import look_features, sketch_of
 from seewhy.new_domain.template import check_new_folder
-from seewhy.question_words import words_of
 
 CommandOf = Callable[[ImportRequest, Path | None, Path], str]
 """The command line that imports a request, with a table of features, into a folder."""

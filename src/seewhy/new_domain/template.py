@@ -8,7 +8,7 @@ from importlib import resources
 from pathlib import Path
 
 from seewhy.errors import DomainError
-from seewhy.folders import whole_folder
+from seewhy.files.folders import whole_folder
 from seewhy.new_domain.common_keys import with_common_keys
 
 _PLACEHOLDER = "my_domain"
@@ -27,7 +27,7 @@ def write_new_domain(folder: Path) -> Path:
         file.name: with_common_keys(
             file.read_text(encoding="utf-8").replace(_PLACEHOLDER, folder.name)
         )
-        for file in resources.files("seewhy").joinpath("template").iterdir()
+        for file in resources.files("seewhy.new_domain").joinpath("template").iterdir()
     }
     with whole_folder(folder) as temporary:
         write_texts(temporary, texts)

@@ -22,7 +22,7 @@ from pydantic import TypeAdapter
 from safetensors import SafetensorError, safe_open
 from safetensors.torch import save_file
 
-from seewhy.files import whole_file
+from seewhy.files.whole_files import whole_file
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal

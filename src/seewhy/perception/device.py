@@ -7,7 +7,7 @@ from typing import Literal, get_args
 import torch
 
 from seewhy.errors import DomainError
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 __all__ = ["DEVICES", "Device", "device_of"]
 

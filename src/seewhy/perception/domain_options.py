@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from seewhy.domain import Domain
-from seewhy.domain_tables import CLASS
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception.options import TrainingOptions
 
@@ -26,7 +26,7 @@ def seen_values(domain: Domain, *, with_class: bool = False) -> dict[str, tuple[
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> seen_values(load_domain("structure_stability"), with_class=True)["class"]
     ('stable', 'unstable')
     """
@@ -62,7 +62,7 @@ def training_options(
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> options = training_options(load_domain("structure_stability"), seed=3)
     >>> options["num_blocks"].threshold, options["lean"].flip, options["lean"].seed
     (0.98, True, 3)
@@ -92,7 +92,7 @@ def given_variations(domain: Domain) -> dict[str, Any]:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> given_variations(load_domain("structure_stability"))
     {'flip': True, 'shift': 0.06}
     """
@@ -109,7 +109,7 @@ def class_options(domain: Domain, *, seed: int = 0) -> TrainingOptions:
 
     Examples
     --------
-    >>> from seewhy.domain import load_domain
+    >>> from seewhy.domain.domain import load_domain
     >>> class_options(load_domain("structure_stability")).threshold
     0.98
     """

@@ -14,21 +14,21 @@ import numpy.typing as npt
 import torch
 from pydantic import Field
 
-from seewhy.domain_tables import Channels
+from seewhy.domain.tables import Channels
 from seewhy.errors import DatasetError, ModelError
-from seewhy.json_file import Strict
-from seewhy.one_thread import one_thread
+from seewhy.files.json_file import Strict
 from seewhy.perception.events import FeatureRecord, Progress
 from seewhy.perception.joint_training import train_jointly
 from seewhy.perception.labels import labelled
 from seewhy.perception.network import GrowingNetwork, Standard, deepest
+from seewhy.perception.one_thread import one_thread
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.parallel import train_networks
 from seewhy.perception.picture_file import SMALLEST_SIDE
 from seewhy.perception.randomness import seeded
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.training import new_network
-from seewhy.weights import REMEDY, Described, check_tensors, read_weights, write_weights
+from seewhy.perception.weights import REMEDY, Described, check_tensors, read_weights, write_weights
 
 __all__ = ["FeatureExtractor", "Seen", "fit_extractor"]
 

@@ -11,9 +11,9 @@ import numpy.typing as npt
 import torch
 from pydantic import Field, field_validator, model_validator
 
-from seewhy.domain_tables import SCENE
+from seewhy.domain.tables import SCENE
 from seewhy.errors import DatasetError, ModelError
-from seewhy.json_file import Strict
+from seewhy.files.json_file import Strict
 from seewhy.perception.backbones import load_backbone
 from seewhy.perception.backbones.backbone import Backbone, Embedded
 from seewhy.perception.extractor import Seen
@@ -21,7 +21,7 @@ from seewhy.perception.heads import Head, Projection
 from seewhy.perception.stacking import MOST, Stack, Table, log_probabilities, stacked
 from seewhy.perception.tail import Tail, new_tail
 from seewhy.perception.tail_training import see_with_tail
-from seewhy.weights import REMEDY, Described, check_tensors, read_weights, write_weights
+from seewhy.perception.weights import REMEDY, Described, check_tensors, read_weights, write_weights
 
 __all__ = ["EYES", "HEADS", "SCENE", "TUNED", "Eyes", "EyesRecord"]
 

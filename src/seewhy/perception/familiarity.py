@@ -13,9 +13,9 @@ import numpy.typing as npt
 from pydantic import Field, model_validator
 
 from seewhy.errors import ModelError
-from seewhy.json_file import Strict
-from seewhy.visible import visible
-from seewhy.weights import REMEDY, Described, check_tensors, read_weights, write_weights
+from seewhy.files.json_file import Strict
+from seewhy.perception.weights import REMEDY, Described, check_tensors, read_weights, write_weights
+from seewhy.text.visible import visible
 
 __all__ = [
     "FAMILIARITY",

@@ -14,7 +14,7 @@ import numpy.typing as npt
 import torch
 import torch.nn.functional as functional
 
-from seewhy.domain_tables import TOGETHER
+from seewhy.domain.tables import TOGETHER
 from seewhy.perception import checkpoint
 from seewhy.perception.augmentation import augment
 from seewhy.perception.calibration import fitted_temperature

@@ -18,10 +18,10 @@ import numpy.typing as npt
 import torch
 
 from seewhy.errors import SeeWhyError
-from seewhy.folders import scratch_folder
-from seewhy.one_thread import one_thread
+from seewhy.files.folders import scratch_folder
 from seewhy.perception.events import FeatureRecord, Progress, TrainingEvent
 from seewhy.perception.network import GrowingNetwork
+from seewhy.perception.one_thread import one_thread
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.training import Pictures, train_network

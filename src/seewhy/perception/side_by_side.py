@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import torch
 
-from seewhy.one_thread import one_thread
+from seewhy.perception.one_thread import one_thread
 
 __all__ = ["side_by_side"]
 

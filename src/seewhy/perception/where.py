@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from seewhy.errors import DatasetError
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 if TYPE_CHECKING:
     from PIL import Image

@@ -10,9 +10,10 @@ from types import MappingProxyType
 
 import clingo
 
-from seewhy.domain import domain_folder
-from seewhy.domain_tables import DomainFile, FeatureTable
+from seewhy.domain.domain import domain_folder
+from seewhy.domain.tables import DomainFile, FeatureTable
 from seewhy.errors import DomainError, PlanningError
+from seewhy.files.toml_file import line_of, read_toml
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import fixed_rules
@@ -20,12 +21,11 @@ from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.history import History, read_history_file
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.signature import PredicateKind
-from seewhy.nearest import did_you_mean, nearest
-from seewhy.planning.sensing import Sensing, SensingError, read_sensing
+from seewhy.planning.execution.sensing import Sensing, SensingError, read_sensing
 from seewhy.planning.tables import MapTable, PlanningFile, SimulationTable
 from seewhy.planning.words import PlanningWords
-from seewhy.slots import wrong_slot
-from seewhy.toml_file import line_of, read_toml
+from seewhy.text.nearest import did_you_mean, nearest
+from seewhy.text.slots import wrong_slot
 
 FILE = "planning.toml"
 _SLOT = re.compile(r"\{(\d+)\}")

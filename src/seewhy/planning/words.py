@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import clingo
 
 from seewhy.knowledge.ground import complement_of
-from seewhy.planning.diagnosis import Surprise, SurpriseKind
+from seewhy.planning.diagnosis.diagnosis import Surprise, SurpriseKind
 from seewhy.planning.tables import ActionTable, FluentTable
 
 _SLOT = re.compile(r"\{(\d+)\}")

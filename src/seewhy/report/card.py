@@ -12,10 +12,10 @@ import numpy as np
 from PIL import Image
 
 from seewhy.dialogue.certainty import says_nothing_seen
-from seewhy.domain_tables import CLASS
+from seewhy.dialogue.reply import Reply
+from seewhy.domain.tables import CLASS
 from seewhy.perception.picture import Fit, as_picture
 from seewhy.perception.where import Where
-from seewhy.reply import Reply
 from seewhy.report.figure import CHARACTER, Figure, text_lines
 from seewhy.report.justification import draw_rows
 

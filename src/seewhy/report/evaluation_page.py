@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-from seewhy.domain_tables import CLASS
+from seewhy.domain.tables import CLASS
 from seewhy.report.card import embedded
 from seewhy.report.html import rendered
 from seewhy.report.line_chart import Line, Point, draw_lines
 
 if TYPE_CHECKING:
-    from seewhy.domain import Domain
+    from seewhy.domain.domain import Domain
     from seewhy.evaluation import Evaluation, WrongPicture
     from seewhy.evaluation.confusion import Confusion
     from seewhy.evaluation.curve import LearningCurve

@@ -8,7 +8,7 @@ from pathlib import Path
 from textwrap import wrap
 
 from seewhy.errors import SeeWhyError
-from seewhy.files import write_whole
+from seewhy.files.whole_files import write_whole
 
 FONT = "font-family='Helvetica, Arial, sans-serif'"
 CHARACTER = 6.4

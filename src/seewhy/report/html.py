@@ -1,4 +1,4 @@
-"""Fill the templates of pages: HTML files beside this module."""
+"""Fill the templates of pages: HTML files in the folder ``report`` of a package."""
 
 from __future__ import annotations
 
@@ -9,18 +9,20 @@ from jinja2 import Environment, PackageLoader
 __all__ = ["rendered"]
 
 
-def rendered(template: str, **values: object) -> str:
+def rendered(template: str, *, package: str = "seewhy", **values: object) -> str:
     """Return a template with its slots filled, as the text of an HTML file.
+
+    ``package`` is whose folder ``report`` holds the template.
 
     Examples
     --------
-    >>> rendered("planning.html", planned=3).startswith("<!doctype html>")
+    >>> rendered("experiment_base.html", package="seewhy_lab").startswith("<!doctype html>")
     True
     """
-    return _environment().get_template(template).render(**values)
+    return _environment(package).get_template(template).render(**values)
 
 
 @cache
-def _environment() -> Environment:
-    loader = PackageLoader("seewhy", "report")
+def _environment(package: str) -> Environment:
+    loader = PackageLoader(package, "report")
     return Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True)

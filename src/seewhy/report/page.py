@@ -16,8 +16,8 @@ from seewhy.report.justification import draw_justification
 from seewhy.report.tree import draw_tree
 
 if TYPE_CHECKING:
-    from seewhy.agent import Agent
-    from seewhy.reply import Reply
+    from seewhy.agent.agent import Agent
+    from seewhy.dialogue.reply import Reply
 
 
 def report_page(

@@ -8,12 +8,12 @@ from typing import Any
 import clingo
 
 from seewhy.knowledge.ground import complement_of
+from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.narration import narrate_end, narrate_step
-from seewhy.planning.simulation import Simulation
-from seewhy.planning.state import State
+from seewhy.planning.execution.run_narration import narrate_end, narrate_step
+from seewhy.planning.execution.simulation import Simulation
+from seewhy.planning.execution.world import World
 from seewhy.planning.words import PlanningWords
-from seewhy.planning.world import World
 from seewhy.report.card import embedded
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
 from seewhy.report.html import rendered

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from seewhy.domain import Domain
+from seewhy.domain.domain import Domain
+from seewhy.domain.wording import say_values
 from seewhy.induction.tree import DecisionTree, TreeNode
 from seewhy.report.figure import CHARACTER, Figure, text_lines
-from seewhy.wording import say_values
 
 _WIDTH = 150
 _BOX = 52

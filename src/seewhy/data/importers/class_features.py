@@ -14,7 +14,7 @@ from seewhy.data.importers.source_files import FolderFiles
 from seewhy.data.importers.tables import Row, open_table
 from seewhy.data.importers.yes_or_no import yes_or_no
 from seewhy.errors import DatasetError
-from seewhy.nearest import did_you_mean, nearest
+from seewhy.text.nearest import did_you_mean, nearest
 
 _SURE_WORDS = 7
 """So many of the words for a class mean nothing else; later ones may name a feature."""

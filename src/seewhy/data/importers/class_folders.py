@@ -10,7 +10,7 @@ from seewhy.data.importers.annotation import AnnotatedPicture, readable
 from seewhy.data.importers.picture_files import is_picture_name, split_of
 from seewhy.data.importers.source import Source
 from seewhy.errors import DatasetError
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 NO_PICTURE = "files that are no pictures, left out"
 DEEPER = "classes whose folder holds further folders (--inside FOLDER makes those the classes)"

@@ -16,7 +16,7 @@ from seewhy.data.importers.source import Source
 from seewhy.data.importers.voc import is_voc, read_voc
 from seewhy.data.importers.yolo import read_yolo, yolo_files
 from seewhy.errors import DatasetError
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 Format = Literal["folder", "coco", "voc", "yolo", "labelstudio", "cvat", "table"]
 """What a source may be in."""

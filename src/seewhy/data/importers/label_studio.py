@@ -19,7 +19,7 @@ from seewhy.data.importers.source import Source, split_in_folders
 from seewhy.data.importers.source_files import SourceFiles
 from seewhy.data.importers.tables import known
 from seewhy.errors import DatasetError
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 _IMAGE_KEYS = ("image", "img", "picture", "photo", "file", "url", "path")
 _ABOUT_THE_TASK = frozenset(

@@ -20,7 +20,7 @@ from seewhy.data.importers.source import Source, split_in_folders
 from seewhy.data.importers.tables import TABLES, Row, Table, open_table
 from seewhy.data.importers.xml_reading import as_number
 from seewhy.errors import DatasetError
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 THINGS = "things.csv"
 CORNERS = ("left", "top", "right", "bottom")

@@ -12,7 +12,7 @@ from posixpath import splitext
 
 from seewhy.data.importers.picture_files import PictureHeader, read_header
 from seewhy.data.importers.source_files import SourceFiles, read_bytes
-from seewhy.files import whole_file
+from seewhy.files.whole_files import whole_file
 
 _LONGEST_PART = 180
 

@@ -32,7 +32,7 @@ from seewhy.data.importers.source_files import SourceFiles, is_archive, open_sou
 from seewhy.data.importers.splits import with_splits
 from seewhy.data.importers.vocabulary import Vocabulary, vocabulary_of
 from seewhy.errors import DatasetError
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 _LONGEST_PATTERN = 200
 _FEWEST_GROUPS = 5

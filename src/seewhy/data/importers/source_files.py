@@ -15,7 +15,7 @@ from typing import IO, Protocol
 
 from seewhy.data.importers.annotation import Notes
 from seewhy.errors import DatasetError
-from seewhy.files import lies_in
+from seewhy.files.whole_files import lies_in
 
 RECORD = "imported.json"
 """What an import leaves in the dataset folder that it writes."""

@@ -22,7 +22,7 @@ from seewhy.data.importers.source_files import (
 )
 from seewhy.data.table import read_table
 from seewhy.errors import DatasetError
-from seewhy.folders import scratch_folder
+from seewhy.files.folders import scratch_folder
 
 TEXT_TABLES = (".csv", ".tsv", ".tab", ".txt")
 TABLES = (*TEXT_TABLES, ".xlsx", ".xlsm", ".jsonl", ".ndjson", ".json", ".parquet", ".pq")

@@ -30,8 +30,8 @@ from seewhy.data.importers.vocabulary import (
     named_features,
 )
 from seewhy.errors import DatasetError, PictureError
-from seewhy.files import put_all_on_disk, whole_file, write_whole
-from seewhy.locks import sole_writer
+from seewhy.files.locks import sole_writer
+from seewhy.files.whole_files import put_all_on_disk, whole_file, write_whole
 
 CLASSES = "classes.csv"
 UNUSABLE = "pictures that cannot be used, left out"

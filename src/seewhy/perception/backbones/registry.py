@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from seewhy.domain_tables import EMBEDDED, NONE
+from seewhy.domain.tables import EMBEDDED, NONE
 from seewhy.errors import DomainError
-from seewhy.nearest import did_you_mean
+from seewhy.text.nearest import did_you_mean
 
 if TYPE_CHECKING:
     from seewhy.perception.backbones.backbone import Backbone

@@ -11,13 +11,13 @@ import clingo
 from seewhy.knowledge.axiom import AxiomKind
 from seewhy.knowledge.dynamics import of_kind
 from seewhy.knowledge.ground import fluent_of, key_of
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.diagnosis.persistence_doubt import Doubt
 from seewhy.planning.dialogue.instances import Applied, Instances
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.doubt import Doubt
-from seewhy.planning.execution import Decision, Run, Step
-from seewhy.planning.following import follow, state_after
-from seewhy.planning.planner import Plan, plan
-from seewhy.planning.state import State
+from seewhy.planning.execution.execution import Decision, Run, Step
+from seewhy.planning.execution.plan_monitoring import follow, state_after
+from seewhy.planning.planner.planner import Plan, plan
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Intentions:
 
     Examples
     --------
-    >>> from seewhy.planning.execution import execute
+    >>> from seewhy.planning.execution.execution import execute
     >>> from seewhy.planning.goal import read_goal
     >>> from seewhy.planning.domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")

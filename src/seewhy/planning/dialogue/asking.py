@@ -12,13 +12,13 @@ import clingo
 from rapidfuzz import fuzz, process
 from rapidfuzz.distance import DamerauLevenshtein
 
+from seewhy.dialogue.question_words import words_of
 from seewhy.errors import QuestionError
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.dialogue.speech import base
 from seewhy.planning.dialogue.whereabouts import places
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.tables import ActionTable
-from seewhy.question_words import words_of
 
 LONGEST_QUESTION = 300
 """Characters; nothing in a controlled vocabulary is nearly as long."""

@@ -17,8 +17,8 @@ from seewhy.planning.dialogue.supposing import known_at
 from seewhy.planning.dialogue.whereabouts import contents as whats_at
 from seewhy.planning.dialogue.whereabouts import places, whereabouts
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.execution import Run
-from seewhy.planning.mutex import mutexes
+from seewhy.planning.execution.execution import Run
+from seewhy.planning.planner.mutex import mutexes
 
 
 class BeliefAnswers:

@@ -16,7 +16,7 @@ from seewhy.knowledge.dynamics import constraints, gives_way, of_kind
 from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
-from seewhy.planning.diagnosis import Diagnosis, SurpriseKind, diagnose
+from seewhy.planning.diagnosis.diagnosis import Diagnosis, SurpriseKind, diagnose
 from seewhy.planning.dialogue.instances import Instances, has_sentence, unified
 from seewhy.planning.dialogue.speech import Speech
 from seewhy.planning.domain import PlanningDomain

@@ -6,11 +6,11 @@ import re
 
 import clingo
 
+from seewhy.domain.wording import join_words
 from seewhy.planning.dialogue.belief_reason import Beliefs
 from seewhy.planning.dialogue.instances import has_sentence
 from seewhy.planning.dialogue.speech import plural
 from seewhy.planning.dialogue.whereabouts import Place, places
-from seewhy.wording import join_words
 
 
 def describe_place(beliefs: Beliefs, place: str, step: int, *, named: bool) -> list[str]:

@@ -7,14 +7,14 @@ from collections.abc import Mapping, Sequence
 
 import clingo
 
+from seewhy.domain.wording import join_words
 from seewhy.knowledge.axiom import Condition, substitute, variables_in
 from seewhy.knowledge.ground import complement_of
 from seewhy.knowledge.signature import Signature
+from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.dialogue.speech import Speech
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.goal import Goal
-from seewhy.planning.state import State
-from seewhy.wording import join_words
 
 _COMPARED = re.compile(r"([\w\" ]+?)\s*(!=|<=|>=|=|<|>)\s*([\w\" ]+)$")
 _COMPARISONS = {

@@ -8,11 +8,11 @@ import clingo
 
 from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.signature import PredicateKind
-from seewhy.planning.diagnosis import Surprise, diagnose
+from seewhy.planning.diagnosis.diagnosis import Surprise, diagnose
 from seewhy.planning.dialogue.supposing import known_at
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.execution import Decision, Outcome, Run, Step
-from seewhy.planning.reached import holds_in
+from seewhy.planning.execution.execution import Decision, Outcome, Run, Step
+from seewhy.planning.planner.goal_test import holds_in
 
 
 def recalled(domain: PlanningDomain, run: Run) -> Run:

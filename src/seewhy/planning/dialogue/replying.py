@@ -9,12 +9,13 @@ from typing import Any
 
 import clingo
 
+from seewhy.domain.wording import join_words
 from seewhy.errors import QuestionError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import complement_of, fluent_of, key_of, literal_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
-from seewhy.planning.diagnosis import SurpriseKind, diagnose
+from seewhy.planning.diagnosis.diagnosis import SurpriseKind, diagnose
 from seewhy.planning.dialogue.action_reason import Against, Failing, Intentions
 from seewhy.planning.dialogue.asking import Asks, PlanningQuestions, Query
 from seewhy.planning.dialogue.belief_answers import BeliefAnswers
@@ -24,9 +25,8 @@ from seewhy.planning.dialogue.recalling import recalled
 from seewhy.planning.dialogue.speech import Speech, past, sentences, subjunctive
 from seewhy.planning.dialogue.supposing import known_at, supposed_history
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.execution import Decision, Outcome, Run, Step, execute
-from seewhy.planning.following import state_after, suppositions
-from seewhy.wording import join_words
+from seewhy.planning.execution.execution import Decision, Outcome, Run, Step, execute
+from seewhy.planning.execution.plan_monitoring import state_after, suppositions
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import clingo
 
-from seewhy.planning.diagnosis import Surprise
+from seewhy.domain.wording import join_words, say_one_of, sentence
+from seewhy.planning.diagnosis.diagnosis import Surprise
 from seewhy.planning.words import PlanningWords
-from seewhy.wording import join_words, say_one_of, sentence
 
 _ME = "\x01"
 _PAST = {"is": "was", "are": "were", "am": "was", "has": "had", "have": "had", "does": "did",

@@ -11,8 +11,8 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import complement_of, key_of, literal_of
 from seewhy.knowledge.history import History, Observation
 from seewhy.knowledge.language import Knowledge
-from seewhy.planning.diagnosis import diagnose
-from seewhy.planning.mutex import mutexes
+from seewhy.planning.diagnosis.diagnosis import diagnose
+from seewhy.planning.planner.mutex import mutexes
 
 
 def known_at(history: History, step: int | None) -> History:

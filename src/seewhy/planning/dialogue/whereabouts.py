@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import clingo
 
 from seewhy.knowledge.signature import PredicateKind
+from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.mutex import mutexes
-from seewhy.planning.state import State
+from seewhy.planning.planner.mutex import mutexes
 
 _AT = "in|at|on|under|behind|near|inside|beside|on top of|next to"
 

@@ -20,7 +20,8 @@ from seewhy.knowledge.history import History
 from seewhy.knowledge.language import read_axioms
 from seewhy.knowledge.reasoner import Decision, Verdict
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.planning.diagnosis import diagnose
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.learning.candidates import exceptions, usual_candidates
 from seewhy.planning.learning.cases import Case, cases_of
@@ -31,7 +32,6 @@ from seewhy.planning.learning.tolerance import suggested_tolerance
 from seewhy.planning.learning.usual import single, usual_statement
 from seewhy.planning.learning.usual_sentence import usual_sentence
 from seewhy.planning.learning.validation import Rejected, at_first, check_explained, validated
-from seewhy.planning.state import State
 
 __all__ = ["THINGS", "LearnedFromRuns", "Rejected", "learn_from_runs"]
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from seewhy.errors import PlanningError
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.history import History
-from seewhy.planning.diagnosis import diagnose, explained, unexplained
+from seewhy.planning.diagnosis.belief_state import State
+from seewhy.planning.diagnosis.diagnosis import diagnose, explained, unexplained
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.state import State
 
 
 @dataclass(frozen=True)

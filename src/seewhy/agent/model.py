@@ -1,0 +1,334 @@
+"""A trained model on disk: one folder, without pickle, written whole or not at all."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seewhy.agent.consistent_reading import ReadingWeights
+from seewhy.agent.model_schema import ExperienceRows, Manifest, may_have, must_have
+from seewhy.dialogue.reference import Experience
+from seewhy.domain.domain import FILES, Domain, load_domain
+from seewhy.domain.tables import CLASS, ReadingRule
+from seewhy.errors import ModelError, SeeWhyError
+from seewhy.files.folders import settle_folder, whole_folder
+from seewhy.files.json_file import read_json, read_object
+from seewhy.induction.tree import TREE, DecisionTree
+from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.learned_file import LEARNED, Withdrawn, read_learned, write_learned
+from seewhy.knowledge.reasoner import Minimality
+from seewhy.perception.backbones import NONE
+from seewhy.perception.weights import LARGEST as LARGEST_WEIGHTS
+from seewhy.text.visible import visible
+
+if TYPE_CHECKING:
+    from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
+    from seewhy.perception.extractor import FeatureExtractor
+    from seewhy.perception.eyes import Eyes
+    from seewhy.perception.familiarity import Familiarity
+
+MANIFEST = "model.json"
+EXPERIENCE = "experience.json"
+FORMAT = 5
+
+_REMEDY = "train it again"
+
+
+@dataclass(frozen=True)
+class Model:
+    """Everything that training leaves behind.
+
+    ``domain`` is as given; ``learned`` are the axioms that were found in pictures, ``withdrawn``
+    those that were and are known no more. ``answerer`` is None where the knowledge decided all
+    training scenes rightly; ``trained_on`` holds digests of the pictures, ``without`` the classes
+    of which there were none on purpose, ``validation_scores`` how like those of training the
+    pictures kept for validation are, under each way of reading; it and ``familiarity`` are empty
+    where no picture is to be refused. ``without_class`` are those of ``trained_on`` that had no
+    class, so that ``experience`` does not count them.
+    """
+
+    domain: Domain
+    learned: tuple[Axiom, ...]
+    withdrawn: tuple[Withdrawn, ...]
+    extractor: FeatureExtractor | Eyes
+    tree: DecisionTree
+    answerer: RecurrentAnswerer | None
+    experience: Experience
+    trained_on: frozenset[str]
+    without_class: frozenset[str]
+    minimality: Minimality
+    seed: int
+    eyes: str
+    reading: ReadingRule
+    reading_weights: Mapping[ReadingRule, ReadingWeights]
+    gate: float | None
+    known_share: float
+    familiarity: Familiarity | None
+    validation_scores: Mapping[ReadingRule, list[float]]
+    without: tuple[str, ...]
+
+
+def write_model(model: Model, folder: Path) -> None:
+    """Write ``model`` to ``folder``; an older model there is replaced in one step.
+
+    Raises
+    ------
+    ModelError
+        If ``folder`` exists and is not a model.
+    """
+    check_target(folder)
+    with whole_folder(folder, replacing=True) as temporary:
+        (temporary / "domain").mkdir()
+        for name in FILES:
+            shutil.copyfile(model.domain.folder / name, temporary / "domain" / name)
+        if model.learned or model.withdrawn:
+            write_learned(temporary, model.learned, model.withdrawn)
+        model.extractor.save(temporary / "perception")
+        if model.familiarity is not None:
+            model.familiarity.save(temporary / "perception")
+        model.tree.save(temporary / "induction")
+        if model.answerer is not None:
+            model.answerer.save(temporary / "dialogue")
+        (temporary / EXPERIENCE).write_text(_experience_text(model), encoding="utf-8")
+        manifest = json.dumps(_manifest(model, temporary), indent=1)
+        (temporary / MANIFEST).write_text(manifest, encoding="utf-8")
+
+
+def check_target(folder: Path) -> None:
+    """Raise a ModelError if a model cannot be written to ``folder``."""
+    if folder.is_file() or (
+        folder.is_dir() and any(folder.iterdir()) and not (folder / MANIFEST).is_file()
+    ):
+        raise ModelError(
+            f"{folder}: exists and is not a model; choose another folder for the model"
+        )
+
+
+def replaced_notice(folder: Path) -> str | None:
+    """What is replaced when a model is written to ``folder``, in a sentence; None if nothing is."""
+    if not (folder / MANIFEST).is_file():
+        return None
+    try:
+        lines = (folder / LEARNED).read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        lines = []
+    learned = any(line and not line.startswith("%") for line in lines)
+    return (
+        f"{folder} holds a model, which is replaced when this training ends"
+        f"{', with the axioms that it has learned' if learned else ''}; "
+        "to keep it, name another folder"
+    )
+
+
+def read_model(folder: Path, *, device: str = "auto") -> Model:
+    """Read what :func:`write_model` wrote; eyes are to compute on ``device``.
+
+    Raises
+    ------
+    ModelError
+        If the folder is missing, incomplete, edited, or of another format.
+    """
+    settle_folder(folder)
+    while True:
+        state = _state(folder)
+        try:
+            return _read_model(folder, device=device)
+        except ModelError:
+            # What was read in the moment in which another model took its place is of neither.
+            if _state(folder) == state:
+                raise
+
+
+def _state(folder: Path) -> tuple[int, int] | None:
+    try:
+        found = folder.stat()
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
+
+
+def _read_model(folder: Path, *, device: str) -> Model:
+    manifest = _read_manifest(folder)
+    _check_files(folder, manifest)
+    try:
+        domain = load_domain(folder / "domain")
+        signature = domain.knowledge.signature
+        found = read_learned(folder / LEARNED, signature) if LEARNED in manifest.files else ((), ())
+    except SeeWhyError as problem:
+        raise ModelError(f"{folder}: the model's domain cannot be read: {problem}") from None
+    if domain.name != manifest.domain:
+        raise ModelError(
+            f"{folder}: the model was trained for the domain '{visible(manifest.domain)}', but its "
+            f"domain folder is '{domain.name}'; {_REMEDY}"
+        )
+    from seewhy.perception.domain_options import seen_values
+    from seewhy.perception.familiarity import FAMILIARITY, Familiarity
+
+    extractor = _read_extractor(folder / "perception", manifest.eyes, device)
+    with_class = CLASS in extractor.values
+    if dict(extractor.values) != seen_values(domain, with_class=with_class):
+        raise ModelError(
+            f"{folder}: the networks recognise other features than the model's domain names; "
+            f"{_REMEDY}"
+        )
+    familiarity = None
+    if f"perception/{FAMILIARITY}" in manifest.files:
+        familiarity = Familiarity.load(folder / "perception", widths=extractor.widths)
+    answerer = None
+    if manifest.answers:
+        from seewhy.dialogue.learned import check_answers
+        from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
+
+        answerer = RecurrentAnswerer.load(folder / "dialogue")
+        check_answers(domain, answerer, folder / "dialogue")
+    tree = DecisionTree.load(folder / "induction")
+    values = {key: feature.values for key, feature in domain.features.items()}
+    if tree.features != values or not {*tree.classes} <= domain.classes.keys():
+        raise ModelError(
+            f"{folder / 'induction' / TREE}: the tree tells apart other features or classes than "
+            f"the model's domain names; {_REMEDY}"
+        )
+    return Model(
+        domain=domain,
+        learned=found[0],
+        withdrawn=found[1],
+        extractor=extractor,
+        tree=tree,
+        answerer=answerer,
+        experience=_read_experience(folder / EXPERIENCE, domain),
+        trained_on=manifest.trained_on,
+        without_class=manifest.without_class,
+        minimality=manifest.minimality,
+        seed=manifest.seed,
+        eyes=manifest.eyes,
+        reading_weights={
+            rule: ReadingWeights(own.features, own.witness)
+            for rule, own in manifest.reading_weights.items()
+        },
+        reading=manifest.reading,
+        gate=manifest.gate,
+        known_share=manifest.known_share,
+        familiarity=familiarity,
+        validation_scores=manifest.validation_scores,
+        without=manifest.without,
+    )
+
+
+def _read_experience(file: Path, domain: Domain) -> Experience:
+    rows = read_json(file, ExperienceRows, remedy=_REMEDY).root
+    values = [{*feature.values, None} for feature in domain.features.values()]
+    for number, row in enumerate(rows):
+        fits = len(row.features) == len(values) and all(
+            value in known for value, known in zip(row.features, values, strict=True)
+        )
+        if not fits or not row.classes.keys() <= domain.classes.keys():
+            raise ModelError(
+                f"{file} is damaged ({number}: the model's domain has no such features or classes)"
+                f": {_REMEDY}"
+            )
+    return {row.features: row.classes for row in rows}
+
+
+def _read_extractor(folder: Path, eyes: str, device: str) -> FeatureExtractor | Eyes:
+    if eyes == NONE:
+        from seewhy.perception.extractor import FeatureExtractor
+
+        return FeatureExtractor.load(folder)
+    from seewhy.perception.eyes import Eyes
+
+    return Eyes.load(folder, device=device)
+
+
+def _experience_text(model: Model) -> str:
+    rows = [
+        {"features": list(vector), "classes": dict(counts)}
+        for vector, counts in sorted(model.experience.items(), key=lambda row: str(row[0]))
+    ]
+    return json.dumps(rows, indent=1)
+
+
+def _manifest(model: Model, folder: Path) -> dict[str, Any]:
+    from importlib.metadata import version
+
+    manifest = {
+        "format": FORMAT,
+        "seewhy": version("seewhy"),
+        "domain": model.domain.name,
+        "minimality": model.minimality,
+        "seed": model.seed,
+        "eyes": model.eyes,
+        "reading_weights": {
+            rule: asdict(weights) for rule, weights in model.reading_weights.items()
+        },
+        "reading": model.reading,
+        "gate": model.gate,
+        "known_share": model.known_share,
+        "validation_scores": dict(model.validation_scores),
+        "without": list(model.without),
+        "answers": model.answerer is not None,
+        "trained_on": sorted(model.trained_on),
+        "without_class": sorted(model.without_class),
+        "files": {
+            path.relative_to(folder).as_posix(): _digest(path)
+            for path in sorted(folder.rglob("*"))
+            if path.is_file()
+        },
+    }
+    return {**manifest, "digest": _digest_of(manifest)}
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def _digest_of(manifest: dict[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(manifest, sort_keys=True).encode()).hexdigest()
+
+
+def _read_manifest(folder: Path) -> Manifest:
+    if not folder.is_dir():
+        raise ModelError(f"{folder}: there is no such model; 'seewhy train' makes one")
+    path = folder / MANIFEST
+    if not path.is_file():
+        raise ModelError(
+            f"{folder}: is not a model, it has no {MANIFEST}; give the folder that 'seewhy "
+            "train --out' wrote"
+        )
+    found = read_object(path, remedy=_REMEDY)
+    if found.get("format") != FORMAT:
+        raise ModelError(
+            f"{path}: the model has format {visible(found.get('format'), most=20)}, this version "
+            f"reads {FORMAT}; {_REMEDY}"
+        )
+    if found.pop("digest", None) != _digest_of(found):
+        raise _changed(path)
+    return read_json(path, Manifest, remedy=_REMEDY)
+
+
+def _check_files(folder: Path, manifest: Manifest) -> None:
+    for name in manifest.files.keys() - {*may_have(manifest)}:
+        raise ModelError(
+            f"{folder / MANIFEST} is damaged (files: '{visible(name)}' is no file of a model): "
+            f"{_REMEDY}"
+        )
+    for name in (*must_have(manifest), *manifest.files):
+        path = folder / name
+        if name not in manifest.files or not path.is_file():
+            raise ModelError(f"{folder}: the model is incomplete, {name} is missing; {_REMEDY}")
+        if path.stat().st_size > LARGEST_WEIGHTS:
+            raise ModelError(f"{path} is larger than any file of a model: {_REMEDY}")
+        if _digest(path) != manifest.files[name]:
+            raise _changed(path)
+
+
+def _changed(path: Path) -> ModelError:
+    return ModelError(
+        f"{path}: has changed since the model was trained; undo the change or train the model "
+        "again (knowledge is edited in the domain's own folder)"
+    )

@@ -1,0 +1,1 @@
+"""What `seewhy check` looks for, over everything below."""

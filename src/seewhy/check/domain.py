@@ -1,0 +1,153 @@
+"""What a domain's knowledge decides, and what its author may want to know."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from itertools import product
+from math import prod
+from typing import Any
+
+import numpy as np
+
+from seewhy.data.dataset import Dataset
+from seewhy.data.picture_source import check_source
+from seewhy.dialogue.answer import answer_templates
+from seewhy.dialogue.question import Questions
+from seewhy.domain.domain import Domain
+from seewhy.errors import DatasetError, KnowledgeError
+from seewhy.evaluation import AxiomRecord, axiom_records
+from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.consistency import never_applies
+from seewhy.knowledge.grounding_size import large_grounding
+from seewhy.knowledge.odd_loop import say_odd_loop
+from seewhy.knowledge.reasoner import Reasoner, Verdict
+from seewhy.knowledge.scene import FeatureVector
+
+MOST_VECTORS = 20_000
+_LOOKED_AT = 50  # feature vectors without an answer set, for the reasons why
+
+
+@dataclass(frozen=True)
+class DomainReport:
+    """What was found; errors are raised, not reported.
+
+    ``verdicts`` gives the share of each verdict among ``vectors`` feature vectors (all of them,
+    or a sample of 20,000). ``decided`` and ``decided_rightly`` are shares of a dataset's scenes
+    by their annotated features.
+    """
+
+    questions: int
+    wordings: int
+    vectors: int
+    verdicts: dict[str, float]
+    warnings: tuple[str, ...]
+    axioms: tuple[AxiomRecord, ...] = ()
+    decided: float | None = None
+    decided_rightly: float | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the report as values that JSON can hold."""
+        return {
+            **asdict(self),
+            "axioms": [{**asdict(own), "accuracy": own.accuracy} for own in self.axioms],
+        }
+
+
+def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
+    """Check what :func:`~seewhy.domain.domain.load_domain` need not: questions and coverage.
+
+    Raises
+    ------
+    DomainError, DatasetError, KnowledgeError
+        If the questions, the source of pictures or the dataset are wrong, or if no picture has
+        an answer set.
+    """
+    questions = Questions(domain)
+    answer_templates(domain)
+    reasoner = Reasoner(domain.knowledge, domain.schema)
+    vectors = feature_vectors(domain)
+    decisions = reasoner.decide_all(vectors)
+    counted = Counter(decision.verdict.value for decision in decisions)
+    without = [
+        own
+        for own, decision in zip(vectors, decisions, strict=True)
+        if decision.verdict is Verdict.NO_ANSWER_SET
+    ]
+    loops = _odd_loops(reasoner, without)
+    if loops and len(without) == len(vectors):
+        raise KnowledgeError(f"{_said_odd(loops[0])}, so that no picture has an answer set")
+    if domain.source is not None:
+        check_source(domain)
+    warnings = [
+        f"{_said_odd(loop)}, so that {len(without)} of {len(vectors)} feature vectors have no "
+        "answer set"
+        for loop in loops
+    ]
+    # Where there is no answer set, no axiom applies; that is for the loop to answer for.
+    apart = {own.identifier for loop in loops for own in loop}
+    sound = tuple(own for own in domain.knowledge.axioms if own.identifier not in apart)
+    warnings += [
+        f"{axiom.location}: no feature vector satisfies the conditions of '{axiom}'"
+        for axiom in never_applies(replace(domain.knowledge, axioms=sound), domain.schema)
+    ]
+    warnings += filter(None, [large_grounding(domain.knowledge)])
+    covered = {q.feature for q in questions.all if q.feature}
+    warnings += [
+        f"no question asks about the feature '{key}'"
+        for key in domain.features
+        if key not in covered
+    ]
+    report = DomainReport(
+        questions=len(questions.one_of_each()),
+        wordings=len(questions.all),
+        vectors=len(vectors),
+        verdicts={name: number / len(vectors) for name, number in counted.most_common()},
+        warnings=tuple(warnings),
+    )
+    if data is None:
+        return report
+    scenes = data.with_class()
+    if not len(scenes):
+        raise DatasetError(
+            f"{data.table.name}: no row has a class, by which axioms are judged; fill the column "
+            "'class'"
+        )
+    decisions = reasoner.decide_all(scenes.vectors)
+    decided = [
+        decision.label == label
+        for decision, label in zip(decisions, scenes.classes, strict=True)
+        if decision.label is not None
+    ]
+    return DomainReport(
+        **{
+            **report.__dict__,
+            "axioms": axiom_records(reasoner, scenes.vectors, scenes.classes),
+            "decided": len(decided) / len(scenes),
+            "decided_rightly": float(np.mean(decided)) if decided else 0.0,
+        }
+    )
+
+
+def _odd_loops(reasoner: Reasoner, vectors: Sequence[FeatureVector]) -> list[tuple[Axiom, ...]]:
+    """The odd loops behind feature vectors without an answer set, each once."""
+    found: dict[tuple[str, ...], tuple[Axiom, ...]] = {}
+    for vector in vectors[:_LOOKED_AT]:
+        loop = reasoner.odd_loop(vector)
+        found.setdefault(tuple(own.identifier for own in loop), loop)
+    return list(found.values())
+
+
+def _said_odd(loop: Sequence[Axiom]) -> str:
+    """An odd loop in words, with the place of its first axiom."""
+    return f"{loop[0].location}: {say_odd_loop(loop)}"
+
+
+def feature_vectors(domain: Domain, *, most: int = MOST_VECTORS) -> list[FeatureVector]:
+    """Return all feature vectors of a domain, or a sample where there are more than ``most``."""
+    values = [feature.values for feature in domain.features.values()]
+    if prod(map(len, values)) <= most:
+        return [tuple(vector) for vector in product(*values)]
+    generator = np.random.default_rng(0)
+    return [tuple(own[int(generator.integers(len(own)))] for own in values) for _ in range(most)]

@@ -1,0 +1,1 @@
+"""A domain: a folder that a user writes, read, checked and worded."""

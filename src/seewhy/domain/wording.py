@@ -1,0 +1,203 @@
+"""Say literals, features and classes in the words of the domain."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from seewhy.domain.domain import Domain
+from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.scene import FeatureVector
+from seewhy.text.slots import filled
+
+_MOST_VALUES_LISTED = 3
+_PART_OF_IT = re.compile(r"^the ([^{}]+) of \{it\} ")
+
+
+def say_literal(domain: Domain, literal: Literal) -> str:
+    """Return a literal as a clause.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> say_literal(domain, domain.classes["unstable"].literal)
+    'the structure is unstable'
+    >>> say_literal(domain, domain.features["lean"].literals["yes"])
+    'the structure leans to one side'
+    """
+    for own in domain.classes.values():
+        if own.literal.predicate == literal.predicate and own.literal == literal:
+            return f"{domain.subject} is {own.say}"
+    feature = domain.features.get(literal.predicate)
+    if feature is not None:
+        for value, own_literal in feature.literals.items():
+            if own_literal == literal:
+                return feature.say[value].replace("{it}", domain.subject)
+        for value, own_literal in feature.literals.items():
+            if own_literal == literal.complement:
+                return f"it is not so that {feature.say[value].replace('{it}', domain.subject)}"
+    belief = domain.beliefs.get(literal.predicate)
+    if belief is not None and literal.arguments[0] == domain.scene:
+        value = belief.words.get(literal.arguments[1], literal.arguments[1])
+        said = filled(belief.say, {"it": domain.subject, "value": value})
+        return said if literal.positive else f"it is not so that {said}"
+    words = literal.predicate.replace("_", " ")
+    about = [
+        domain.subject if a == domain.scene else a.replace("_", " ") for a in literal.arguments
+    ]
+    said = f"{words} ({', '.join(about)})" if about else words
+    return said if literal.positive else f"not: {said}"
+
+
+def say_features(
+    domain: Domain,
+    vector: FeatureVector,
+    features: Sequence[str],
+    *,
+    subject: str | None = None,
+) -> str:
+    """Return the values of some features as one sentence without a full stop.
+
+    Clauses that begin with the same words are drawn together, and the subject is named once,
+    as the domain does or as ``subject``.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> vector = ("5", "narrow", "no", "no")
+    >>> say_features(domain, vector, tuple(domain.features))  # doctest: +NORMALIZE_WHITESPACE
+    'the structure has five blocks and a narrow base, it is standing straight, and no block is
+     displaced'
+    """
+    values = domain.named(vector)
+    clauses = [
+        domain.features[feature].say[value]
+        for feature in domain.features
+        if feature in features and (value := values[feature]) is not None
+    ]
+    return join_clauses(draw_together(clauses), subject=subject or domain.subject)
+
+
+def draw_together(clauses: Sequence[str]) -> list[str]:
+    """Join neighbouring clauses that share their subject and verb.
+
+    Examples
+    --------
+    >>> draw_together(["{it} has one block", "{it} has a wide base", "{it} leans"])
+    ['{it} has one block and a wide base', '{it} leans']
+    """
+    groups: list[tuple[str, list[str]]] = []
+    for clause in clauses:
+        words = clause.split(" ", 2)
+        beginning = " ".join(words[:2]) if len(words) == 3 and words[0] == "{it}" else ""
+        if beginning and groups and groups[-1][0] == beginning:
+            groups[-1][1].append(words[2])
+        else:
+            groups.append((beginning, [words[2] if beginning else clause]))
+    return [
+        f"{beginning} {join_words(parts)}" if beginning else parts[0] for beginning, parts in groups
+    ]
+
+
+def join_clauses(clauses: Sequence[str], *, subject: str, word: str = "and") -> str:
+    """Join clauses, naming the subject in the first clause that has one and then saying "it".
+
+    Examples
+    --------
+    >>> thumb, index = "the thumb of {it} is folded", "the index of {it} is stretched"
+    >>> join_clauses([thumb, index], subject="the hand")
+    'the thumb of the hand is folded, and its index is stretched'
+    """
+    named: list[str] = []
+    for clause in clauses:
+        first = not any("{it}" in earlier for earlier in clauses[: len(named)])
+        if first:
+            clause = clause.replace("{it}", subject, 1)
+        named.append(_PART_OF_IT.sub(r"its \1 ", clause).replace("{it}", "it"))
+    if len(named) > 1 and word == "and":
+        return f"{', '.join(named[:-1])}, and {named[-1]}"
+    return join_words(named, word=word)
+
+
+def join_words(words: Sequence[str], *, word: str = "and") -> str:
+    """Join words or phrases with commas and a conjunction.
+
+    Examples
+    --------
+    >>> join_words(["one", "two", "three"], word="or")
+    'one, two or three'
+    """
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} {word} {words[-1]}"
+
+
+def say_one_of(clauses: Sequence[str], *, word: str = "or") -> str:
+    """Join alternatives, saying what they share once.
+
+    Examples
+    --------
+    >>> say_one_of(["{it} has four blocks", "{it} has five blocks"])
+    '{it} has four or five blocks'
+    >>> say_one_of(["{it} has two blocks"])
+    '{it} has two blocks'
+    """
+    split = [clause.split() for clause in clauses]
+    shortest = min(len(words) for words in split)
+    head = 0
+    while head < shortest and len({words[head] for words in split}) == 1:
+        head += 1
+    tail = 0
+    while tail < shortest - head and len({words[-1 - tail] for words in split}) == 1:
+        tail += 1
+    if len(split) == 1:
+        return clauses[0]
+    middles = [" ".join(words[head : len(words) - tail]) for words in split]
+    if not all(middles) or head == 0:
+        return join_words(clauses, word=word)
+    before, after = split[0][:head], split[0][len(split[0]) - tail :] if tail else []
+    return " ".join([*before, join_words(middles, word=word), *after])
+
+
+def say_values(domain: Domain, feature: str, values: Sequence[str]) -> str:
+    """Return "one of these values" of a feature as a clause.
+
+    A run of numbers is said as its two ends, and most of many values as "anything but" the others.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> say_values(domain, "num_blocks", ("2", "3", "4"))
+    '{it} has two to four blocks'
+    >>> say_values(domain, "base", ("wide", "narrow"))
+    '{it} has a wide or narrow base'
+    >>> signs = load_domain("traffic_signs")
+    >>> shapes = signs.features["shape"].values
+    >>> say_values(signs, "shape", [own for own in shapes if own not in ("circle", "octagon")])
+    'the shape of {it} is anything but round or octagonal'
+    """
+    own = domain.features[feature]
+    numbers = [int(value) for value in values if value.lstrip("-").isdigit()]
+    all_numbers = len(numbers) == len(values) > 2
+    if all_numbers and numbers == list(range(numbers[0], numbers[0] + len(numbers))):
+        return say_one_of([own.say[values[0]], own.say[values[-1]]], word="to")
+    others = [value for value in own.values if value not in values]
+    if len(values) > _MOST_VALUES_LISTED and 0 < len(others) < len(values):
+        excluded = join_words([own.words[value][0] for value in others], word="or")
+        return f"the {own.name} of {{it}} is anything but {excluded}"
+    return say_one_of([own.say[value] for value in values])
+
+
+def sentence(text: str) -> str:
+    """Return text with a capital at the beginning and a full stop at the end.
+
+    Examples
+    --------
+    >>> sentence("it leans")
+    'It leans.'
+    """
+    text = text.strip()
+    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith(('.', '?', '!')) else '.'}"

@@ -1,0 +1,1 @@
+"""What must have happened unseen, and what is believed by now."""

@@ -1,0 +1,1 @@
+"""Carrying out: sense, diagnose, plan, act and monitor, in a simulated world."""

@@ -1,0 +1,1 @@
+"""Shortest plans, and what makes looking for them fast."""

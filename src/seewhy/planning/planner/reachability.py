@@ -1,0 +1,329 @@
+"""What planning needs not search for: what never changes, what can never be done.
+
+A relaxation in which whatever was once true stays available (as in graph plans), except that of
+fluents of which exactly one holds (a robot is at one place) an action is possible only where one
+of the values that it allows has been reached. What it cannot reach, no plan can.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import clingo
+
+from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, predicates_in
+from seewhy.knowledge.bounded_control import BoundedControl
+from seewhy.knowledge.dynamics import constraints, fixed_rules, of_kind, rule
+from seewhy.knowledge.grounding_size import grounding_size
+from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.program import held
+from seewhy.knowledge.signature import Signature
+from seewhy.planning.diagnosis.belief_state import State, facts
+from seewhy.planning.goal import REACHED
+from seewhy.planning.planner.mutex import Mutex, mutexes
+
+_ANYTHING = re.compile(r"(?<!\w)_(?!\w)")
+_PROGRAM = """
+fluent(F) :- fluent(_, F).
+touched(F) :- unknown(F).
+rigid(F) :- initial(F), fluent(F), not touched(F).
+rigid(-F) :- initial(-F), fluent(F), not touched(F).
+exact_fluent(F) :- in_group(G, F), exact(G).
+exact(G) :- in_group(G, F), initial(F), stays_exact(F).
+restricted(A, G) :- forbids(A, F), in_group(G, F).
+allowed(A, G, F) :- restricted(A, G), in_group(G, F), not forbids(A, F).
+may(L) :- initial(L).
+may(F) :- unknown(F).
+may(-F) :- unknown(F).
+may(-F) :- fluent(defined, F), not rigid(F).
+may(-F) :- in_group(_, F), touched(F).
+reached(A, G) :- allowed(A, G, F), may(F).
+can(A) :- useful(A), not never(A), reached(A, G) : restricted(A, G); may(C) : needs(A, C).
+"""
+_RELAXATION = """
+initial(L) :- believed(L).
+useful(A) :- action(A).
+#show rigid/1. #show may/1. #show can/1. #show allowed/3. #show restricted/2. #show needs/2.
+#show in_group/2.
+"""
+_INSTANCES = """
+initial(F) :- believed(F).
+initial(-F) :- fluent(_, F), not believed(F), not unknown(F).
+wanted(F) :- in_group(G, F), wanted_group(G).
+wanted_group(G) :- in_group(G, F), wanted(F).
+changing(F) :- may(F), may(-F), not rigid(F), not rigid(-F).
+member(G, F) :- in_group(G, F), changing(F).
+exact_member(G, F) :- member(G, F), exact(G).
+choice(A, G, F) :- allowed(A, G, F), can(A), may(F).
+need(A, L) :- needs(A, L), can(A).
+#show changing/1. #show can/1. #show choice/3. #show need/2. #show member/2.
+#show exact_member/2. #show law/3. #show conclusion/3. #show forbidden/2.
+#defined wanted/1.
+"""
+
+
+@dataclass(frozen=True)
+class Reachability:
+    """What the relaxation finds, as sets of clingo's symbols.
+
+    Attributes
+    ----------
+    rigid : literals that hold in every state
+    may : literals that may hold in some state
+    can : actions that may be possible in some state
+    rules : facts for the planner: ``restricted(A, G)``, ``allowed(A, G, F)``, ``needs(A, L)``
+    groups : for each group of fluents that exclude one another, those that may change
+    """
+
+    rigid: frozenset[clingo.Symbol]
+    may: frozenset[clingo.Symbol]
+    can: frozenset[clingo.Symbol]
+    rules: str
+    groups: tuple[tuple[clingo.Symbol, ...], ...]
+
+
+def reachable(knowledge: Knowledge, state: State) -> Reachability:
+    """Return what may hold and be done from a state on."""
+    believed = facts("believed", state.holds)
+    sets = _atoms(knowledge, [believed, facts("unknown", state.unknown), _RELAXATION])
+    can = frozenset(atom.arguments[0] for atom in sets.get("can", ()))
+    rigid = frozenset(atom.arguments[0] for atom in sets.get("rigid", ()))
+    kept = [
+        atom
+        for name in ("restricted", "allowed", "needs")
+        for atom in sets.get(name, ())
+        if atom.arguments[0] in can
+    ]
+    groups: dict[clingo.Symbol, list[clingo.Symbol]] = {}
+    for atom in sets.get("in_group", ()):
+        if atom.arguments[1] not in rigid:
+            groups.setdefault(atom.arguments[0], []).append(atom.arguments[1])
+    return Reachability(
+        rigid=rigid,
+        may=frozenset(atom.arguments[0] for atom in sets.get("may", ())),
+        can=can,
+        rules=" ".join(f"{atom}." for atom in sorted(kept)),
+        groups=tuple(tuple(sorted(own)) for _, own in sorted(groups.items())),
+    )
+
+
+def instances(knowledge: Knowledge, state: State) -> Mapping[str, Sequence[clingo.Symbol]]:
+    """Return the laws without variables, where they may apply and may help.
+
+    By predicate: ``changing(fluent)``, ``can(action)``, ``law(action, effect, conditions)``,
+    ``conclusion(axiom, head, conditions)``, ``need(action, literal)``, ``choice(action, group,
+    fluent)`` (an action needs one of these), ``forbidden(action, conditions)`` (not all of
+    these), ``member(group, fluent)`` and ``exact_member`` where one of the group always holds.
+    Conditions on what does not change are left out.
+    """
+    # What is not believed true, and not unknown, is believed false: that need not be told.
+    positive = (own for own in state.holds if own.positive)
+    given = [facts("believed", positive), facts("unknown", state.unknown)]
+    return _atoms(knowledge, [*_instance_rules(knowledge), *given, _INSTANCES])
+
+
+def _atoms(knowledge: Knowledge, program: list[str]) -> dict[str, list[clingo.Symbol]]:
+    """The atoms shown of the one answer set, by predicate; none where there is no answer set."""
+    control = BoundedControl(
+        "\n".join([*_rules(knowledge), *program, _PROGRAM]), size=grounding_size(knowledge)
+    )
+    found = control.models()
+    sets: dict[str, list[clingo.Symbol]] = {}
+    for atom in found[0] if found else ():
+        sets.setdefault(atom.name, []).append(atom)
+    return sets
+
+
+def simplified(axiom: Axiom, signature: Signature) -> bool:
+    """Whether the planner needs an executability condition only where two fluents may change."""
+    return len(_fluents(axiom, signature)) <= 2 and not asks_more(axiom, signature)
+
+
+def _rules(knowledge: Knowledge) -> Iterator[str]:
+    signature = knowledge.signature
+    yield from fixed_rules(knowledge)
+    for group in mutexes(knowledge):
+        yield from _group(group, signature)
+    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
+        static = _static_body(axiom, signature)
+        yield rule(f"touched({_atom(axiom.head)})", [f"useful({axiom.action})", *static])
+        possible = _possible_body(axiom, signature)
+        yield rule(f"may({axiom.head})", [f"can({axiom.action})", *static, *possible])
+    for axiom in constraints(knowledge):
+        if axiom.identifier in excluded:
+            continue
+        static = _static_body(axiom, signature)
+        if asks_more(axiom, signature):
+            yield rule(f"touched({_atom(axiom.head)})", static)
+        for condition in _fluents(axiom, signature):
+            assert condition.literal is not None
+            yield rule(
+                f"touched({_atom(axiom.head)})", [*static, f"touched({_atom(condition.literal)})"]
+            )
+        yield rule(f"may({axiom.head})", [*static, *_possible_body(axiom, signature)])
+    for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION):
+        if not asks_more(axiom, signature):
+            yield from _executability(axiom, knowledge)
+    # Nothing may be said of some of these in a domain; then they have no rule.
+    yield "#defined useful/1. #defined law/3. #defined conclusion/3. #defined forbidden/2."
+    yield "#defined touched/1. #defined in_group/2. #defined stays_exact/1. #defined forbids/2."
+    yield "#defined needs/2. #defined never/1. #defined unknown/1. #defined believed/1."
+    yield "#defined action/1. #defined fluent/2."
+
+
+def _wanted(knowledge: Knowledge) -> Iterator[str]:
+    """What the goal asks about, instance by instance, and what an axiom does, whichever it is."""
+    signature = knowledge.signature
+    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    asked: set[str] = set()
+    for axiom in knowledge.axioms:
+        if axiom.kind is AxiomKind.DEFAULT or axiom.identifier in excluded:
+            continue
+        literals = [own.literal for own in _fluents(axiom, signature) if own.literal]
+        static = _static_body(axiom, signature) if signature.changes(axiom.head.predicate) else []
+        if axiom.head.predicate == REACHED:
+            for literal in literals:
+                yield rule(f"wanted({_atom(literal)})", static)
+            continue
+        asked |= {own.predicate for own in literals}
+        if axiom.kind is AxiomKind.CAUSAL_LAW:
+            body = [f"action({axiom.action})", f"wanted({_atom(axiom.head)})", *static]
+            yield rule(f"useful({axiom.action})", body)
+        elif axiom.kind is AxiomKind.STATE_CONSTRAINT:
+            asked.add(axiom.head.predicate)
+    for name in sorted(asked):
+        if signature.kind(name).is_fluent:
+            terms = tuple(f"X{place}" for place in range(len(signature.predicates[name].sorts)))
+            yield f"wanted({Literal(name, terms)}) :- fluent(_, {Literal(name, terms)})."
+
+
+def _instance_rules(knowledge: Knowledge) -> Iterator[str]:
+    signature = knowledge.signature
+    yield from _wanted(knowledge)
+    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    for axiom in knowledge.axioms:
+        if not signature.changes(axiom.head.predicate) or asks_more(axiom, signature):
+            continue
+        static = _static_body(axiom, signature)
+        terms = [
+            own.literal.complement if own.absent else own.literal
+            for own in _fluents(axiom, signature)
+            if own.literal
+        ]
+        possible = [f"may({own})" for own in terms]
+        conditions = f"({', '.join(map(str, terms))}{',' * (len(terms) == 1)})"
+        if axiom.kind is AxiomKind.CAUSAL_LAW:
+            body = [f"can({axiom.action})", *static, *possible]
+            yield rule(f"law({axiom.action}, {axiom.head}, {conditions})", body)
+        elif axiom.kind is AxiomKind.STATE_CONSTRAINT and axiom.identifier not in excluded:
+            head = f"conclusion({axiom.identifier}, {axiom.head}, {conditions})"
+            yield rule(head, [*static, *possible])
+        elif axiom.kind is AxiomKind.EXECUTABILITY_CONDITION and len(terms) > 1:
+            # One condition that changes, beside others that do not, is in `needs` and `allowed`.
+            changing = [f"touched({_atom(own)})" for own in terms] if len(terms) == 2 else []
+            body = [f"can({axiom.action})", *static, *possible, *changing]
+            yield rule(f"forbidden({axiom.action}, {conditions})", body)
+
+
+def _group(group: Mutex, signature: Signature) -> Iterator[str]:
+    """The fluents that exclude one another; one that changes changes the others."""
+    sorts = signature.predicates[group.predicate].sorts
+    terms = [f"X{place}" for place in range(len(sorts))]
+    atom = str(Literal(group.predicate, tuple(terms)))
+    others = [term for place, term in enumerate(terms) if place != group.position]
+    name = f"group({', '.join([group.predicate, *others])})"
+    yield f"in_group({name}, {atom}) :- fluent(basic, {atom})."
+    yield f"touched({atom}) :- in_group({name}, {atom}), group_touched({name})."
+    yield f"group_touched({name}) :- in_group({name}, {atom}), touched({atom})."
+    if group.stays_exact:
+        yield f"stays_exact({atom}) :- fluent(basic, {atom})."
+
+
+def _executability(axiom: Axiom, knowledge: Knowledge) -> Iterator[str]:
+    """What an action needs, forbids, or that it never is: one fluent that may change at a time."""
+    signature = knowledge.signature
+    static = [f"useful({axiom.action})", *_static_body(axiom, signature)]
+    conditions = _fluents(axiom, signature)
+    certain = [_certain(own) for own in conditions]
+    yield rule(f"never({axiom.action})", [*static, *certain])
+    for place, condition in enumerate(conditions):
+        literal = condition.literal
+        assert literal is not None
+        others = [own for number, own in enumerate(certain) if number != place]
+        body = [*static, *others, f"touched({_atom(literal)})"]
+        if condition.absent:
+            yield rule(f"needs({axiom.action}, {literal})", body)
+            continue
+        if literal.positive:
+            grouped = [f"in_group(G__, {literal})", "exact(G__)"]
+            yield rule(f"forbids({axiom.action}, {literal})", [*body, *grouped])
+            body = [*body, f"not exact_fluent({literal})"]
+        yield rule(f"needs({axiom.action}, {literal.complement})", body)
+
+
+def _certain(condition: Condition) -> str:
+    """The condition as it holds in every state."""
+    assert condition.literal is not None
+    literal = condition.literal.complement if condition.absent else condition.literal
+    return f"rigid({literal})"
+
+
+def _possible_body(axiom: Axiom, signature: Signature) -> list[str]:
+    """The conditions about fluents as they may hold in some state."""
+    body = []
+    for condition in _fluents(axiom, signature):
+        literal = condition.literal
+        body.append(f"not rigid({literal})" if condition.absent else f"may({literal})")
+    return body
+
+
+def _static_body(axiom: Axiom, signature: Signature) -> list[str]:
+    """The conditions that do not change, with the sorts that variables range over."""
+    body = []
+    for condition in axiom.body:
+        literal = condition.literal
+        if literal is None:
+            if not _mentions_fluent(condition, signature):
+                body.append(held(condition.text, signature))
+        elif not signature.kind(literal.predicate).is_fluent:
+            body.append(held(condition.text, signature))
+        else:
+            body += _sorts(literal, signature)
+    for literal in filter(None, (axiom.action, axiom.head)):
+        body += _sorts(literal, signature)
+    return list(dict.fromkeys(body))
+
+
+def _sorts(literal: Literal, signature: Signature) -> list[str]:
+    sorts = signature.predicates[literal.predicate].sorts
+    return [
+        f"sort({sort}, {argument})" for argument, sort in zip(literal.arguments, sorts, strict=True)
+    ]
+
+
+def _fluents(axiom: Axiom, signature: Signature) -> list[Condition]:
+    return [
+        own
+        for own in axiom.body
+        if own.literal is not None and signature.kind(own.literal.predicate).is_fluent
+    ]
+
+
+def asks_more(axiom: Axiom, signature: Signature) -> bool:
+    """Whether a condition asks about several fluents at once: in an aggregate, or with ``_``."""
+    return any(
+        _mentions_fluent(own, signature)
+        and (own.literal is None or any(map(_ANYTHING.search, own.literal.arguments)))
+        for own in axiom.body
+    )
+
+
+def _mentions_fluent(condition: Condition, signature: Signature) -> bool:
+    return any(signature.kind(name).is_fluent for name in predicates_in(condition.text))
+
+
+def _atom(literal: Literal) -> str:
+    return str(Literal(literal.predicate, literal.arguments))

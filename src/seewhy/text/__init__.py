@@ -1,0 +1,1 @@
+"""Texts: the nearest name, names of strangers, templates with slots."""

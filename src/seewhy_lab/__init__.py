@@ -1,0 +1,1 @@
+"""The laboratory: the paper's evaluation, simulators of the bundled domains, BelgiumTS."""

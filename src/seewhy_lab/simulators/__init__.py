@@ -1,0 +1,1 @@
+"""Where the pictures of the bundled domains come from."""
