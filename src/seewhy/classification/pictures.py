@@ -23,7 +23,7 @@ from seewhy.perception.picture import Fit, Picture, read_picture
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent
 
-__all__ = ["BATCH", "ClassifiedPicture", "classify_pictures"]
+__all__ = ["BATCH", "ClassifiedPicture", "classify_pictures", "reasons_of"]
 
 BATCH = 128
 """Pictures that are seen at a time; as many are read meanwhile."""
@@ -87,7 +87,7 @@ def classify_pictures(
     ' is not a picture of a known type: save it as PNG or JPEG'
     """
     look = partial(_look, size=agent.picture_size, fit=agent.domain.pictures.fit)
-    say_why = _why(agent)
+    say_why = reasons_of(agent)
     looked = read_ahead(look, map(Path, pictures), ahead=batch)
     while some := list(islice(looked, batch)):
         pixels = [read for _, read in some if not isinstance(read, PictureError)]
@@ -109,8 +109,16 @@ def _look(picture: Path, *, size: int, fit: Fit) -> tuple[Path, Picture | Pictur
         return picture, problem
 
 
-def _why(agent: Agent) -> Callable[[Sequence[Classification]], list[str]]:
-    """A function that says why scenes are of their class."""
+def reasons_of(agent: Agent) -> Callable[[Sequence[Classification]], list[str]]:
+    """Return a function that says why scenes are of their class, or why they have none.
+
+    Examples
+    --------
+    >>> import seewhy
+    >>> agent = seewhy.Agent(seewhy.load_domain("structure_stability"))
+    >>> reasons_of(agent)([agent.classify_values({"block_displaced": "yes"})])
+    ['The structure is unstable because a block is displaced.']
+    """
     questions = {
         question.label: question
         for question in agent.questions.one_of_each()

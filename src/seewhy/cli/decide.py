@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -33,6 +33,7 @@ def decide(
     """Reason about named values, so that rules can be tried before anything is trained."""
     from seewhy.agent.agent import Agent
     from seewhy.dialogue.question import Asks, Question
+    from seewhy.domain.assignments import named_values
     from seewhy.domain.domain import load_domain
     from seewhy.errors import QuestionError
 
@@ -93,41 +94,3 @@ def _print(
         say()
         say(question)
         say(answered.text)
-
-
-def named_values(domain: Domain, assignments: Sequence[str]) -> dict[str, str]:
-    """Return feature → value of assignments such as ``colour=brown``.
-
-    Raises
-    ------
-    DomainError
-        If one is none, names no feature or value, or a feature that another names as well.
-
-    Examples
-    --------
-    >>> from seewhy.domain.domain import load_domain
-    >>> named_values(load_domain("structure_stability"), ["base=wide", "lean=no"])
-    {'base': 'wide', 'lean': 'no'}
-    """
-    from seewhy.errors import DomainError
-    from seewhy.text.nearest import did_you_mean
-
-    found: dict[str, str] = {}
-    for assignment in assignments:
-        name, sign, value = assignment.partition("=")
-        name, value = name.strip(), value.strip()
-        if not sign:
-            raise DomainError(
-                f"'{assignment}' gives no value; write FEATURE=VALUE, as in "
-                f"{next(iter(domain.features))}={next(iter(domain.features.values())).values[0]}"
-            )
-        if name not in domain.features:
-            raise DomainError(
-                f"'{name}' is no feature of {domain.name}; {did_you_mean(name, domain.features)}"
-            )
-        values = domain.features[name].values
-        if value not in values:
-            raise DomainError(f"'{value}' is no value of '{name}'; {did_you_mean(value, values)}")
-        if found.setdefault(name, value) != value:
-            raise DomainError(f"'{name}' is given twice, {found[name]} and {value}; leave one out")
-    return found

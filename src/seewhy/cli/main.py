@@ -27,6 +27,7 @@ from seewhy.cli import (
     new,
     plan,
     reference,
+    serve,
     simulate,
     trace,
     train,
@@ -57,6 +58,7 @@ app.command("ask")(ask.ask)
 app.command("chat")(chat.chat)
 app.command("decide")(decide.decide)
 app.command("classify")(classify.classify)
+app.command("serve")(serve.serve)
 app.command("trace")(trace.trace)
 app.command("new")(new.new)
 app.command("check")(check.check)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator
 from hashlib import sha256
 from pathlib import Path
@@ -20,7 +21,7 @@ from seewhy.perception.picture_file import (
     open_picture,
 )
 
-__all__ = ["Fit", "as_picture", "pixels_digest", "read_picture"]
+__all__ = ["Fit", "as_picture", "picture_of_bytes", "pixels_digest", "read_picture"]
 
 _KEPT_WHOLE = 16_000_000
 """Pixels; larger pictures are reduced to four times what is asked for, some rows at a time."""
@@ -98,11 +99,45 @@ def read_picture(path: Path | str, *, size: int, fit: Fit = "pad") -> Picture:
     if empty:
         raise PictureError(f"{file} is empty (0 bytes): copy the picture again from its source")
 
+    return _opened_square(file, str(file), size=size, fit=fit)
+
+
+def picture_of_bytes(content: bytes, *, name: str, size: int, fit: Fit = "pad") -> Picture:
+    """Make a square RGB array of what a picture file holds, as :func:`read_picture` does.
+
+    Parameters
+    ----------
+    content : bytes
+        The file.
+    name : str
+        What errors call it.
+    size, fit
+        See :func:`read_picture`.
+
+    Raises
+    ------
+    PictureError
+        As :func:`read_picture`.
+
+    Examples
+    --------
+    >>> picture_of_bytes(b"no picture", name="a.png", size=16)
+    Traceback (most recent call last):
+    ...
+    seewhy.errors.PictureError: a.png is not a picture of a known type: save it as PNG or JPEG
+    """
+    _check_size(size)
+    if not content:
+        raise PictureError(f"{name} is empty (0 bytes): send the picture itself")
+    return _opened_square(io.BytesIO(content), name, size=size, fit=fit)
+
+
+def _opened_square(source: Path | io.BytesIO, name: str, *, size: int, fit: Fit) -> Picture:
     try:
-        with open_picture(file) as image:
+        with open_picture(source) as image:
             return _square(image, size=size, fit=fit)
     except PictureError as problem:
-        raise PictureError(f"{file} {problem}") from None
+        raise PictureError(f"{name} {problem}") from None
 
 
 def as_picture(

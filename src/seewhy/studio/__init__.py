@@ -1,0 +1,1 @@
+"""The web application: a model answers over HTTP."""
