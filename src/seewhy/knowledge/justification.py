@@ -20,7 +20,7 @@ class Basis(StrEnum):
     ABSENCE = "absence"
     COMPARISON = "comparison"
     JOINTLY = "several literals"
-    ASSUMED = "assumed absence"
+    ASSUMED = "assumed"
     CASES = "several answer sets"
     OTHERWISE = "without the exception"
     CONSISTENCY = "nothing else is consistent"

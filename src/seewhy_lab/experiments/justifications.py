@@ -152,7 +152,8 @@ def _circles(node: Node, above: tuple[str, ...]) -> Iterator[str]:
         if node.basis is Basis.FACT:
             yield f"{node.literal} is given no reason"
         key = _believed(node)
-        if key in above:
+        # What an answer set supposes is told as that, and as no reason.
+        if key in above and node.basis is not Basis.ASSUMED:
             yield f"{key} is its own reason"
         # Several reasons have the literal of each.
         above = above if node.axiom is None else (*above, key)
