@@ -208,9 +208,8 @@ class _Explanation:
             if (settled := joint.settled_by(known, holds)) is not None:
                 return [Belief(*pair) for pair in settled.items()]
         # It is assumed. Of what settles it, that stands first which is not founded.
-        everything = [Belief(key, key in self.evidence.holds) for key in joint.keys]
-        everything.sort(key=lambda belief: (belief in apart, self.evidence.worth(belief.key)))
-        settled = joint.settled_by({belief.key: belief.holds for belief in everything}, holds)
+        everything = sorted(self.foundation.literals(joint), key=lambda belief: belief in apart)
+        settled = joint.settled_by(dict(everything), holds)
         return [Belief(*pair) for pair in (settled or {}).items()]
 
     def _supposed(self, belief: Belief) -> Node:

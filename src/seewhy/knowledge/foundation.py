@@ -97,6 +97,7 @@ class Foundation:
         self.forced = forced
         self.assumed: frozenset[Need] = frozenset()
         self._stages: dict[frozenset[Belief], dict[Need, int]] = {}
+        self._literals: dict[JointCondition, list[Belief]] = {}
         if root not in self.stages(frozenset()):
             self.assumed = self._assumptions()
 
@@ -144,14 +145,18 @@ class Foundation:
 
         An absence that is waited for counts where the condition does not deny the literal.
         """
-        holds = self.beliefs.holds
-        known = {
-            key: key in holds
-            for key in condition.keys
-            if Belief(key, key in holds) in founded
-            or (Belief(key, key in holds) in waits and key not in condition.denied)
+        return {
+            belief.key: belief.holds
+            for belief in self.literals(condition)
+            if belief in founded or (belief in waits and belief.key not in condition.denied)
         }
-        return dict(sorted(known.items(), key=lambda item: self.beliefs.worth(item[0])))
+
+    def literals(self, condition: JointCondition) -> Sequence[Belief]:
+        """What is so with a condition's literals; what had best be left out stands first."""
+        if condition not in self._literals:
+            keys = sorted(condition.keys, key=self.beliefs.worth)
+            self._literals[condition] = [Belief(key, key in self.beliefs.holds) for key in keys]
+        return self._literals[condition]
 
     def _founded(self, without: frozenset[Belief], assumed: frozenset[Need]) -> dict[Need, int]:
         founded = dict.fromkeys(assumed - without, 0)
