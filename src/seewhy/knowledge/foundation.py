@@ -98,6 +98,7 @@ class Foundation:
         self.assumed: frozenset[Need] = frozenset()
         self._stages: dict[frozenset[Belief], dict[Need, int]] = {}
         self._literals: dict[JointCondition, list[Belief]] = {}
+        self._rests_on: dict[Belief, list[list[Need]]] = {}
         if root not in self.stages(frozenset()):
             self.assumed = self._assumptions()
 
@@ -188,8 +189,8 @@ class Foundation:
         return (
             self.beliefs.is_seen(belief.key)
             or any(
-                all(self.is_founded(need, founded) for _, need, _ in self.beliefs.needs(instance))
-                for instance in self.beliefs.firing(belief.key)
+                all(self.is_founded(need, founded) for need in needs)
+                for needs in self._instances(belief)
             )
             or any(
                 self.is_forced(instance, founded)
@@ -201,13 +202,19 @@ class Foundation:
         if Belief(opposite(absence.key)) in founded:
             return True
         return all(
-            any(
-                self.is_founded(need, founded, together)
-                for _, need, holds in self.beliefs.needs(instance)
-                if not holds
-            )
-            for instance in self.beliefs.concluding(absence.key)
+            any(self.is_founded(need, founded, together) for need in needs)
+            for needs in self._instances(absence)
         )
+
+    def _instances(self, belief: Belief) -> Sequence[Sequence[Need]]:
+        """What each instance rests on that concludes a belief, or fails by, of an absence."""
+        if belief not in self._rests_on:
+            conclude = self.beliefs.firing if belief.holds else self.beliefs.concluding
+            self._rests_on[belief] = [
+                [need for _, need, holds in self.beliefs.needs(instance) if holds is belief.holds]
+                for instance in conclude(belief.key)
+            ]
+        return self._rests_on[belief]
 
     @cached_property
     def _cone(self) -> dict[Belief, tuple[Belief, ...]]:
@@ -223,27 +230,24 @@ class Foundation:
 
     def _next(self, belief: Belief) -> Iterator[Belief]:
         if belief.holds:
-            exceptions = self.beliefs.exceptions(belief.key)
-            for exception in exceptions:
+            for exception in self.beliefs.exceptions(belief.key):
                 for beliefs in self.forced(exception):
-                    yield from sorted(beliefs, key=lambda own: own.key)
-            instances = [*self.beliefs.firing(belief.key), *exceptions]
+                    yield from sorted(beliefs)
+                for _, need, holds in self.beliefs.needs(exception):
+                    if holds:
+                        yield from self._literals_of(need)
         else:
             against = opposite(belief.key)
             if against in self.beliefs.holds:
                 yield Belief(against)
                 if self.beliefs.is_seen(against):
                     return
-            instances = self.beliefs.concluding(belief.key)
-        for instance in instances:
-            for _, need, holds in self.beliefs.needs(instance):
-                if holds is not belief.holds:
-                    continue
-                if isinstance(need, Belief):
-                    yield need
-                else:
-                    for key in need[0].keys:
-                        yield Belief(key, key in self.beliefs.holds)
+        for needs in self._instances(belief):
+            for need in needs:
+                yield from self._literals_of(need)
+
+    def _literals_of(self, need: Need) -> Sequence[Belief]:
+        return (need,) if isinstance(need, Belief) else self.literals(need[0])
 
     @cached_property
     def _in_circles(self) -> frozenset[Belief]:
