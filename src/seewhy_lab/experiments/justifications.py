@@ -8,7 +8,7 @@ sets by the book, and of nothing else, there has to be a justification, and
 - of stratified knowledge without defaults, so does every choice among alternatives inside it;
 - features that were added for consistency are needed, each of them, and so are those that are said
   to be the fewest that suffice;
-- no belief stands below itself;
+- no belief stands below itself, unless an answer set supposes it, and none is given no reason;
 - every literal and condition that is said to hold, or to fail, does.
 
 Of what is not believed, every axiom that could conclude it is told with each of its conditions,
