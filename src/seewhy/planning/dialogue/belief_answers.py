@@ -9,9 +9,9 @@ from typing import Any
 import clingo
 
 from seewhy.knowledge.ground import complement_of, fluent_of
-from seewhy.planning.dialogue.asking import Query
 from seewhy.planning.dialogue.belief_reason import Beliefs, tell
 from seewhy.planning.dialogue.describing import describe_place, say_counted
+from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.speech import Speech, past, sentences
 from seewhy.planning.dialogue.supposing import known_at
 from seewhy.planning.dialogue.whereabouts import contents as whats_at
@@ -41,7 +41,7 @@ class BeliefAnswers:
         self.run = run
         self.speech = Speech(domain.words)
 
-    def is_so(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def is_so(self, query: Query) -> Told:
         """Whether something is so, with the reason."""
         beliefs, step = self._beliefs(query)
         before: list[str] = []
@@ -100,7 +100,7 @@ class BeliefAnswers:
                     return literal
         return denied
 
-    def which(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def which(self, query: Query) -> Told:
         """Of what something is believed: what somebody has, what is closed."""
         beliefs, step = self._beliefs(query)
         found = [
@@ -117,7 +117,7 @@ class BeliefAnswers:
         now = step == self.run.history.last_step
         return sentences([(self.speech.every if now else self.speech.every_past)(found)]), reasons
 
-    def why_disbelieve(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def why_disbelieve(self, query: Query) -> Told:
         """Why something is not believed, where it is not."""
         query = self._when_it_mattered(replace(query, positive=not query.positive))
         denied = replace(query, positive=not query.positive)
@@ -141,7 +141,7 @@ class BeliefAnswers:
         held = [own.number for own in acting if literal in own.believed.holds]
         return replace(query, step=held[-1]) if held else query
 
-    def why_believe(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def why_believe(self, query: Query) -> Told:
         """Why something is believed."""
         query = self._when_it_mattered(query)
         beliefs, step = self._beliefs(query)
@@ -163,7 +163,7 @@ class BeliefAnswers:
         first = "" if counted else believe
         return sentences([first, *because]), reasons
 
-    def where(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def where(self, query: Query) -> Told:
         """Where a thing is."""
         beliefs, step = self._beliefs(query)
         thing = next(own for own in query.arguments if own is not None)
@@ -175,7 +175,7 @@ class BeliefAnswers:
         said = [self._saying(step)(literal), *self._because(literal, beliefs, step)]
         return sentences(said), reasons
 
-    def contents(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def contents(self, query: Query) -> Told:
         """What is at a place."""
         beliefs, step = self._beliefs(query)
         place = query.arguments[0] or ""
@@ -226,7 +226,7 @@ class BeliefAnswers:
         own = next(own for own in places(self.domain) if own.predicate == literal.name)
         return literal, str(literal.arguments[own.place])
 
-    def _unknown_place(self, thing: str, beliefs: Beliefs, step: int) -> tuple[str, dict[str, Any]]:
+    def _unknown_place(self, thing: str, beliefs: Beliefs, step: int) -> Told:
         is_me = thing == self.domain.robot
         where = "I am" if is_me else f"{self.speech.name(thing)} is"
         ruled_out = [

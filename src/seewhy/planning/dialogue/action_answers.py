@@ -1,0 +1,126 @@
+"""Answer why an action was done, why another was not, and why the one rather than the other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import clingo
+
+from seewhy.domain.wording import join_words
+from seewhy.planning.dialogue.action_reason import Against
+from seewhy.planning.dialogue.action_words import (
+    actions_asked,
+    count_actions,
+    needs_values,
+    obstacle_values,
+    say_actions,
+    say_asked,
+    say_obstacle,
+)
+from seewhy.planning.dialogue.goal_words import say_goal
+from seewhy.planning.dialogue.query import Asks, Query, Told
+from seewhy.planning.dialogue.run_view import RunView
+from seewhy.planning.dialogue.speech import sentences
+from seewhy.planning.execution.execution import Decision
+
+
+def why_did(view: RunView, query: Query) -> Told:
+    """Why an action was done: what needed it."""
+    done = view.done(query)
+    chosen = [step for step in done if query.step in (None, step.number)]
+    speech = view.speech
+    if not chosen:
+        asked = f"I did not {say_asked(view, query)}"
+        if done:
+            when = join_words([str(step.number) for step in done])
+            asked = f"{asked} at step {query.step}, but at step {when}"
+        return sentences([asked]), {"steps": [step.number for step in done]}
+    step = chosen[-1]
+    action = step.action
+    assert action is not None
+    needs = view.intentions.needs(step)
+    tried = (step.number, action) in view.failures
+    did = f"tried to {speech.do(action)}" if tried else speech.did(action)
+    beginning = f"I {did} at step {step.number}"
+    reasons = {
+        "step": step.number,
+        "action": str(action),
+        "needed_by": needs_values(needs, view.run),
+    }
+    if not needs:
+        return sentences([f"{beginning}, although my plan would have worked without"]), reasons
+    wanted = [speech.do(need.action) for need in needs if need.action is not None]
+    if not wanted:
+        wish = say_goal(view.run.goal, view.domain, speech, end=needs[0].state)
+        return sentences([f"{beginning} because my goal was that {wish}"]), reasons
+    then = f", in order to {wanted[-1]}" if len(wanted) > 1 else ""
+    # What lies between is told by the tree of reasons.
+    said = [f"{beginning} because I wanted to {wanted[0]}{then}"]
+    obstacle = say_obstacle(needs[0].obstacles, speech)
+    if obstacle:
+        said.append(f"otherwise I could not have done that: {obstacle}")
+    return sentences(said), reasons
+
+
+def why_not(view: RunView, query: Query) -> Told:
+    """Why an action was not done: what failed, or the longer plan."""
+    step = view.asked(query)
+    when = f"at step {step.number}"
+    found = [
+        (action, view.intentions.why_not(action, step)) for action in actions_asked(view, query)
+    ]
+    ranks = list(Against)
+    action, why = min(found, key=lambda pair: ranks.index(pair[1].against))
+    if any(other.against is not Against.OBSTACLE for _, other in found):
+        action, why = next(pair for pair in found if pair[1].against is not Against.OBSTACLE)
+    reasons: dict[str, Any] = {
+        "step": step.number,
+        "action": str(action),
+        "against": why.against.value,
+        "obstacles": [obstacle_values(applied) for applied in why.obstacles],
+        "actions": [str(planned) for planned in why.actions],
+    }
+    do = view.speech.do(action)
+    many = count_actions(len(why.actions))
+    if why.against is Against.DONE:
+        said = f"but I did {do} {when}"
+    elif why.against is Against.OBSTACLE:
+        obstacle = say_obstacle(why.obstacles, view.speech)
+        said = ": ".join(filter(None, [f"I could not {do} {when}", obstacle]))
+    elif step.decision is Decision.STOP:
+        said = "there was nothing left to do: the goal was reached"
+    elif why.against is Against.NO_PLAN:
+        said = (
+            f"I could have, but had I {view.speech.did(action)} {when}, the goal could not have "
+            "been reached any more"
+        )
+    elif step.decision is Decision.GIVE_UP:
+        said = f"I could have: the goal can be reached by {many}"
+    elif why.against is Against.AS_GOOD:
+        said = f"I could have as well: that plan has {many} too"
+    else:
+        said = (
+            f"the plan would have been longer: {many} ({say_actions(why.actions, view.speech)}) "
+            f"instead of {len(step.plan)}"
+        )
+    return sentences([said]), reasons
+
+
+def rather_than(view: RunView, query: Query, foil: Query, reasons: dict[str, Any]) -> Told:
+    """What speaks against the other action of a contrast, where the one was done."""
+    if "action" not in reasons:
+        return "", {}
+    if foil.predicate == query.predicate:
+        # What the contrast does not name is as it was.
+        done = clingo.parse_term(reasons["action"]).arguments
+        named = zip(foil.arguments, done, strict=True)
+        foil = replace(foil, arguments=tuple(asked or str(term) for asked, term in named))
+    foil = replace(foil, asks=Asks.WHY_NOT, step=reasons["step"])
+    text, against = why_not(view, foil)
+    do = view.speech.do(clingo.parse_term(against["action"]))
+    if against["against"] == Against.LONGER.value:
+        text = text.replace("The plan would", f"Had I chosen to {do}, the plan would", 1)
+    elif against["against"] == Against.AS_GOOD.value:
+        text = text.replace("I could have as well", f"I could as well have chosen to {do}", 1)
+    return text, against
