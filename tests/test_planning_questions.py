@@ -151,7 +151,8 @@ DELIVERED = {
     "why did you move to the kitchen?": (
         "I moved to the kitchen at step 0 because I wanted to move to Sally's office, in order "
         'to deliver the first message to Sally. Otherwise I could not have done that: "the '
-        'robot moves to places next to its own", and I was in the library.'
+        'robot moves to places next to its own", and I was in the library and the library is not '
+        "next to Sally's office."
     ),
     "why did you move to Sally's office at step 1?": (
         "I moved to Sally's office at step 1 because I wanted to deliver the first message to "
@@ -173,7 +174,7 @@ DELIVERED = {
     ),
     "why didn't you go to Sally's office instead at step 0?": (
         "I could not move to Sally's office at step 0: \"the robot moves to places next to its "
-        'own", and I was in the library.'
+        "own\", and I was in the library and the library is not next to Sally's office."
     ),
     "why did you not deliver the first message to Sally at step 1?": (
         'I could not deliver the first message to Sally at step 1: "a message is delivered to '
@@ -341,7 +342,7 @@ SUPPOSED_EVENTS = {
     ),
     "what would you do if you moved to the bathroom?": (
         'It cannot be that I moved to the bathroom: "the robot moves to places next to its '
-        'own", and I was in the library.'
+        'own", and I was in the library and the library is not next to the bathroom.'
     ),
     "what if somebody opened the kitchen?": (
         "It cannot be that somebody opened the kitchen: the kitchen was open."
@@ -402,7 +403,7 @@ BEGUN = {
     "what did you do?": "I moved to the kitchen.",
     "why do you not print the first message?": (
         'I could not print the first message at step 1: "messages are printed where a printer '
-        'is", and I was in the kitchen.'
+        'is", and I was in the kitchen and no printer is in the kitchen.'
     ),
     "what would you do if Sarah were in the bathroom?": (
         "If Sarah were in the bathroom, I would move to Sally's office, deliver the first "
@@ -549,6 +550,50 @@ def test_a_contrast_is_answered(delivered: Run, question: str) -> None:
     assert asked(delivered, question) == CONTRASTS[question]
 
 
+STATICS = {
+    "where does Sally work?": "Sally works in her office.",
+    "where does saly work?": "Sally works in her office.",
+    "who works in the kitchen?": "Nobody that I know of.",
+    "which person works in Bob's office?": "Bob works in his office.",
+    "does Sally work in the kitchen?": (
+        "Not as far as I know: nothing tells me that Sally works in the kitchen. I only know that "
+        "Sally works in her office."
+    ),
+    "is the library next to the kitchen?": (
+        "Yes, the library is next to the kitchen. It follows from what I know: the map shows the "
+        "kitchen beside the library."
+    ),
+    "was the library next to the kitchen at step 1?": (
+        "Yes, the library is next to the kitchen. It follows from what I know: the map shows the "
+        "kitchen beside the library."
+    ),
+    "what is next to the kitchen?": (
+        "The bathroom, the library, Sally's office and Sarah's office are next to the kitchen."
+    ),
+    "which places is the library next to?": (
+        "The library is next to Bob's office, John's office and the kitchen."
+    ),
+    "where is a printer?": "A printer is in the library.",
+    "is there a printer in the library?": (
+        "Yes, a printer is in the library. I know that from the beginning."
+    ),
+    "why do you believe that Sally works in her office?": (
+        "I believe that Sally works in her office. I know that from the beginning."
+    ),
+    "who has the first message?": "I have the first message.",
+    "where is the sofa?": "There is a sofa in Sally's office.",
+    "why can't you move to Bob's office?": (
+        'I could not move to Bob\'s office at step 3: "the robot moves to places next to its own", '
+        "and I was in Sally's office and Sally's office is not next to Bob's office."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", STATICS)
+def test_what_never_changes_is_asked_like_what_does(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == STATICS[question]
+
+
 IN_HER_OFFICE = DELIVERED["is Sally in the kitchen?"]
 DENIALS = {
     "why do you not believe that Sally is in her office?": (
@@ -664,6 +709,27 @@ def test_things_keep_their_roles_in_a_contrast(
 ) -> None:
     domain, run = tower
     assert asked(run, question, domain) == ROLES[question]
+
+
+BOXES = {
+    "why do you believe that the ball is round?": (
+        "I believe that the ball is round. I know that from the beginning."
+    ),
+    "which boxes are large?": "The first large box and the second large box are large.",
+    "is the roof round?": "Not as far as I know: nothing tells me that the roof is round.",
+    "why does the second large box not stay on the ball?": (
+        "I believe that the second large box does not stay on the ball. It follows from "
+        '"nothing stays on a ball": the ball is round.'
+    ),
+    "who holds the ball?": "Nobody that I know of.",
+    "what is the height of the first small box?": "The height of the first small box is 3.",
+}
+
+
+@pytest.mark.parametrize("question", BOXES)
+def test_what_boxes_are_is_asked(tower: tuple[PlanningDomain, Run], question: str) -> None:
+    domain, run = tower
+    assert asked(run, question, domain) == BOXES[question]
 
 
 @pytest.mark.parametrize(
@@ -795,14 +861,15 @@ REFUSED = {
         "the question is empty; ask for instance: what is your plan? · what did you do? · what "
         "is your goal?"
     ),
-    "where is Harry?": "'where is Harry?' is not understood; ask for instance: where is Bob?",
+    "where is Harry?": "'where is Harry?' is not understood; ask for instance: where is Bob? · "
+    "where is a desk? · where is a printer?",
     "is the kitchen cosy?": (
         "'is the kitchen cosy?' is not understood; ask for instance: is the kitchen closed? · "
         "is the first message for Bob undelivered? · is Bob in the kitchen?"
     ),
     "tell me a joke": (
-        "'tell me a joke' is not understood; ask for instance: is Bob's office open? · do you "
-        "have the first message? · is there a desk in Bob's office?"
+        "'tell me a joke' is not understood; ask for instance: is Bob's office open? · does Bob "
+        "work in Bob's office? · do you have the first message?"
     ),
     "where is Sally at step 9?": (
         "there is no step 9 yet: the run has come to step 3; ask about step 0 to 3"
@@ -966,6 +1033,11 @@ LAMPS = {
     "why does the blue lamp shine dim?": (
         'I believe that the blue lamp shines dim. That is usual: "lamps are dim when they are '
         'bought"; nothing that I know of has changed it since.'
+    ),
+    "is the red lamp wired?": "Yes, the red lamp is wired. I know that from the beginning.",
+    "what is wired?": "The blue lamp and the red lamp are wired.",
+    "why is the red lamp wired?": (
+        "I believe that the red lamp is wired. I know that from the beginning."
     ),
     "what would you do if there were no power at step 1?": (
         "If there were no power, I would connect the power, switch on the blue lamp, switch on "

@@ -232,6 +232,11 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
             table.planning.robot,
             possessives=table.possessives,
             statics=table.statics,
+            fixed=frozenset(
+                name
+                for name, predicate in knowledge.signature.predicates.items()
+                if predicate.kind is PredicateKind.STATIC
+            ),
         ),
         robot=table.planning.robot,
         horizon=table.planning.horizon,

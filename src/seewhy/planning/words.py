@@ -10,6 +10,7 @@ import clingo
 
 from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis.diagnosis import Surprise, SurpriseKind
+from seewhy.planning.predicate_words import named_clause
 from seewhy.planning.tables import ActionTable, FluentTable
 
 _SLOT = re.compile(r"\{(\d+)\}")
@@ -18,6 +19,8 @@ _SLOT = re.compile(r"\{(\d+)\}")
 @dataclass(frozen=True)
 class PlanningWords:
     """The words of planning.toml; what it leaves out is said by its name.
+
+    ``fixed`` names the statics, whether or not there are words for them.
 
     Examples
     --------
@@ -34,22 +37,30 @@ class PlanningWords:
     robot: str | None = None
     possessives: Mapping[str, str] = field(default_factory=dict)
     statics: Mapping[str, FluentTable] = field(default_factory=dict)
+    fixed: frozenset[str] = frozenset()
 
     def name(self, term: clingo.Symbol | str) -> str:
         """How a thing is called."""
         key = str(term)
         return self.things.get(key, key.strip('"').replace("_", " "))
 
-    def say(self, literal: clingo.Symbol) -> str:
-        """A literal about a fluent as a clause."""
-        table = self.fluents.get(literal.name)
+    def clauses(self, predicate: str, arity: int) -> tuple[str, str]:
+        """The clauses, with slots, that say that a fluent or static holds, and that it does not.
+
+        Examples
+        --------
+        >>> PlanningWords({}, {}, {}).clauses("next_to", 2)
+        ('{0} is next to {1}', '{0} is not next to {1}')
+        """
+        table = self.fluents.get(predicate) or self.statics.get(predicate)
         if table is None:
-            return _plain(literal, self)
-        if literal.positive:
-            return self._filled(table.say, literal.arguments)
-        if table.deny is not None:
-            return self._filled(table.deny, literal.arguments)
-        return f"it is not so that {self._filled(table.say, literal.arguments)}"
+            return named_clause(predicate, arity)
+        return table.say, table.deny or f"it is not so that {table.say}"
+
+    def say(self, literal: clingo.Symbol) -> str:
+        """A literal about a fluent or static as a clause."""
+        holds, denied = self.clauses(literal.name, len(literal.arguments))
+        return self._filled(holds if literal.positive else denied, literal.arguments)
 
     def do(self, action: clingo.Symbol) -> str:
         """An action as what is to be done: "move to the kitchen"."""

@@ -45,6 +45,7 @@ def say_obstacle(obstacles: Sequence[Applied], speech: Speech) -> str:
     first = ranked[0]
     literals = [*first.holds, *first.counted]
     literals += [complement_of(absent) for absent in first.absent]
+    literals += [*first.statics, *map(complement_of, first.absent_statics)]
     said = speech.every_past(literals)
     text = f'"{first.axiom.text}"' if has_sentence(first.axiom) else ""
     return ", and ".join(filter(None, [text, said]))
@@ -57,6 +58,8 @@ def obstacle_values(applied: Applied) -> dict[str, Any]:
         "holds": [str(literal) for literal in applied.holds],
         "counted": [str(literal) for literal in applied.counted],
         "absent": [str(literal) for literal in applied.absent],
+        "statics": [str(literal) for literal in applied.statics],
+        "absent_statics": [str(literal) for literal in applied.absent_statics],
     }
 
 

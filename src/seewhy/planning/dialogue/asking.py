@@ -23,8 +23,8 @@ from seewhy.planning.dialogue.question_templates import (
     plain_words,
     question_templates,
 )
-from seewhy.planning.dialogue.speech import base
 from seewhy.planning.domain import PlanningDomain
+from seewhy.planning.predicate_words import base_form
 
 LONGEST_QUESTION = 300
 """Characters; nothing in a controlled vocabulary is nearly as long."""
@@ -35,7 +35,7 @@ _AT_FIRST = re.compile(
 )
 _CONTRAST = re.compile(r" (?:rather than|instead of|as opposed to|and not) ")
 _CONTRASTED = (Asks.WHY_DID, Asks.WHY_BELIEVE)
-_NOT_YOU = re.compile(r"\b(do|did|would|have|are) not you\b")
+_NOT_YOU = re.compile(r"\b(do|did|would|have|are|can|could) not you\b")
 _POLITE = re.compile(
     r"^(?:please )?(?:(?:can|could|will|would|do)(?: not)?(?: you)?(?: not)?(?: please)? )?"
     r"tell me(?: please)? (?=(?:wh\w+|how|if|is|are|was|were|do|does|did|has|have)\b)"
@@ -178,7 +178,7 @@ class PlanningQuestions:
             arguments[slot] = thing.term
             whose = slot if thing.located else whose
         robot = self.domain.robot
-        if robot is not None:
+        if robot is not None and self._is_action(template):
             # Whoever is asked is the one who acts.
             acting = self._things.sorts[robot]
             arguments = [
@@ -197,6 +197,10 @@ class PlanningQuestions:
             whose=whose,
             step=step,
         )
+
+    def _is_action(self, template: Template) -> bool:
+        predicate = self.domain.knowledge.signature.predicates.get(template.predicate or "")
+        return predicate is not None and predicate.kind.is_action
 
     def _filled(self, template: Template, things: dict[int, Thing]) -> str:
         things = dict(things)
@@ -221,7 +225,7 @@ class PlanningQuestions:
         text = SLOT.sub(named, template.raw)
         for said, meant in _ADDRESSED:
             text = re.sub(rf"\b{said}\b", meant, text)
-        return re.sub(r"\b(?:if|that) you \w+s\b", lambda found: base(found.group()), text)
+        return re.sub(r"\b(?:if|that) you \w+s\b", lambda found: base_form(found.group()), text)
 
     def _refusal(self, problem: str, marked: Marked, nearest: Sequence[str] = ()) -> QuestionError:
         suggested = tuple(nearest or self._nearest(marked))

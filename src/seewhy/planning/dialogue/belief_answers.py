@@ -62,7 +62,7 @@ class BeliefAnswers:
         known = self._known(literal, beliefs, step)
         reasons: dict[str, Any] = {"literal": str(literal), "believed": None}
         if known is None:
-            return sentences([*before, self._not_known(literal)]), reasons
+            return sentences([*before, *self._not_known(literal, beliefs, step)]), reasons
         yes = "yes" if known == literal else "no"
         known = self._instead(known, beliefs, step) if yes == "no" else known
         reasons |= {"believed": yes == "yes", "why": beliefs.why(known, step).to_dict()}
@@ -105,7 +105,7 @@ class BeliefAnswers:
         beliefs, step = self._beliefs(query)
         found = [
             own
-            for own in beliefs.diagnosis.states[step].positive(query.predicate)
+            for own in beliefs.positive(query.predicate, step)
             if all(
                 asked in (None, str(argument))
                 for asked, argument in zip(query.arguments, own.arguments, strict=True)
@@ -113,7 +113,7 @@ class BeliefAnswers:
         ]
         reasons = {"literals": [str(own) for own in found]}
         if not found:
-            return sentences(["nothing that I know of"]), reasons
+            return sentences([f"{_none(query.text)} that I know of"]), reasons
         now = step == self.run.history.last_step
         return sentences([(self.speech.every if now else self.speech.every_past)(found)]), reasons
 
@@ -148,7 +148,7 @@ class BeliefAnswers:
         literal = query.symbol()
         known = self._known(literal, beliefs, step)
         if known is None:
-            return sentences([self._not_known(literal)]), {"literal": str(literal)}
+            return sentences(self._not_known(literal, beliefs, step)), {"literal": str(literal)}
         why = beliefs.why(known, step)
         reasons = {"literal": str(literal), "believed": known == literal, "why": why.to_dict()}
         counted = say_counted(beliefs, known, step)
@@ -213,9 +213,20 @@ class BeliefAnswers:
         return next((own for own in (literal, complement_of(literal)) if beliefs.holds(own, step)),
                     None)  # fmt: skip
 
-    def _not_known(self, literal: clingo.Symbol) -> str:
+    def _not_known(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:
         said = self.speech.say(fluent_of(literal))
-        return f"I do not know whether {said}: I have not seen it, and nothing that I know tells"
+        if literal.name not in self.speech.words.fixed:
+            return [
+                f"I do not know whether {said}: I have not seen it, and nothing that I know tells"
+            ]
+        # What is known of the first thing instead: where else somebody works.
+        others = [
+            other
+            for other in beliefs.positive(literal.name, step)
+            if len(other.arguments) > 1 and other.arguments[0] == literal.arguments[0]
+        ]
+        only = [f"I only know that {self.speech.every(others)}"] if others else []
+        return [f"not as far as I know: nothing tells me that {said}", *only]
 
     def _place_of(
         self, thing: str, beliefs: Beliefs, step: int
@@ -249,3 +260,8 @@ class BeliefAnswers:
             term in signature.members(signature.predicates[own.predicate].sorts[own.place])
             for own in places(self.domain)
         )
+
+
+def _none(question: str) -> str:
+    """What there is none of: nobody, nowhere, or nothing."""
+    return {"who": "nobody", "where": "nowhere"}.get(question.split()[0], "nothing")

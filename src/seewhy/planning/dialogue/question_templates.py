@@ -10,6 +10,7 @@ from seewhy.dialogue.question_words import words_of
 from seewhy.knowledge.signature import Predicate, PredicateKind
 from seewhy.planning.dialogue.clause_forms import (
     SLOT,
+    asking_for,
     denies,
     gerund,
     question_form,
@@ -97,8 +98,8 @@ def question_templates(domain: PlanningDomain) -> list[Template]:
     --------
     >>> from seewhy.planning.domain import load_planning_domain
     >>> templates = question_templates(load_planning_domain("robot_assistant"))
-    >>> [own.raw for own in templates if own.predicate == "loc"][:3]
-    ['where is {0}', 'is {0} in {1}', 'is it so that {0} is in {1}']
+    >>> [one.raw for one in templates if one.predicate == "work_place"][1:7:5]
+    ['who works in {1}', 'which place does {0} work in']
     """
     return list(dict.fromkeys(_templates(domain)))
 
@@ -110,8 +111,8 @@ def _templates(domain: PlanningDomain) -> Iterator[Template]:
     yield from _about_places(domain)
     for predicate in domain.knowledge.signature.predicates.values():
         table = domain.words.actions.get(predicate.name)
-        if predicate.kind.is_fluent:
-            yield from _about_a_fluent(domain, predicate)
+        if predicate.kind.is_fluent or predicate.kind is PredicateKind.STATIC:
+            yield from _about_a_relation(domain, predicate)
         elif predicate.kind is PredicateKind.EXOGENOUS_ACTION:
             for text in _if_it_happened(None, table):
                 yield _template(Asks.WHAT_IF, text, predicate)
@@ -134,13 +135,21 @@ def _about_places(domain: PlanningDomain) -> Iterator[Template]:
                 yield Template(Asks.CONTENTS, text, arity=1, sorts=(predicate.sorts[place.place],))
 
 
-def _about_a_fluent(domain: PlanningDomain, predicate: Predicate) -> Iterator[Template]:
-    say, deny = _said(domain, predicate)
-    for text in _asking_which(say):
-        yield _template(Asks.WHICH, text, predicate)
+def _about_a_relation(domain: PlanningDomain, predicate: Predicate) -> Iterator[Template]:
+    say, deny = domain.words.clauses(predicate.name, len(predicate.sorts))
+    place = next((one for one in places(domain) if one.predicate == predicate.name), None)
+    for slot, text in asking_for(say, predicate.sorts):
+        # Where things are, and what is somewhere, is asked about above.
+        is_asked = place is not None and (
+            slot == place.thing or (place.single and text.startswith("where "))
+        )
+        if not is_asked:
+            yield _template(Asks.WHICH, text, predicate)
     for positive, clause in ((True, say), (False, deny)):
         for asks, text in _about_a_clause(clause, positive):
-            yield _template(asks, text, predicate, positive=positive)
+            # What never changes cannot be supposed to be otherwise.
+            if asks is not Asks.WHAT_IF or predicate.kind.is_fluent:
+                yield _template(asks, text, predicate, positive=positive)
 
 
 def _about_a_clause(clause: str, positive: bool) -> Iterator[tuple[Asks, str]]:
@@ -164,19 +173,6 @@ def _about_a_clause(clause: str, positive: bool) -> Iterator[tuple[Asks, str]]:
         yield Asks.WHAT_IF, f"{beginning} {were}"
 
 
-def _asking_which(clause: str) -> Iterator[str]:
-    """Questions for what a clause ends or begins with: "what does Bob have", "what is closed"."""
-    words = clause.split()
-    slots = [place for place, word in enumerate(words) if SLOT.fullmatch(word)]
-    if slots == [0]:
-        yield " ".join(["what", *words[1:]])
-    elif slots == [0, len(words) - 1] and words[1] not in ("is", "are"):
-        _, asked, *verb = question_form(" ".join(words[:-1])).split()
-        yield " ".join(["what does", asked, *verb])
-        if verb != ["have"]:
-            yield " ".join(["what is", asked, gerund(" ".join(verb))])
-
-
 def _about_an_action(predicate: Predicate, table: ActionTable | None) -> Iterator[Template]:
     if table is None:
         slots = " ".join(f"{{{number}}}" for number in range(len(predicate.sorts)))
@@ -187,6 +183,8 @@ def _about_an_action(predicate: Predicate, table: ActionTable | None) -> Iterato
         (Asks.WHY_DID, "why did you"),
         (Asks.WHY_NOT, "why did you not"),
         (Asks.WHY_NOT, "why do you not"),
+        (Asks.WHY_NOT, "why can you not"),
+        (Asks.WHY_NOT, "why could you not"),
         (Asks.WHY_NOT, "why not"),
         (Asks.DID, "did you"),
     ):
@@ -216,15 +214,6 @@ def _if_it_happened(do: str | None, table: ActionTable | None) -> Iterator[str]:
     for clause in clauses:
         for beginning in _SUPPOSING:
             yield f"{beginning} {clause}"
-
-
-def _said(domain: PlanningDomain, predicate: Predicate) -> tuple[str, str]:
-    table = domain.words.fluents.get(predicate.name)
-    if table is not None:
-        return table.say, table.deny or f"it is not so that {table.say}"
-    name = _words(predicate.name)
-    slots = " ".join(f"{{{number}}}" for number in range(len(predicate.sorts)))
-    return f"{slots} is {name}".strip(), f"{slots} is not {name}".strip()
 
 
 def _words(name: str) -> str:

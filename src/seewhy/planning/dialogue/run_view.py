@@ -51,7 +51,7 @@ class RunView:
         """The step that a question about an action is about."""
         if query.step is not None:
             return self.at(query.step)
-        if query.text.startswith(("why do ", "why not ")):
+        if query.text.startswith(("why do ", "why can ", "why not ")):
             return self.present
         acting = [step for step in self.run.steps if step.action is not None]
         same = [step for step in acting if step.action and step.action.name == query.predicate]

@@ -10,6 +10,7 @@ import clingo
 
 from seewhy.domain.wording import join_words, say_one_of, sentence
 from seewhy.planning.diagnosis.diagnosis import Surprise
+from seewhy.planning.predicate_words import base_form
 from seewhy.planning.words import PlanningWords
 
 _ME = "\x01"
@@ -50,8 +51,9 @@ class Speech:
         return self._spoken(self.words.say(literal))
 
     def said(self, literal: clingo.Symbol) -> str:
-        """A literal as a clause in the past tense."""
-        return past(self.say(literal))
+        """A literal as a clause in the past tense; what never changes is said in the present."""
+        said = self.say(literal)
+        return said if literal.name in self.words.fixed else past(said)
 
     def do(self, action: clingo.Symbol) -> str:
         """An action as what is to be done: "move to the kitchen"."""
@@ -184,22 +186,7 @@ def plural(noun: str) -> str:
 def _in_first_person(clause: str) -> str:
     def spoken(found: re.Match[str]) -> str:
         before, verb = found.groups()
-        return f"{before}I {_FIRST.get(verb) or base(verb)}"
+        return f"{before}I {_FIRST.get(verb) or base_form(verb)}"
 
     clause = _SUBJECT.sub(spoken, clause)
     return clause.replace(f"{_ME}'s", "my").replace(_ME, "me")
-
-
-def base(verb: str) -> str:
-    """Return a regular verb of the third person without its ending.
-
-    Examples
-    --------
-    >>> base("holds"), base("carries"), base("reaches"), base("moved")
-    ('hold', 'carry', 'reach', 'moved')
-    """
-    if verb.endswith("ies"):
-        return f"{verb[:-3]}y"
-    if verb.endswith(("sses", "ches", "shes", "xes", "oes")):
-        return verb[:-2]
-    return verb[:-1] if verb.endswith("s") and not verb.endswith("ss") else verb
