@@ -732,6 +732,28 @@ def test_what_boxes_are_is_asked(tower: tuple[PlanningDomain, Run], question: st
     assert asked(run, question, domain) == BOXES[question]
 
 
+def test_an_action_is_also_done_for_what_it_removes() -> None:
+    domain = load_planning_domain("tower_building")
+    goal = read_goal("holding(rob1, b3)", domain.knowledge)
+    *_, run = execute(domain, goal, sensed=[], act=lambda _: [])
+    reply = answer(domain, run, "why did you pick up the ball?")
+    assert reply.text == (
+        "I picked up the ball at step 0 because I wanted to put the ball on the table, in order to "
+        'pick up the first large box. Otherwise I could not have done that: "only a box that is '
+        'held can be put somewhere", and I did not hold the ball. It also removed what stood in '
+        'the way of picking up the first large box: "a box that carries another cannot be picked '
+        'up", and the ball was on the first large box.'
+    )
+    removed = reply.reasons["removed"]
+    assert (removed["action"], removed["changed"]) == ("pick_up(rob1,b3)", ["on(b5,b3)"])
+    # What is told as what the next action needs is not told again.
+    assert asked(run, "why did you put the ball on the table?", domain) == (
+        "I put the ball on the table at step 1 because I wanted to pick up the first large box. "
+        'Otherwise I could not have done that: "the gripper picks up one box at a time", and I '
+        "held the ball."
+    )
+
+
 @pytest.mark.parametrize(
     "question",
     ["where is Sally rather than Bob?", "why did you move to the kitchen rather than to Harry?"],

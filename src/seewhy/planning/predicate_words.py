@@ -1,8 +1,21 @@
-"""The clause that a predicate's name makes where a folder has no words for it."""
+"""Clauses about predicates: what a name makes where a folder has no words, and the past tense."""
 
 from __future__ import annotations
 
-__all__ = ["PREPOSITIONS", "base_form", "named_clause"]
+import re
+
+__all__ = ["PREPOSITIONS", "base_form", "named_clause", "past", "past_clause"]
+
+_PAST = {"is": "was", "are": "were", "am": "was", "has": "had", "have": "had", "does": "did",
+         "do": "did", "can": "could"}  # fmt: skip
+_IRREGULAR = {"hold": "held", "stand": "stood", "lie": "lay", "lean": "leant", "carry": "carried",
+              "keep": "kept", "know": "knew", "see": "saw", "sit": "sat", "lead": "led",
+              "belong": "belonged", "show": "showed", "wear": "wore", "hang": "hung",
+              "sleep": "slept", "go": "went", "run": "ran", "come": "came", "give": "gave",
+              "take": "took", "get": "got", "bear": "bore", "drive": "drove", "eat": "ate",
+              "feel": "felt", "find": "found", "fit": "fit", "shine": "shone",
+              "speak": "spoke", "think": "thought", "win": "won"}  # fmt: skip
+_VERB = re.compile(r"^((?:an? |the )?\{\d+\}) (\w+s)\b")
 
 PREPOSITIONS = frozenset({"in", "at", "on", "under", "behind", "near", "inside", "beside", "to",
                           "of", "with", "by", "from", "for", "above", "below", "over", "into",
@@ -55,6 +68,38 @@ def base_form(verb: str) -> str:
     if verb.endswith(("sses", "ches", "shes", "xes", "oes")):
         return verb[:-2]
     return verb[:-1] if verb.endswith("s") and not verb.endswith("ss") else verb
+
+
+def past(clause: str) -> str:
+    """Put a clause into the past tense, as far as its verb is known.
+
+    Examples
+    --------
+    >>> past("the kitchen is closed")
+    'the kitchen was closed'
+    """
+    words = clause.split(" ")
+    for place, word in enumerate(words):
+        if word in _PAST:
+            return " ".join([*words[:place], _PAST[word], *words[place + 1 :]])
+    return clause
+
+
+def past_clause(clause: str) -> str:
+    """Put a clause with slots into the past tense, whatever its verb.
+
+    Examples
+    --------
+    >>> past_clause("{0} holds {1}"), past_clause("{0} leads to {1}"), past_clause("{0} is lit")
+    ('{0} held {1}', '{0} led to {1}', '{0} was lit')
+    """
+    said = past(clause)
+    found = _VERB.match(clause)
+    if said != clause or found is None or not _is_verb(found.group(2)):
+        return said
+    verb = base_form(found.group(2))
+    regular = f"{verb[:-1]}ied" if re.search("[^aeiou]y$", verb) else f"{verb.removesuffix('e')}ed"
+    return f"{found.group(1)} {_IRREGULAR.get(verb, regular)}{clause[found.end() :]}"
 
 
 def _is(subject: str, words: list[str]) -> tuple[str, str]:

@@ -10,7 +10,7 @@ import clingo
 
 from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis.diagnosis import Surprise, SurpriseKind
-from seewhy.planning.predicate_words import named_clause
+from seewhy.planning.predicate_words import named_clause, past_clause
 from seewhy.planning.tables import ActionTable, FluentTable
 
 _SLOT = re.compile(r"\{(\d+)\}")
@@ -61,6 +61,20 @@ class PlanningWords:
         """A literal about a fluent or static as a clause."""
         holds, denied = self.clauses(literal.name, len(literal.arguments))
         return self._filled(holds if literal.positive else denied, literal.arguments)
+
+    def said(self, literal: clingo.Symbol) -> str:
+        """A literal as a clause in the past tense; what never changes is said in the present.
+
+        Examples
+        --------
+        >>> words = PlanningWords({}, {"has": FluentTable(say="{0} holds {1}")}, {})
+        >>> words.said(clingo.parse_term("has(bob,key)"))
+        'bob held key'
+        """
+        holds, denied = self.clauses(literal.name, len(literal.arguments))
+        clause = holds if literal.positive else denied
+        clause = clause if literal.name in self.fixed else past_clause(clause)
+        return self._filled(clause, literal.arguments)
 
     def do(self, action: clingo.Symbol) -> str:
         """An action as what is to be done: "move to the kitchen"."""

@@ -8,7 +8,7 @@ from typing import Any
 import clingo
 
 from seewhy.domain.wording import join_words
-from seewhy.planning.dialogue.action_reason import Against
+from seewhy.planning.dialogue.action_reason import Against, Removed
 from seewhy.planning.dialogue.action_words import (
     actions_asked,
     count_actions,
@@ -18,10 +18,12 @@ from seewhy.planning.dialogue.action_words import (
     say_asked,
     say_obstacle,
 )
+from seewhy.planning.dialogue.clause_forms import gerund
 from seewhy.planning.dialogue.goal_words import say_goal
+from seewhy.planning.dialogue.instances import has_sentence
 from seewhy.planning.dialogue.query import Asks, Query, Told
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import sentences
+from seewhy.planning.dialogue.speech import Speech, sentences
 from seewhy.planning.execution.execution import Decision
 
 
@@ -60,7 +62,26 @@ def why_did(view: RunView, query: Query) -> Told:
     obstacle = say_obstacle(needs[0].obstacles, speech)
     if obstacle:
         said.append(f"otherwise I could not have done that: {obstacle}")
+    removed = view.intentions.removed(step)
+    if removed is not None:
+        reasons["removed"] = {
+            "action": str(removed.action),
+            "obstacle": obstacle_values(removed.obstacle),
+            "changed": [str(literal) for literal in removed.changed],
+        }
+        said.append(_say_removed(removed, speech))
     return sentences(said), reasons
+
+
+def _say_removed(removed: Removed, speech: Speech) -> str:
+    """What was in a later action's way: the axiom, and the things as they lay."""
+    axiom = removed.obstacle.axiom
+    rule = f'"{axiom.text}"' if has_sentence(axiom) else ""
+    lay = speech.every_past(removed.changed or removed.obstacle.holds)
+    return (
+        f"it also removed what stood in the way of {gerund(speech.do(removed.action))}: "
+        f"{', and '.join(filter(None, [rule, lay]))}"
+    )
 
 
 def why_not(view: RunView, query: Query) -> Told:

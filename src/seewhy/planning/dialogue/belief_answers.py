@@ -12,13 +12,14 @@ from seewhy.knowledge.ground import complement_of, fluent_of
 from seewhy.planning.dialogue.belief_reason import Beliefs, tell
 from seewhy.planning.dialogue.describing import describe_place, say_counted
 from seewhy.planning.dialogue.query import Query, Told
-from seewhy.planning.dialogue.speech import Speech, past, sentences
+from seewhy.planning.dialogue.speech import Speech, sentences
 from seewhy.planning.dialogue.supposing import known_at
 from seewhy.planning.dialogue.whereabouts import contents as whats_at
 from seewhy.planning.dialogue.whereabouts import places, whereabouts
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
 from seewhy.planning.planner.mutex import mutexes
+from seewhy.planning.predicate_words import past
 
 
 class BeliefAnswers:

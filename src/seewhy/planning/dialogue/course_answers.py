@@ -16,8 +16,9 @@ from seewhy.planning.dialogue.action_words import (
 from seewhy.planning.dialogue.goal_words import say_goal
 from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import past, sentences
+from seewhy.planning.dialogue.speech import sentences
 from seewhy.planning.execution.execution import Decision, Outcome
+from seewhy.planning.predicate_words import past
 
 
 def goal(view: RunView, _: Query) -> Told:

@@ -10,12 +10,10 @@ import clingo
 
 from seewhy.domain.wording import join_words, say_one_of, sentence
 from seewhy.planning.diagnosis.diagnosis import Surprise
-from seewhy.planning.predicate_words import base_form
+from seewhy.planning.predicate_words import base_form, past
 from seewhy.planning.words import PlanningWords
 
 _ME = "\x01"
-_PAST = {"is": "was", "are": "were", "am": "was", "has": "had", "have": "had", "does": "did",
-         "do": "did", "can": "could"}  # fmt: skip
 _PLURAL = {"is": "are", "has": "have", "does": "do", "was": "were", "had": "had"}
 _VERB = re.compile(rf"^(.+?) ({'|'.join(_PLURAL)}) (.+)$")
 _SUBJECT = re.compile(rf"(^|\bthat |^perhaps ){_ME} (\w+)")
@@ -52,8 +50,7 @@ class Speech:
 
     def said(self, literal: clingo.Symbol) -> str:
         """A literal as a clause in the past tense; what never changes is said in the present."""
-        said = self.say(literal)
-        return said if literal.name in self.words.fixed else past(said)
+        return self._spoken(self.words.said(literal))
 
     def do(self, action: clingo.Symbol) -> str:
         """An action as what is to be done: "move to the kitchen"."""
@@ -87,21 +84,6 @@ class Speech:
             if clause.startswith(f"{name} "):
                 clause = name + clause[len(name) :].replace(f"{name}'s", possessive)
         return re.sub(r"\b([Aa]) (?=[aeiou])", r"\1n ", clause)
-
-
-def past(clause: str) -> str:
-    """Put a clause into the past tense, as far as its verb is known.
-
-    Examples
-    --------
-    >>> past("the kitchen is closed")
-    'the kitchen was closed'
-    """
-    words = clause.split(" ")
-    for place, word in enumerate(words):
-        if word in _PAST:
-            return " ".join([*words[:place], _PAST[word], *words[place + 1 :]])
-    return clause
 
 
 def subjunctive(clause: str) -> str:
