@@ -229,6 +229,15 @@ def test_answers_about_a_run_that_went_well(delivered: Run, question: str) -> No
 
 
 MET = {
+    "was Sally in her office?": (
+        'Yes, at step 0 I believed that Sally was in her office. That is usual: "people are in '
+        'their own office unless they are elsewhere". Since step 1 I have believed that Sally is '
+        "in the kitchen."
+    ),
+    "where was Sally?": (
+        "At step 0 I believed that Sally was in her office and since step 1 I have believed that "
+        "Sally is in the kitchen."
+    ),
     "what did you do?": (
         "I moved to the kitchen. At step 1 I found that Sally was not in her office, other "
         "than usual. I delivered the first message to Sally. The goal is reached."
@@ -548,6 +557,59 @@ CONTRASTS = {
 @pytest.mark.parametrize("question", CONTRASTS)
 def test_a_contrast_is_answered(delivered: Run, question: str) -> None:
     assert asked(delivered, question) == CONTRASTS[question]
+
+
+WAS = {
+    "was the kitchen closed?": (
+        "No, at no step did I believe that the kitchen was closed. All along I have believed that "
+        "the kitchen is open. I saw at step 3 that the kitchen was open."
+    ),
+    "were you in the kitchen?": (
+        "Yes, at step 1 I believed that I was in the kitchen. I saw at step 1 that I was in the "
+        "kitchen. Since step 2 I have believed that I am in Sally's office."
+    ),
+    "did you believe that you were in the kitchen?": (
+        "Yes, at step 1 I believed that I was in the kitchen. I saw at step 1 that I was in the "
+        "kitchen. Since step 2 I have believed that I am in Sally's office."
+    ),
+    "where were you?": (
+        "At step 0 I believed that I was in the library, at step 1 I believed that I was in the "
+        "kitchen and since step 2 I have believed that I am in Sally's office."
+    ),
+    "was Sally's location cluttered?": (
+        "Yes, since step 2 I have believed that Sally's office is cluttered. Sally's office is "
+        "cluttered because a cup, a large box and a sofa are not usually there."
+    ),
+    "did you have the first message?": (
+        "Yes, all along I have believed that I have the first message. I saw at step 3 that I had "
+        "the first message."
+    ),
+    "was the first message for Bob not delivered?": (
+        "No, at no step did I believe that the first message for Bob was delivered. All along I "
+        "have believed that the first message for Bob is undelivered. That is usual: "
+        '"messages are not yet delivered"; nothing that I know of has changed it since.'
+    ),
+    "what was closed?": "Nothing that I knew of, at any step.",
+    "what was cluttered?": (
+        "From step 0 to step 1 I knew of nothing and since step 2 I have believed that Sally's "
+        "office is cluttered."
+    ),
+    "where was the sofa?": (
+        "From step 0 to step 1 I knew of no such place and since step 2 I have believed that there "
+        "is a sofa in Sally's office."
+    ),
+    "was the bathroom cluttered?": DELIVERED["is the bathroom cluttered?"],
+    "what was your plan?": (
+        "At step 0 I planned to move to the kitchen, move to Sally's office and deliver the first "
+        "message to Sally."
+    ),
+    "what was your goal?": "My goal was that the first message for Sally is delivered.",
+}
+
+
+@pytest.mark.parametrize("question", WAS)
+def test_what_was_is_answered_with_its_steps(delivered: Run, question: str) -> None:
+    assert asked(delivered, question) == WAS[question]
 
 
 STATICS = {

@@ -35,6 +35,9 @@ _AT_FIRST = re.compile(
 )
 _CONTRAST = re.compile(r" (?:rather than|instead of|as opposed to|and not) ")
 _CONTRASTED = (Asks.WHY_DID, Asks.WHY_BELIEVE)
+_PAST = {"is": "was", "are": "were", "am": "was", "do": "did", "does": "did", "has": "had"}
+_TENSED = (Asks.IS, Asks.WHERE, Asks.CONTENTS, Asks.WHICH, Asks.PLAN, Asks.GOAL)
+"""What is asked of the past where its verb is in the past: the rest says itself when."""
 _NOT_YOU = re.compile(r"\b(do|did|would|have|are|can|could) not you\b")
 _POLITE = re.compile(
     r"^(?:please )?(?:(?:can|could|will|would|do)(?: not)?(?: you)?(?: not)?(?: please)? )?"
@@ -133,7 +136,7 @@ class PlanningQuestions:
             marked = self._things.marked(self._things.written_out(words))
             found = self._readings(marked, step and int(step.group(1)))
             if len(found) == 1:
-                return found[0]
+                return _in_its_tense(found[0], spelt.split())
             if found:
                 nearest = [f"{query.text}?" for query in found][:3]
                 raise self._refusal(f"'{said}' can be read in several ways", marked, nearest)
@@ -273,6 +276,18 @@ def _chosen(marked: Marked, chosen: Sequence[tuple[int, Thing]]) -> Iterator[str
             yield "you"
         else:
             yield word.said or word.term.replace("_", " ")
+
+
+def _in_its_tense(query: Query, words: Sequence[str]) -> Query:
+    """The query as one about the past, where the question is in the past and names no step."""
+    past = query.asks in _TENSED and query.step is None and {*_PAST.values()} & {*words}
+    if not past:
+        return query
+    said = query.text.split(" ")
+    verb = next((place for place, word in enumerate(said) if word in _PAST), None)
+    if verb is not None:
+        said[verb] = _PAST[said[verb]]
+    return replace(query, past=True, text=" ".join(said))
 
 
 def _differ(asked: Query, other: Query) -> bool:

@@ -9,13 +9,14 @@ from typing import Any
 import clingo
 
 from seewhy.knowledge.ground import complement_of, fluent_of
+from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.dialogue.belief_reason import Beliefs, tell
 from seewhy.planning.dialogue.describing import describe_place, say_counted
 from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.speech import Speech, sentences
 from seewhy.planning.dialogue.supposing import known_at
 from seewhy.planning.dialogue.whereabouts import contents as whats_at
-from seewhy.planning.dialogue.whereabouts import places, whereabouts
+from seewhy.planning.dialogue.whereabouts import place_of, places, whereabouts
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
 from seewhy.planning.planner.mutex import mutexes
@@ -65,7 +66,8 @@ class BeliefAnswers:
         if known is None:
             return sentences([*before, *self._not_known(literal, beliefs, step)]), reasons
         yes = "yes" if known == literal else "no"
-        known = self._instead(known, beliefs, step) if yes == "no" else known
+        if yes == "no":
+            known = instead_of(self.domain, known, beliefs.diagnosis.states[step])
         reasons |= {"believed": yes == "yes", "why": beliefs.why(known, step).to_dict()}
         counted = say_counted(beliefs, known, step)
         if counted is not None:
@@ -86,21 +88,6 @@ class BeliefAnswers:
         """How literals of a step are said: what is past in the past tense."""
         return self.speech.say if step == self.run.history.last_step else self.speech.said
 
-    def _instead(self, denied: clingo.Symbol, beliefs: Beliefs, step: int) -> clingo.Symbol:
-        """What is so instead of something that is not, where only one of them can be."""
-        if denied.positive:
-            return denied
-        for own in mutexes(self.domain.knowledge):
-            for literal in beliefs.diagnosis.states[step].positive(own.predicate):
-                if own.predicate == denied.name and all(
-                    one == other or place == own.position
-                    for place, (one, other) in enumerate(
-                        zip(literal.arguments, denied.arguments, strict=True)
-                    )
-                ):
-                    return literal
-        return denied
-
     def which(self, query: Query) -> Told:
         """Of what something is believed: what somebody has, what is closed."""
         beliefs, step = self._beliefs(query)
@@ -114,7 +101,7 @@ class BeliefAnswers:
         ]
         reasons = {"literals": [str(own) for own in found]}
         if not found:
-            return sentences([f"{_none(query.text)} that I know of"]), reasons
+            return sentences([f"{none_of(query.text)} that I know of"]), reasons
         now = step == self.run.history.last_step
         return sentences([(self.speech.every if now else self.speech.every_past)(found)]), reasons
 
@@ -199,11 +186,7 @@ class BeliefAnswers:
         return said if looked else f"{said}; I have not looked there"
 
     def _because(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:
-        said = self.speech.say(literal)
-        return [
-            own.replace(f"it is usual that {said}", "that is usual")
-            for own in tell(beliefs.why(literal, step), self.speech, now=self.run.history.last_step)
-        ]
+        return reason_told(beliefs, literal, step, now=self.run.history.last_step)
 
     def _beliefs(self, query: Query) -> tuple[Beliefs, int]:
         history = known_at(self.run.history, query.step)
@@ -232,11 +215,9 @@ class BeliefAnswers:
     def _place_of(
         self, thing: str, beliefs: Beliefs, step: int
     ) -> tuple[clingo.Symbol, str] | None:
-        literal = whereabouts(self.domain, beliefs.diagnosis.states[step], thing)
-        if literal is None:
-            return None
-        own = next(own for own in places(self.domain) if own.predicate == literal.name)
-        return literal, str(literal.arguments[own.place])
+        state = beliefs.diagnosis.states[step]
+        literal, place = whereabouts(self.domain, state, thing), place_of(self.domain, state, thing)
+        return None if literal is None or place is None else (literal, place)
 
     def _unknown_place(self, thing: str, beliefs: Beliefs, step: int) -> Told:
         is_me = thing == self.domain.robot
@@ -263,6 +244,43 @@ class BeliefAnswers:
         )
 
 
-def _none(question: str) -> str:
-    """What there is none of: nobody, nowhere, or nothing."""
+def none_of(question: str) -> str:
+    """What there is none of: nobody, nowhere, or nothing.
+
+    Examples
+    --------
+    >>> none_of("who works in the kitchen")
+    'nobody'
+    """
     return {"who": "nobody", "where": "nowhere"}.get(question.split()[0], "nothing")
+
+
+def reason_told(beliefs: Beliefs, literal: clingo.Symbol, step: int, *, now: int) -> list[str]:
+    """The reason of a belief as clauses, after the belief itself; ``now`` is the present step."""
+    said = beliefs.speech.say(literal)
+    told = tell(beliefs.why(literal, step), beliefs.speech, now=now)
+    return [clause.replace(f"it is usual that {said}", "that is usual") for clause in told]
+
+
+def because(beliefs: Beliefs, literal: clingo.Symbol, step: int, *, now: int) -> list[str]:
+    """The reason of a belief as clauses, or what is counted for it."""
+    counted = say_counted(beliefs, literal, step)
+    if counted is None:
+        return reason_told(beliefs, literal, step, now=now)
+    return [counted if step == now else past(counted)]
+
+
+def instead_of(domain: PlanningDomain, denied: clingo.Symbol, state: State) -> clingo.Symbol:
+    """What is so in a state instead of something that is not, where only one of them can be."""
+    if denied.positive:
+        return denied
+    for mutex in mutexes(domain.knowledge):
+        for literal in state.positive(mutex.predicate):
+            if mutex.predicate == denied.name and all(
+                one == other or place == mutex.position
+                for place, (one, other) in enumerate(
+                    zip(literal.arguments, denied.arguments, strict=True)
+                )
+            ):
+                return literal
+    return denied

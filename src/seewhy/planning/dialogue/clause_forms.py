@@ -124,8 +124,8 @@ def with_not(clause: str) -> Iterator[str]:
     ['is not {0} in {1}', 'is {0} not in {1}']
     """
     auxiliary, *rest = question_form(clause).split()
-    for place in (0, 1):
-        if place < len(rest):
+    for place in range(len(rest)):
+        if place == 0 or SLOT.fullmatch(rest[place - 1]):
             yield " ".join([auxiliary, *rest[:place], "not", *rest[place:]])
 
 

@@ -21,9 +21,10 @@ from seewhy.planning.execution.execution import Decision, Outcome
 from seewhy.planning.predicate_words import past
 
 
-def goal(view: RunView, _: Query) -> Told:
-    """What the goal is."""
-    said = f"My goal is that {say_goal(view.run.goal, view.domain, view.speech)}."
+def goal(view: RunView, query: Query) -> Told:
+    """What the goal is, or was."""
+    wish = say_goal(view.run.goal, view.domain, view.speech)
+    said = f"My goal {'was' if query.past else 'is'} that {wish}."
     return said, {"goal": view.run.goal.text}
 
 
@@ -35,6 +36,17 @@ def plan(view: RunView, query: Query) -> Told:
         had = f"to {say_actions(then.plan, speech)}" if then.plan else "to do nothing more"
         was = f"at step {query.step} my plan was {had}"
         return sentences([was]), {"actions": [str(action) for action in then.plan]}
+    if query.past and run.plans:
+        made = [
+            f"at step {step.number} I planned to {say_actions(step.plan, speech)}"
+            for step in run.plans
+        ]
+        return sentences(made), {
+            "plans": [
+                {"step": step.number, "actions": [str(action) for action in step.plan]}
+                for step in run.plans
+            ]
+        }
     if run.outcome is Outcome.ACHIEVED:
         return "I have no plan any more: the goal is reached.", {"actions": []}
     if run.outcome is Outcome.IMPOSSIBLE:

@@ -50,6 +50,8 @@ class Query:
     whose : int or None
         The argument that stands for the place of the thing: "Sally's location".
     step : int or None
+    past : bool
+        Whether it is asked what was so, of no step in particular.
     foil : Query or None
         What it is contrasted with: "rather than on the table".
     """
@@ -61,6 +63,7 @@ class Query:
     positive: bool = True
     whose: int | None = None
     step: int | None = None
+    past: bool = False
     foil: Query | None = None
 
     def symbol(self) -> clingo.Symbol:
@@ -76,5 +79,6 @@ class Query:
             "text": self.text,
             "about": None if self.predicate is None else str(self.symbol()),
             "step": self.step,
+            "past": self.past,
             "rather_than": None if self.foil is None else str(self.foil.symbol()),
         }

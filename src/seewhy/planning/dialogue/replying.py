@@ -11,6 +11,7 @@ from seewhy.planning.dialogue import (
     action_answers,
     change_answers,
     course_answers,
+    past_answers,
     supposed_answers,
 )
 from seewhy.planning.dialogue.asking import PlanningQuestions
@@ -32,6 +33,12 @@ _ABOUT_RUN: Mapping[Asks, Callable[[RunView, Query], Told]] = {
     Asks.WHY_NOT: action_answers.why_not,
     Asks.WHAT_IF: supposed_answers.what_if,
     Asks.WHY_CHANGED: change_answers.why_changed,
+}
+_IN_THE_PAST: Mapping[Asks, Callable[[RunView, Query], Told]] = {
+    Asks.IS: past_answers.was_so,
+    Asks.WHERE: past_answers.where_was,
+    Asks.CONTENTS: past_answers.which_were,
+    Asks.WHICH: past_answers.which_were,
 }
 
 
@@ -138,6 +145,11 @@ class RunAnswers:
         return PlanningReply(text, query, reasons)
 
     def _believed(self, query: Query) -> Told:
+        fixed = self.view.domain.words.fixed
+        if query.past and query.asks in _IN_THE_PAST and query.predicate not in fixed:
+            text, reasons = _IN_THE_PAST[query.asks](self.view, query)
+            if text:
+                return text, reasons
         about_beliefs: dict[Asks, Callable[[Query], Told]] = {
             Asks.IS: self.beliefs.is_so,
             Asks.WHERE: self.beliefs.where,

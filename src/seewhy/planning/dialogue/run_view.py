@@ -8,6 +8,7 @@ from functools import cached_property
 import clingo
 
 from seewhy.knowledge.history import History
+from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.diagnosis.diagnosis import SurpriseKind, diagnose
 from seewhy.planning.dialogue.action_reason import Intentions
 from seewhy.planning.dialogue.query import Query
@@ -46,6 +47,15 @@ class RunView:
         """The run's step where it has one of this number, else what would be decided there."""
         found = next((step for step in self.run.steps if step.number == number), None)
         return found or self.decided(known_at(self.run.history, number))
+
+    def believed(self, number: int) -> State:
+        """What was believed at a step, as of then."""
+        found = next((step for step in self.run.steps if step.number == number), None)
+        if found is not None:
+            return found.believed
+        history = known_at(self.run.history, number)
+        errors = self.domain.sensors_err
+        return diagnose(self.domain.knowledge, history, last=number, sensors_err=errors).now
 
     def asked(self, query: Query) -> Step:
         """The step that a question about an action is about."""
