@@ -21,6 +21,7 @@ from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.history import History, read_history_file
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.signature import PredicateKind
+from seewhy.planning.actors import actor_places
 from seewhy.planning.execution.sensing import Sensing, SensingError, read_sensing
 from seewhy.planning.tables import MapTable, PlanningFile, SimulationTable
 from seewhy.planning.words import PlanningWords
@@ -232,6 +233,7 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
             table.planning.robot,
             possessives=table.possessives,
             statics=table.statics,
+            actors=actor_places(knowledge.signature, table.actions, robot=table.planning.robot),
             fixed=frozenset(
                 name
                 for name, predicate in knowledge.signature.predicates.items()

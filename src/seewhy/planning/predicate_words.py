@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["PREPOSITIONS", "base_form", "named_clause", "past", "past_clause"]
+__all__ = ["PREPOSITIONS", "base_form", "named_clause", "past", "past_clause", "past_form"]
 
 _PAST = {"is": "was", "are": "were", "am": "was", "has": "had", "have": "had", "does": "did",
          "do": "did", "can": "could"}  # fmt: skip
@@ -97,9 +97,19 @@ def past_clause(clause: str) -> str:
     found = _VERB.match(clause)
     if said != clause or found is None or not _is_verb(found.group(2)):
         return said
-    verb = base_form(found.group(2))
+    return f"{found.group(1)} {past_form(base_form(found.group(2)))}{clause[found.end() :]}"
+
+
+def past_form(verb: str) -> str:
+    """Return a verb, without ending, in the past tense.
+
+    Examples
+    --------
+    >>> past_form("press"), past_form("move"), past_form("carry"), past_form("give")
+    ('pressed', 'moved', 'carried', 'gave')
+    """
     regular = f"{verb[:-1]}ied" if re.search("[^aeiou]y$", verb) else f"{verb.removesuffix('e')}ed"
-    return f"{found.group(1)} {_IRREGULAR.get(verb, regular)}{clause[found.end() :]}"
+    return _IRREGULAR.get(verb, regular)
 
 
 def _is(subject: str, words: list[str]) -> tuple[str, str]:

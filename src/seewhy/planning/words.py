@@ -10,7 +10,7 @@ import clingo
 
 from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis.diagnosis import Surprise, SurpriseKind
-from seewhy.planning.predicate_words import named_clause, past_clause
+from seewhy.planning.predicate_words import named_clause, past_clause, past_form
 from seewhy.planning.tables import ActionTable, FluentTable
 
 _SLOT = re.compile(r"\{(\d+)\}")
@@ -20,7 +20,8 @@ _SLOT = re.compile(r"\{(\d+)\}")
 class PlanningWords:
     """The words of planning.toml; what it leaves out is said by its name.
 
-    ``fixed`` names the statics, whether or not there are words for them.
+    ``fixed`` names the statics, whether or not there are words for them; ``actors`` says which
+    argument of an action is whoever does it.
 
     Examples
     --------
@@ -38,6 +39,7 @@ class PlanningWords:
     possessives: Mapping[str, str] = field(default_factory=dict)
     statics: Mapping[str, FluentTable] = field(default_factory=dict)
     fixed: frozenset[str] = frozenset()
+    actors: Mapping[str, int] = field(default_factory=dict)
 
     def name(self, term: clingo.Symbol | str) -> str:
         """How a thing is called."""
@@ -76,8 +78,20 @@ class PlanningWords:
         clause = clause if literal.name in self.fixed else past_clause(clause)
         return self._filled(clause, literal.arguments)
 
+    def actor(self, action: clingo.Symbol) -> str | None:
+        """Whoever does an action, where it is another than the robot that speaks."""
+        place = self.actors.get(action.name)
+        if place is None or str(action.arguments[place]) == self.robot:
+            return None
+        return str(action.arguments[place])
+
     def do(self, action: clingo.Symbol) -> str:
-        """An action as what is to be done: "move to the kitchen"."""
+        """An action as what is to be done: "move to the kitchen", "let the other robot move"."""
+        actor, act = self.actor(action), self.act(action)
+        return act if actor is None else f"let {self.name(actor)} {act}"
+
+    def act(self, action: clingo.Symbol) -> str:
+        """An action as what whoever does it is to do: "move to the kitchen"."""
         table = self.actions.get(action.name)
         if table is None:
             return _plain(action, self)
@@ -86,14 +100,18 @@ class PlanningWords:
     def did(self, action: clingo.Symbol) -> str:
         """An action as what was done, "moved to the kitchen", or what happened as a clause."""
         table = self.actions.get(action.name)
-        return _plain(action, self) if table is None else self._filled(table.did, action.arguments)
+        if table is None:
+            verb, *rest = _plain(action, self).split(" ")
+            return " ".join([past_form(verb), *rest])
+        return self._filled(table.did, action.arguments)
 
     def happened(self, action: clingo.Symbol) -> str:
         """What was done or happened as a clause: "the robot moved to the kitchen"."""
         table = self.actions.get(action.name)
         if table is None or table.do is None:
             return self.did(action)
-        return f"{self.name(self.robot) if self.robot else 'the robot'} {self.did(action)}"
+        actor = self.actor(action) or self.robot
+        return f"{self.name(actor) if actor else 'the robot'} {self.did(action)}"
 
     def surprise(self, surprise: Surprise) -> str:
         """What a diagnosis assumes, as a clause: "Sally was not in the kitchen at first"."""
@@ -112,10 +130,10 @@ class PlanningWords:
         return _SLOT.sub(lambda slot: self.name(arguments[int(slot.group(1))]), text)
 
 
-def _plain(literal: clingo.Symbol, words: PlanningWords) -> str:
-    about = ", ".join(map(words.name, literal.arguments))
-    said = literal.name.replace("_", " ") + (f" ({about})" if about else "")
-    return said if literal.positive else f"not: {said}"
+def _plain(action: clingo.Symbol, words: PlanningWords) -> str:
+    about = ", ".join(map(words.name, action.arguments))
+    about = f"({about})" if len(action.arguments) > 1 else about
+    return " ".join(filter(None, [action.name.replace("_", " "), about]))
 
 
 def in_sequence(parts: Iterable[str]) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 import clingo
 
-from seewhy.domain.wording import join_words
+from seewhy.domain.wording import join_words, sentence
 from seewhy.planning.dialogue.action_reason import Against, Removed
 from seewhy.planning.dialogue.action_words import (
     actions_asked,
@@ -15,7 +15,7 @@ from seewhy.planning.dialogue.action_words import (
     needs_values,
     obstacle_values,
     say_actions,
-    say_asked,
+    say_not_done,
     say_obstacle,
 )
 from seewhy.planning.dialogue.clause_forms import gerund
@@ -33,7 +33,7 @@ def why_did(view: RunView, query: Query) -> Told:
     chosen = [step for step in done if query.step in (None, step.number)]
     speech = view.speech
     if not chosen:
-        asked = f"I did not {say_asked(view, query)}"
+        asked = say_not_done(view, query)
         if done:
             when = join_words([str(step.number) for step in done])
             asked = f"{asked} at step {query.step}, but at step {when}"
@@ -43,8 +43,8 @@ def why_did(view: RunView, query: Query) -> Told:
     assert action is not None
     needs = view.intentions.needs(step)
     tried = (step.number, action) in view.failures
-    did = f"tried to {speech.do(action)}" if tried else speech.did(action)
-    beginning = f"I {did} at step {step.number}"
+    did = f"tried to {speech.act(action)}" if tried else speech.did(action)
+    beginning = f"{speech.subject(action)} {did} at step {step.number}"
     reasons = {
         "step": step.number,
         "action": str(action),
@@ -102,24 +102,24 @@ def why_not(view: RunView, query: Query) -> Told:
         "obstacles": [obstacle_values(applied) for applied in why.obstacles],
         "actions": [str(planned) for planned in why.actions],
     }
-    do = view.speech.do(action)
+    who, act = view.speech.subject(action), view.speech.act(action)
     many = count_actions(len(why.actions))
     if why.against is Against.DONE:
-        said = f"but I did {do} {when}"
+        said = f"but {who} did {act} {when}"
     elif why.against is Against.OBSTACLE:
         obstacle = say_obstacle(why.obstacles, view.speech)
-        said = ": ".join(filter(None, [f"I could not {do} {when}", obstacle]))
+        said = ": ".join(filter(None, [f"{who} could not {act} {when}", obstacle]))
     elif step.decision is Decision.STOP:
         said = "there was nothing left to do: the goal was reached"
     elif why.against is Against.NO_PLAN:
         said = (
-            f"I could have, but had I {view.speech.did(action)} {when}, the goal could not have "
-            "been reached any more"
+            f"{who} could have, but had {who} {view.speech.did(action)} {when}, the goal could "
+            "not have been reached any more"
         )
     elif step.decision is Decision.GIVE_UP:
-        said = f"I could have: the goal can be reached by {many}"
+        said = f"{who} could have: the goal can be reached by {many}"
     elif why.against is Against.AS_GOOD:
-        said = f"I could have as well: that plan has {many} too"
+        said = f"{who} could have as well: that plan has {many} too"
     else:
         said = (
             f"the plan would have been longer: {many} ({say_actions(why.actions, view.speech)}) "
@@ -139,9 +139,10 @@ def rather_than(view: RunView, query: Query, foil: Query, reasons: dict[str, Any
         foil = replace(foil, arguments=tuple(asked or str(term) for asked, term in named))
     foil = replace(foil, asks=Asks.WHY_NOT, step=reasons["step"])
     text, against = why_not(view, foil)
-    do = view.speech.do(clingo.parse_term(against["action"]))
+    other = clingo.parse_term(against["action"])
+    do, who = view.speech.do(other), sentence(view.speech.subject(other)).removesuffix(".")
     if against["against"] == Against.LONGER.value:
         text = text.replace("The plan would", f"Had I chosen to {do}, the plan would", 1)
     elif against["against"] == Against.AS_GOOD.value:
-        text = text.replace("I could have as well", f"I could as well have chosen to {do}", 1)
+        text = text.replace(f"{who} could have as well", f"I could as well have chosen to {do}", 1)
     return text, against

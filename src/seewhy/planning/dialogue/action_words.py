@@ -105,17 +105,30 @@ def say_supposed(view: RunView, step: Step) -> str:
     return view.speech.every([literal for literal in needed if literal.positive] or needed)
 
 
-def say_asked(view: RunView, query: Query) -> str:
-    """The action that a question is about as what is to be done."""
-    if re.match(r"(why )?(did|do|have|are) you", query.text) is None:
-        # Of "why on the table", what is to be done to anything.
-        terms = [clingo.parse_term(argument or '"anything"') for argument in query.arguments]
-        return view.speech.do(clingo.Function(query.predicate or "", terms))
-    named = re.sub(r"^(why )?(did|do|have|are) you (not )?", "", query.text)
-    if query.text.startswith("why are you "):
-        # Of "are you moving", what is to be done.
-        return view.speech.do(actions_asked(view, query)[0])
-    return re.sub(r" at step \d+$", "", named)
+def say_not_done(view: RunView, query: Query, *, have: bool = False) -> str:
+    """That an action was not done, and which other robot did it where one did."""
+    terms = [clingo.parse_term(argument or '"anything"') for argument in query.arguments]
+    action = clingo.Function(query.predicate or "", terms)
+    said = f"{view.speech.subject(action)} {_negated(view, query, action, have=have)}"
+    others = view.done_by_others(query)
+    if not others or query.step is not None:
+        return said
+    last = others[-1]
+    assert last.action is not None
+    return f"{said}; {view.speech.subject(last.action)} did at step {last.number}"
+
+
+def _negated(view: RunView, query: Query, action: clingo.Symbol, *, have: bool) -> str:
+    third = "has" if view.speech.subject(action) != "I" else "have"
+    if re.match(r"(why )?(did|do|have) you ", query.text) and None in query.arguments:
+        # Of "have you delivered the message", what was named alone.
+        named = re.sub(r"^(why )?(did|do|have) you (not )?", "", query.text)
+        named = re.sub(r" at step \d+$", "", named)
+    elif have:
+        named = view.speech.did(action)
+    else:
+        named = view.speech.act(action)
+    return f"{third if have else 'did'} not {named}"
 
 
 def actions_asked(view: RunView, query: Query) -> list[clingo.Symbol]:

@@ -164,7 +164,12 @@ class PlanningQuestions:
         self, template: Template, marked: Marked
     ) -> Iterator[tuple[tuple[int, Thing], ...]]:
         """The ways to fill the slots with things of the question, in their order."""
-        things = [(place, thing) for place, thing in enumerate(marked) if isinstance(thing, Thing)]
+        things = [
+            (place, thing)
+            for place, thing in enumerate(marked)
+            # What "you" did is asked without a name.
+            if isinstance(thing, Thing) and not (thing.acts and template.asks is Asks.DONE)
+        ]
         for chosen in islice(combinations(things, len(template.slots)), _MOST_READINGS):
             if all(
                 template.sorts[slot] in (self._things.located if thing.located else thing.sorts)
@@ -180,14 +185,10 @@ class PlanningQuestions:
         for slot, (_, thing) in zip(template.slots, chosen, strict=True):
             arguments[slot] = thing.term
             whose = slot if thing.located else whose
-        robot = self.domain.robot
-        if robot is not None and self._is_action(template):
+        actor = self.domain.words.actors.get(template.predicate or "")
+        if actor is not None and arguments[actor] is None:
             # Whoever is asked is the one who acts.
-            acting = self._things.sorts[robot]
-            arguments = [
-                robot if argument is None and template.sorts[place] in acting else argument
-                for place, argument in enumerate(arguments)
-            ]
+            arguments[actor] = self.domain.robot
         filling = zip(template.slots, chosen, strict=True)
         text = self._filled(template, {slot: thing for slot, (_, thing) in filling})
         when = "" if step is None else f" at step {step}"
@@ -200,10 +201,6 @@ class PlanningQuestions:
             whose=whose,
             step=step,
         )
-
-    def _is_action(self, template: Template) -> bool:
-        predicate = self.domain.knowledge.signature.predicates.get(template.predicate or "")
-        return predicate is not None and predicate.kind.is_action
 
     def _filled(self, template: Template, things: dict[int, Thing]) -> str:
         things = dict(things)

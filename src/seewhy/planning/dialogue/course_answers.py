@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from itertools import groupby
 from typing import Any
+
+import clingo
 
 from seewhy.domain.wording import join_words
 from seewhy.planning.diagnosis.diagnosis import SurpriseKind
 from seewhy.planning.dialogue.action_words import (
     say_actions,
-    say_asked,
     say_end,
     say_gave_up,
+    say_not_done,
     say_supposed,
 )
 from seewhy.planning.dialogue.goal_words import say_goal
@@ -69,8 +72,9 @@ def done(view: RunView, query: Query) -> Told:
     run, speech = view.run, view.speech
     said: list[str] = []
     events: list[dict[str, Any]] = []
-    did: list[str] = []
+    did: list[tuple[str, str]] = []
     asked = [step for step in run.steps if query.step in (None, step.number)]
+    whose = query.arguments[0] if query.arguments else None
     for step in asked:
         noticed = [
             past(speech.surprise(surprise))
@@ -81,19 +85,22 @@ def done(view: RunView, query: Query) -> Told:
             said += _did(did)
             did = []
             said.append(f"at step {step.number} I found that {join_words(noticed)}")
-        if step.action is not None:
+        if step.action is not None and whose in (None, _actor(view, step.action)):
             failed = (step.number, step.action) in view.failures
             events.append({"step": step.number, "action": str(step.action), "failed": failed})
-            tried = f"tried to {speech.do(step.action)} and failed"
-            did.append(tried if failed else speech.did(step.action))
+            tried = f"tried to {speech.act(step.action)} and failed"
+            done_so = tried if failed else speech.did(step.action)
+            did.append((speech.subject(step.action), done_so))
     said += _did(did)
     if query.step is not None and asked and not asked[-1].action:
         return sentences([*said, say_end(run, speech)]), {"actions": events}
     if query.step is not None and asked:
         return sentences(said), {"actions": events}
     if not events:
-        nothing = run.outcome is None
-        said.append("I have not done anything yet" if nothing else "I did not do anything")
+        who = "I" if whose in (None, view.domain.robot) else speech.name(whose)
+        have = "have" if who == "I" else "has"
+        yet = run.outcome is None
+        said.append(f"{who} {have} not done anything yet" if yet else f"{who} did not do anything")
     said.append(say_end(run, speech))
     return sentences(said), {"actions": events}
 
@@ -105,17 +112,18 @@ def did_so(view: RunView, query: Query) -> Told:
     reasons = {"steps": [step.number for step in worked]}
     if not tried:
         when = "" if query.step is None else f" at step {query.step}"
-        have = "have" if query.text.startswith("have ") else "did"
-        return sentences([f"no, I {have} not {say_asked(view, query)}{when}"]), reasons
+        have = query.text.startswith(("have ", "has "))
+        return sentences([f"no, {say_not_done(view, query, have=have)}{when}"]), reasons
     steps = worked or tried
     numbers = join_words([str(step.number) for step in steps])
     when = f"at step{'s' * (len(steps) > 1)} {numbers}"
     action = steps[-1].action
     assert action is not None
+    who = view.speech.subject(action)
     if not worked:
-        failed = f"no, I tried to {view.speech.do(action)} {when} and failed"
+        failed = f"no, {who} tried to {view.speech.act(action)} {when} and failed"
         return sentences([failed]), reasons
-    return sentences([f"yes, I {view.speech.did(action)} {when}"]), reasons
+    return sentences([f"yes, {who} {view.speech.did(action)} {when}"]), reasons
 
 
 def has_ended(view: RunView, _: Query) -> Told:
@@ -143,5 +151,13 @@ def why_ended(view: RunView, query: Query) -> Told:
     return sentences(["I did not" if gave_up else "", say_end(view.run, view.speech)]), reasons
 
 
-def _did(did: list[str]) -> list[str]:
-    return [f"I {join_words(did)}"] if did else []
+def _did(did: list[tuple[str, str]]) -> list[str]:
+    """What was done as clauses, one for what the same robot did one after the other."""
+    return [
+        f"{who} {join_words([done_so for _, done_so in same])}"
+        for who, same in groupby(did, key=lambda pair: pair[0])
+    ]
+
+
+def _actor(view: RunView, action: clingo.Symbol) -> str | None:
+    return view.speech.words.actor(action) or view.domain.robot

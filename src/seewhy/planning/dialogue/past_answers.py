@@ -51,8 +51,8 @@ def was_so(view: RunView, query: Query) -> Told:
         shown = asked[-1]
         said = [f"yes, {join_words([_when_believed(view, span) for span in asked])}"]
         beliefs = Beliefs(view.domain, known_at(view.run.history, shown.last))
-        literal, now = shown.believed[0], view.run.history.last_step
-        rest = because(beliefs, literal, shown.last, now=now)
+        present = view.run.history.last_step
+        rest = because(beliefs, shown.believed[0], shown.last, now=present)
         if spans[-1] is not shown:
             rest.append(_since(view, query))
         return sentences([*said, *rest]), _reasons(spans, believed=True)

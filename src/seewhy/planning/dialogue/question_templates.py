@@ -118,6 +118,9 @@ def _templates(domain: PlanningDomain) -> Iterator[Template]:
                 yield _template(Asks.WHAT_IF, text, predicate)
         elif predicate.kind is PredicateKind.ACTION:
             yield from _about_an_action(predicate, table)
+            actor = domain.words.actors.get(predicate.name)
+            if actor is not None and table is not None:
+                yield from _about_another_robot(domain, predicate, actor)
 
 
 def _template(asks: Asks, text: str, about: Predicate, *, positive: bool = True) -> Template:
@@ -200,6 +203,30 @@ def _about_an_action(predicate: Predicate, table: ActionTable | None) -> Iterato
         yield _template(Asks.WHY_DID, f"why {place}", predicate)
     for text in _if_it_happened(do, table):
         yield _template(Asks.WHAT_IF, text, predicate)
+
+
+def _about_another_robot(
+    domain: PlanningDomain, predicate: Predicate, actor: int
+) -> Iterator[Template]:
+    """The questions about an action that name whoever does it, where there are several."""
+    sort = predicate.sorts[actor]
+    table = domain.words.actions[predicate.name]
+    if len(domain.knowledge.signature.members(sort)) < 2 or table.do is None:
+        return
+    who = f"{{{actor}}}"
+    for asks, text in (
+        (Asks.WHY_DID, f"why did {who} {table.do}"),
+        (Asks.WHY_DID, f"why is {who} {gerund(table.do)}"),
+        (Asks.WHY_NOT, f"why did {who} not {table.do}"),
+        (Asks.WHY_NOT, f"why does {who} not {table.do}"),
+        (Asks.WHY_NOT, f"why can {who} not {table.do}"),
+        (Asks.DID, f"did {who} {table.do}"),
+        (Asks.DID, f"has {who} {table.did}"),
+        *((Asks.WHAT_IF, f"{beginning} {who} {table.did}") for beginning in _SUPPOSING),
+    ):
+        yield _template(asks, text, predicate)
+    for text in ("what did {0} do", "what has {0} done"):
+        yield Template(Asks.DONE, text, arity=1, sorts=(sort,))
 
 
 def _if_it_happened(do: str | None, table: ActionTable | None) -> Iterator[str]:

@@ -14,6 +14,7 @@ from seewhy.planning.dialogue import (
     past_answers,
     supposed_answers,
 )
+from seewhy.planning.dialogue.addressing import addressed, as_asked
 from seewhy.planning.dialogue.asking import PlanningQuestions
 from seewhy.planning.dialogue.belief_answers import BeliefAnswers
 from seewhy.planning.dialogue.query import Asks, Query, Told
@@ -112,19 +113,26 @@ class RunAnswers:
         domain = replace(domain, seen_by_networks=run.sensors_err)
         run = recalled(domain, run)
         self.run = run
+        self._domain = domain
+        self._others: dict[str, RunAnswers] = {}
         self.questions = PlanningQuestions(domain)
         self.view = RunView(domain, run)
         self.beliefs = BeliefAnswers(domain, run)
 
     def answer(self, question: str) -> PlanningReply:
-        """Answer a question in words.
+        """Answer a question in words; where it begins or ends with a robot's name, as that robot.
 
         Raises
         ------
         QuestionError
             As :func:`answer`.
         """
-        return self.reply(self.questions.understand(question))
+        other, rest = addressed(self._domain, question)
+        if other is None or other == self._domain.robot:
+            return self.reply(self.questions.understand(rest))
+        if other not in self._others:
+            self._others[other] = RunAnswers(as_asked(self._domain, other), self.run)
+        return self._others[other].answer(rest)
 
     def reply(self, query: Query) -> PlanningReply:
         """Answer a question that was understood."""

@@ -61,7 +61,7 @@ class RunView:
         """The step that a question about an action is about."""
         if query.step is not None:
             return self.at(query.step)
-        if query.text.startswith(("why do ", "why can ", "why not ")):
+        if query.text.startswith(("why do ", "why does ", "why can ", "why not ")):
             return self.present
         acting = [step for step in self.run.steps if step.action is not None]
         same = [step for step in acting if step.action and step.action.name == query.predicate]
@@ -72,6 +72,14 @@ class RunView:
         return [
             step for step in self.run.steps if step.action is not None and fits(query, step.action)
         ]
+
+    def done_by_others(self, query: Query) -> list[Step]:
+        """The steps at which another robot did what is asked of one."""
+        actor = self.domain.words.actors.get(query.predicate or "")
+        if actor is None:
+            return []
+        anybody = [None if place == actor else one for place, one in enumerate(query.arguments)]
+        return self.done(replace(query, arguments=tuple(anybody)))
 
     def decided(self, history: History) -> Step:
         """What would be decided after a history."""

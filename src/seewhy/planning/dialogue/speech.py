@@ -60,10 +60,20 @@ class Speech:
         """An action as what was done: "moved to the kitchen"."""
         return self._spoken(self.words.did(action))
 
+    def act(self, action: clingo.Symbol) -> str:
+        """An action as what whoever does it is to do."""
+        return self._spoken(self.words.act(action))
+
+    def subject(self, action: clingo.Symbol) -> str:
+        """Whoever does an action: "I", or another robot by its name."""
+        actor = self.words.actor(action)
+        return "I" if actor is None else self.name(actor)
+
     def happened(self, action: clingo.Symbol) -> str:
         """What was done or happened as a clause: "I moved to the kitchen", "Bob walked away"."""
         table = self.words.actions.get(action.name)
-        return self.did(action) if table and table.do is None else f"I {self.did(action)}"
+        happened = table is not None and table.do is None
+        return self.did(action) if happened else f"{self.subject(action)} {self.did(action)}"
 
     def surprise(self, surprise: Surprise) -> str:
         """What a diagnosis assumes, as a clause."""
