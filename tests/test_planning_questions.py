@@ -734,6 +734,12 @@ def test_a_recorded_history_is_asked_as_its_run_is(delivered: Run, question: str
     assert asked(recorded, question) == asked(delivered, question)
 
 
+@pytest.mark.parametrize("question", LOST)
+def test_a_record_tells_why_its_plan_changed(lost: Run, question: str) -> None:
+    recorded = Run(TO_SALLY, read_history(str(lost.history), OFFICE.knowledge.signature))
+    assert asked(recorded, question) == LOST[question]
+
+
 @pytest.fixture(scope="module")
 def tower() -> tuple[PlanningDomain, Run]:
     domain = load_planning_domain("tower_building")

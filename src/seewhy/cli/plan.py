@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,6 +10,14 @@ import typer
 
 from seewhy.cli.options import DomainName, Json
 from seewhy.cli.robot import Learned, Without, with_knowledge_of_robot
+from seewhy.cli.run_questions import (
+    Ask,
+    Chat,
+    ask_all,
+    exit_if_not_understood,
+    show_answers,
+    talk,
+)
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -45,15 +54,23 @@ def plan(
         Path | None,
         typer.Option("--pddl", help="Also write domain.pddl and problem.pddl to this folder."),
     ] = None,
+    ask: Ask = None,
+    chat: Chat = False,
     learned: Learned = None,
     without: Without = None,
     json: Json = False,
 ) -> None:
-    """Find a shortest plan to a goal."""
+    """Find a shortest plan to a goal, and answer questions about it.
+
+    With --history, what was done so far can be asked about like a run: --history takes what
+    'seewhy simulate --record' writes.
+    """
     from seewhy.knowledge.ground_literal import read_ground_literal
     from seewhy.knowledge.history import read_history_file
     from seewhy.planning.diagnosis.diagnosis import diagnose
+    from seewhy.planning.dialogue.replying import RunAnswers
     from seewhy.planning.domain import load_planning_domain
+    from seewhy.planning.execution.execution import Run
     from seewhy.planning.execution.plan_monitoring import suppositions
     from seewhy.planning.goal import read_goal
     from seewhy.planning.planner.pddl import to_pddl
@@ -73,12 +90,19 @@ def plan(
     supposed: tuple[Symbol, ...] = ()
     if found.settles(known.now):
         supposed = suppositions(knowledge, aim, found.actions, start=known.now)
+    answers = RunAnswers(replace(own, horizon=most), Run(aim, past)) if ask or chat else None
+    asked = [] if answers is None else ask_all(answers, ask)
     if json:
-        print_json(_to_dict(found, goal, supposed))
+        replies = {"replies": [one.to_dict() for one in asked]} if ask else {}
+        print_json({**_to_dict(found, goal, supposed), **replies}, lines=not chat)
     else:
         for surprise in known.surprises:
             say(f"It must be that {own.words.surprise(surprise)}.")
         _show(found, own.words, supposed)
+        show_answers(asked)
+    if chat and answers is not None:
+        talk(answers, json=json)
+    exit_if_not_understood(asked)
     if not found.found:
         raise typer.Exit(1)
 

@@ -7,10 +7,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from seewhy.cli.conversation import converse
 from seewhy.cli.options import DomainName, Json, Seed
 from seewhy.cli.plan import GoalText
 from seewhy.cli.robot import Learned, Without, robot_options, with_knowledge_of_robot
+from seewhy.cli.run_questions import (
+    Ask,
+    Chat,
+    ask_all,
+    exit_if_not_understood,
+    show_answers,
+    talk,
+)
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -34,14 +41,8 @@ def simulate(
     out: Annotated[
         Path | None, typer.Option("--out", help="Also write the run to this .html file.")
     ] = None,
-    ask: Annotated[
-        list[str] | None,
-        typer.Option("--ask", help="A question about the run; may be given several times."),
-    ] = None,
-    chat: Annotated[
-        bool,
-        typer.Option("--chat", help="Afterwards answer questions about the run from the input."),
-    ] = False,
+    ask: Ask = None,
+    chat: Chat = False,
     record: Annotated[
         Path | None,
         typer.Option("--record", help="Also write what was seen and done to this .al file."),
@@ -88,15 +89,14 @@ def simulate(
         raise KeyboardInterrupt
     run = last.run
     answers = RunAnswers(own, run)
-    replies = [answers.answer(question) for question in ask or ()]
+    asked = ask_all(answers, ask)
     if json:
-        told = {**_to_dict(last, goal, seed), "replies": [own.to_dict() for own in replies]}
+        told = {**_to_dict(last, goal, seed), "replies": [one.to_dict() for one in asked]}
         print_json(told, lines=not chat)
     else:
         say(narrate_end(run))
         say(f"In truth it {'is' if last.achieved else 'is not'} reached.")
-        for question, reply in zip(ask or (), replies, strict=True):
-            say(f"\n{question}\n{reply.text}")
+        show_answers(asked)
     command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
     command += "" if model is None else f" --model {model}"
     command += robot_options(learned=learned, without=without)
@@ -107,11 +107,10 @@ def simulate(
         write_whole(out, run_page(own, last, command=command))
         remark(f"the run with its map is in {out}")
     if chat:
-        greeting = [f"  {question}" for question in answers.questions.examples()]
-        greeting = ["Ask about the run, for instance:", *greeting, "An empty line ends."]
-        converse(answers.answer, greeting=greeting, json=json)
+        talk(answers, json=json)
     if interrupted:
         raise KeyboardInterrupt
+    exit_if_not_understood(asked)
     if not last.achieved:
         raise typer.Exit(1)
 
