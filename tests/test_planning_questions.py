@@ -71,6 +71,11 @@ def office_run(
 
 
 @pytest.fixture(scope="module")
+def not_begun() -> Run:
+    return Run(TO_SALLY, OFFICE.history)
+
+
+@pytest.fixture(scope="module")
 def delivered(transitions: Transitions) -> Run:
     return office_run(transitions, *CLUTTER)
 
@@ -223,11 +228,6 @@ DELIVERED = {
 }
 
 
-@pytest.mark.parametrize("question", DELIVERED)
-def test_answers_about_a_run_that_went_well(delivered: Run, question: str) -> None:
-    assert asked(delivered, question) == DELIVERED[question]
-
-
 MET = {
     "was Sally in her office?": (
         'Yes, at step 0 I believed that Sally was in her office. That is usual: "people are in '
@@ -251,11 +251,6 @@ MET = {
         "Sally is in the kitchen. I saw at step 2 that Sally was in the kitchen."
     ),
 }
-
-
-@pytest.mark.parametrize("question", MET)
-def test_answers_after_somebody_was_met_on_the_way(met: Run, question: str) -> None:
-    assert asked(met, question) == MET[question]
 
 
 LOST = {
@@ -285,11 +280,6 @@ LOST = {
 }
 
 
-@pytest.mark.parametrize("question", LOST)
-def test_answers_after_a_message_was_lost(lost: Run, question: str) -> None:
-    assert asked(lost, question) == LOST[question]
-
-
 SHUT_IN = {
     "what did you do?": (
         "I did not do anything. I gave up: the goal could not be reached, since Bob's office, "
@@ -308,11 +298,6 @@ SHUT_IN = {
         "deliver the first message to Sally."
     ),
 }
-
-
-@pytest.mark.parametrize("question", SHUT_IN)
-def test_answers_after_giving_up(shut_in: Run, question: str) -> None:
-    assert asked(shut_in, question) == SHUT_IN[question]
 
 
 BEFORE = {
@@ -359,11 +344,6 @@ SUPPOSED_EVENTS = {
 }
 
 
-@pytest.mark.parametrize("question", SUPPOSED_EVENTS)
-def test_events_and_actions_can_be_supposed(question: str) -> None:
-    assert asked(Run(TO_SALLY, OFFICE.history), question) == SUPPOSED_EVENTS[question]
-
-
 # None of these words is known; without them, each is a question that says the opposite.
 OPPOSITE = (
     "what would you do if the robot dropped the first message?",
@@ -382,11 +362,6 @@ OPPOSITE = (
 def test_a_word_that_is_not_known_is_never_passed_over(delivered: Run, question: str) -> None:
     with pytest.raises(QuestionError, match="is not understood"):
         answer(OFFICE, delivered, question)
-
-
-@pytest.mark.parametrize("question", BEFORE)
-def test_answers_before_anything_was_done(question: str) -> None:
-    assert asked(Run(TO_SALLY, OFFICE.history), question) == BEFORE[question]
 
 
 @pytest.fixture(scope="module")
@@ -419,11 +394,6 @@ BEGUN = {
         "message to Sally and move to the kitchen."
     ),
 }
-
-
-@pytest.mark.parametrize("question", BEGUN)
-def test_answers_while_a_run_goes_on(begun: Run, question: str) -> None:
-    assert asked(begun, question) == BEGUN[question]
 
 
 def failed_once(transitions: Transitions) -> Run:
@@ -464,11 +434,6 @@ FAILED = {
         "Yes, I was in the kitchen. I saw at step 2 that I was in the kitchen."
     ),
 }
-
-
-@pytest.mark.parametrize("question", FAILED)
-def test_answers_after_an_attempt_failed(failed: Run, question: str) -> None:
-    assert asked(failed, question) == FAILED[question]
 
 
 # The same in other words
@@ -519,11 +484,6 @@ def test_the_same_in_other_words(delivered: Run, question: str) -> None:
     assert asked(delivered, question) == asked(delivered, WORDINGS[question])
 
 
-@pytest.mark.parametrize("question", ALSO_ASKED)
-def test_what_else_is_asked(delivered: Run, question: str) -> None:
-    assert asked(delivered, question) == ALSO_ASKED[question]
-
-
 TO_THE_KITCHEN = DELIVERED["why did you move to the kitchen?"]
 BY_BOB = (
     f"{TO_THE_KITCHEN} Had I chosen to move to Bob's office, the plan would have been longer: 5 "
@@ -538,6 +498,8 @@ CONTRASTS = {
     "why did you move to the kitchen rather than to Bob's office?": BY_BOB,
     "why did you move to the kitchen instead of Bob's office?": BY_BOB,
     "why to the kitchen and not to Bob's office?": BY_BOB,
+    "why to the kitchen as opposed to Bob's office?": BY_BOB,
+    "why did you go to the kitchen instead of going to Bob's office?": BY_BOB,
     "why did you move to the kitchen rather than to Bob's office at step 0?": BY_BOB,
     "why did you move to the kitchen rather than print the first message?": PRINTING,
     "why did you move to the kitchen rather than printing the first message?": PRINTING,
@@ -552,11 +514,6 @@ CONTRASTS = {
         "Sally was not in the kitchen; nothing that I know of has changed it since."
     ),
 }
-
-
-@pytest.mark.parametrize("question", CONTRASTS)
-def test_a_contrast_is_answered(delivered: Run, question: str) -> None:
-    assert asked(delivered, question) == CONTRASTS[question]
 
 
 WAS = {
@@ -607,11 +564,6 @@ WAS = {
 }
 
 
-@pytest.mark.parametrize("question", WAS)
-def test_what_was_is_answered_with_its_steps(delivered: Run, question: str) -> None:
-    assert asked(delivered, question) == WAS[question]
-
-
 STATICS = {
     "where does Sally work?": "Sally works in her office.",
     "where does saly work?": "Sally works in her office.",
@@ -651,11 +603,6 @@ STATICS = {
 }
 
 
-@pytest.mark.parametrize("question", STATICS)
-def test_what_never_changes_is_asked_like_what_does(delivered: Run, question: str) -> None:
-    assert asked(delivered, question) == STATICS[question]
-
-
 IN_HER_OFFICE = DELIVERED["is Sally in the kitchen?"]
 DENIALS = {
     "why do you not believe that Sally is in her office?": (
@@ -684,11 +631,6 @@ DENIALS = {
 }
 
 
-@pytest.mark.parametrize("question", DENIALS)
-def test_a_not_of_belief_or_politeness_is_not_the_facts(delivered: Run, question: str) -> None:
-    assert asked(delivered, question) == DENIALS[question]
-
-
 PAST = {
     "why did you believe that you were in the kitchen?": (
         "At step 1 I believed that I was in the kitchen. I saw at step 1 that I was in the kitchen."
@@ -712,9 +654,30 @@ PAST = {
 }
 
 
-@pytest.mark.parametrize("question", PAST)
-def test_a_past_belief_is_told_as_it_was_when_last_acted_on(delivered: Run, question: str) -> None:
-    assert asked(delivered, question) == PAST[question]
+ABOUT = {
+    "not_begun": (BEFORE, SUPPOSED_EVENTS),
+    "begun": (BEGUN,),
+    "delivered": (DELIVERED, ALSO_ASKED, CONTRASTS, WAS, STATICS, DENIALS, PAST),
+    "met": (MET,),
+    "lost": (LOST,),
+    "failed": (FAILED,),
+    "shut_in": (SHUT_IN,),
+}
+
+
+@pytest.mark.parametrize(
+    ("fixture", "question", "right"),
+    [
+        (fixture, question, right)
+        for fixture, tables in ABOUT.items()
+        for table in tables
+        for question, right in table.items()
+    ],
+)
+def test_answers_about_runs_in_the_office(
+    request: pytest.FixtureRequest, fixture: str, question: str, right: str
+) -> None:
+    assert asked(request.getfixturevalue(fixture), question) == right
 
 
 RECORDED = (
@@ -763,20 +726,14 @@ ROLES = {
     ),
     "why on the second small box rather than on the table?": ON_THE_TABLE,
     "why on the second small box rather than the table?": ON_THE_TABLE,
+    "why on the second small box instead of on the table?": ON_THE_TABLE,
+    "why on the second small box and not on the table?": ON_THE_TABLE,
     "why did you put the first small box rather than the ball on the second small box?": (
         f'{ON_THE_SECOND}I could not put the ball on the second small box at step 3: "only a box '
         'that is held can be put somewhere", and I did not hold the ball.'
     ),
     "why on the table?": "I did not put anything on the table.",
 }
-
-
-@pytest.mark.parametrize("question", ROLES)
-def test_things_keep_their_roles_in_a_contrast(
-    tower: tuple[PlanningDomain, Run], question: str
-) -> None:
-    domain, run = tower
-    assert asked(run, question, domain) == ROLES[question]
 
 
 BOXES = {
@@ -794,10 +751,10 @@ BOXES = {
 }
 
 
-@pytest.mark.parametrize("question", BOXES)
-def test_what_boxes_are_is_asked(tower: tuple[PlanningDomain, Run], question: str) -> None:
+@pytest.mark.parametrize("question", [*ROLES, *BOXES])
+def test_answers_about_boxes(tower: tuple[PlanningDomain, Run], question: str) -> None:
     domain, run = tower
-    assert asked(run, question, domain) == BOXES[question]
+    assert asked(run, question, domain) == (ROLES | BOXES)[question]
 
 
 def test_an_action_is_also_done_for_what_it_removes() -> None:
