@@ -10,7 +10,7 @@ from seewhy.dialogue.inflection import ARTICLES, lemma
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain, Feature
 
-__all__ = ["CATEGORIES", "Entries", "Value", "lexicon_of"]
+__all__ = ["CATEGORIES", "Entries", "Value", "lexicon_of", "persons_of", "words_in"]
 
 Value = tuple[str, str]
 """A feature and a value of it."""
@@ -214,15 +214,13 @@ def _add_groups(domain: Domain, found: dict[str, Entries], normalise: Normalise)
     """Nouns that several features share, as fingers, and those that are persons."""
     by_head: dict[str, list[str]] = {}
     by_values: dict[tuple[str, ...], list[str]] = {}
-    persons = []
     for key, feature in domain.features.items():
         by_values.setdefault(feature.values, []).append(key)
         name = normalise(feature.name)
         if name:
             by_head.setdefault(name[-1], []).append(key)
-        if feature.name[:1].isupper():
-            persons.append(key)
-            found["person"].add(name, Binding("fact", (key, "yes")))
+    for key in persons_of(domain):
+        found["person"].add(normalise(domain.features[key].name), Binding("fact", (key, "yes")))
     for head, keys in by_head.items():
         if len(keys) < 2:
             continue
@@ -233,6 +231,11 @@ def _add_groups(domain: Domain, found: dict[str, Entries], normalise: Normalise)
         if len(members) < 2:
             continue
         found["group"].add((head,), Binding("group", tuple(members)))
+
+
+def persons_of(domain: Domain) -> list[str]:
+    """Return the features that are named like persons, with a capital letter."""
+    return [key for key, feature in domain.features.items() if feature.name[:1].isupper()]
 
 
 def _same_states(domain: Domain, first: str, other: str) -> bool:

@@ -9,9 +9,10 @@ from dataclasses import replace
 from seewhy.dialogue.asked import Asks, Query, Question
 from seewhy.dialogue.asking_back import Suggestions
 from seewhy.dialogue.following_up import completed
+from seewhy.dialogue.grammar_file import aside_phrases, grammar_words
 from seewhy.dialogue.inflection import ARTICLES
-from seewhy.dialogue.meaning import Readings, aside_phrases, grammar_words
 from seewhy.dialogue.question_words import CONTRACTIONS, words_of
+from seewhy.dialogue.readings import Readings
 from seewhy.dialogue.saying_questions import say_question
 from seewhy.dialogue.spelling import Spelling
 from seewhy.dialogue.templates import as_what, embedded, expanded

@@ -7,8 +7,8 @@ from functools import lru_cache
 
 import snowballstemmer
 
+from seewhy.dialogue.grammar_file import aside_phrases
 from seewhy.dialogue.inflection import ARTICLES, lemma
-from seewhy.dialogue.meaning import aside_phrases
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
