@@ -9,7 +9,7 @@ from typing import Any
 
 from seewhy.dialogue.grammar import Form, parse_form, words_of_form
 
-__all__ = ["aside_phrases", "grammar_words", "phrases"]
+__all__ = ["around_phrases", "aside_phrases", "grammar_words", "phrases"]
 
 
 @cache
@@ -37,6 +37,12 @@ def phrases() -> dict[str, Form]:
 def aside_phrases() -> tuple[str, ...]:
     """Return the phrases that a question may have and that change nothing of what is asked."""
     return tuple(_tables()["aside"])
+
+
+@cache
+def around_phrases() -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the phrases that may stand before a question, and those that may stand behind it."""
+    return tuple(_tables()["before"]), tuple(_tables()["behind"])
 
 
 @cache

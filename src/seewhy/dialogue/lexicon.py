@@ -19,6 +19,7 @@ CATEGORIES = (
     "noun", "class", "class_bare", "class_noun", "class_modifier", "does_class", "adjective",
     "possession", "existing", "verb", "word", "feature", "quality", "counted", "counts", "piece",
     "part", "every", "state", "every_state", "change", "person", "group", "belief", "belief_act",
+    "asked_quality", "shared_noun", "kind_noun",
 )  # fmt: skip
 """The phrases of the grammar that a domain's own words fill."""
 
@@ -71,6 +72,8 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
     found["noun"].add(subject)
     found["noun"].add(normalise(domain.scene))
     for key, scene_class in domain.classes.items():
+        if normalise(scene_class.say)[-len(subject) :] == subject:
+            found["kind_noun"].add(subject)  # its classes are kinds of it
         for word in dict.fromkeys((*scene_class.words, scene_class.say, key.replace("_", " "))):
             words = normalise(word)
             if words[:1] == ("not",):
@@ -100,6 +103,17 @@ def _add_feature(feature: Feature, found: dict[str, Entries], normalise: Normali
         # "The width of the base" is the base width.
         position = nouns[0].index("of")
         nouns.append((*nouns[0][position + 1 :], *nouns[0][:position]))
+        if not yes_or_no and not _number_of(feature.name):
+            # Of "the shape of the head" is asked "what shape is the head?".
+            quality, of_what = nouns[0][:position], nouns[0][position + 1 :]
+            for between in (("is",), ("has",), ("are",), ("have",)):
+                found["asked_quality"].add(
+                    (*quality, *between, *of_what), Binding("feature", feature.key)
+                )
+            for do in ("do", "does"):
+                found["asked_quality"].add(
+                    (*quality, lemma(do), *of_what, "have"), Binding("feature", feature.key)
+                )
     had = [
         set(normalise(part.rest))
         for part in parts.values()
@@ -114,6 +128,7 @@ def _add_feature(feature: Feature, found: dict[str, Entries], normalise: Normali
             found["existing"].add(noun, Binding("fact", (feature.key, "yes")))
         else:
             found["quality"].add(noun, Binding("feature", feature.key))
+    adjectives = [normalise(part.rest) for part in parts.values() if part.verb in _BE]
     for value in feature.values:
         meaning = Binding("fact", (feature.key, value))
         part = parts[value]
@@ -121,6 +136,9 @@ def _add_feature(feature: Feature, found: dict[str, Entries], normalise: Normali
         if part.subject == "{it}":
             if part.verb in _BE:
                 found["adjective"].add(rest, meaning)
+                if len(rest) > 1 and sum(other[-1:] == rest[-1:] for other in adjectives) > 1:
+                    # "Slightly or heavily rusted" names the rust once.
+                    found["shared_noun"].add(rest[:-1], meaning)
             elif part.verb in _HAVE:
                 found["possession"].add(rest, meaning)
             else:
@@ -224,6 +242,11 @@ def _add_groups(domain: Domain, found: dict[str, Entries], normalise: Normalise)
     for head, keys in by_head.items():
         if len(keys) < 2:
             continue
+        for key in keys:
+            modifier = normalise(domain.features[key].name)[:-1]
+            if modifier and "yes" in domain.features[key].values:
+                # "A small or a large box" names the box once.
+                found["shared_noun"].add(modifier, Binding("fact", (key, "yes")))
         alike = by_values[domain.features[keys[0]].values]
         # A thumb is a finger, though it is not called one.
         members = alike if set(keys) <= set(alike) and len(keys) * 2 > len(alike) else keys

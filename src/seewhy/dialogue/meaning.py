@@ -17,6 +17,7 @@ __all__ = [
     "change",
     "choice",
     "contrast",
+    "contrast_turned",
     "difference",
     "grouped",
     "joined",
@@ -100,6 +101,11 @@ def contrast(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questio
         yield _question(Asks.CONTRAST, statements=(first, other))
 
 
+def contrast_turned(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
+    """The same where what is not so is named first: "why is it not stable but unstable?"."""
+    yield from contrast(domain, tuple(reversed(bindings)))
+
+
 def supposing(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
     """What would be if some features were different."""
     parts: list[Statement] = []
@@ -110,6 +116,8 @@ def supposing(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questio
         statement = clause.statement
         if statement.label is not None:
             return
+        if clause.replaced and any(part.feature == statement.feature for part in parts):
+            continue  # "worn instead of stripped" says which value
         if clause.denied or clause.forward:
             opposite = _turned(domain, clause)
             if opposite == statement:

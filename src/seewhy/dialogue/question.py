@@ -9,7 +9,7 @@ from dataclasses import replace
 from seewhy.dialogue.asked import Asks, Query, Question
 from seewhy.dialogue.asking_back import Suggestions
 from seewhy.dialogue.following_up import completed
-from seewhy.dialogue.grammar_file import aside_phrases, grammar_words
+from seewhy.dialogue.grammar_file import around_phrases, aside_phrases, grammar_words
 from seewhy.dialogue.inflection import ARTICLES
 from seewhy.dialogue.question_words import CONTRACTIONS, words_of
 from seewhy.dialogue.readings import Readings
@@ -123,7 +123,8 @@ class Questions:
         by_template = by_template or self._embedded_in(text)
         if by_template is not None:
             return [by_template]
-        return [self._worded(question) for question in self._readings.read(words)]
+        read = self._readings.read(words) or self._readings.read(self._vocabulary.bare(words))
+        return [self._worded(question) for question in read]
 
     def _embedded_in(self, text: str) -> Question | None:
         """The template behind "tell me" and the like, or one with "what" for "which"."""
@@ -150,7 +151,8 @@ class Questions:
         domain = self.domain
         spelled = set(CONTRACTIONS) | SUBJECTS | ARTICLES | self._vocabulary.spelled
         spelled.update(grammar_words())
-        spelled.update(word for phrase in aside_phrases() for word in words_of(phrase))
+        for phrases in (aside_phrases(), *around_phrases()):
+            spelled.update(word for phrase in phrases for word in words_of(phrase))
         for question in self._known.values():
             spelled.update(words_of(question.text))
         for scene_class in domain.classes.values():

@@ -72,15 +72,17 @@ class Readings:
             for question in found
             if question.label or (question.statements and question.statements[0].label)
         ]
-        meant = [question for question in found if self._named_plainly(question)]
-        return classes or meant or found
+        if classes:
+            return classes
+        plain = [self._plainly_named_in(question) for question in found]
+        return [
+            question for question, count in zip(found, plain, strict=True) if count == max(plain)
+        ]
 
-    def _named_plainly(self, question: Question) -> bool:
-        """Whether the values it names go by their words alone, as the domain's templates say."""
-        named = {question.feature, *(statement.feature for statement in question.statements)} - {
-            None
-        }
-        return named <= self._plain
+    def _plainly_named_in(self, question: Question) -> int:
+        """How many values it names go by their words alone, as the domain's templates say."""
+        named = {question.feature, *(statement.feature for statement in question.statements)}
+        return len(named & self._plain)
 
 
 def _plainly_named(domain: Domain) -> set[str | None]:
@@ -146,6 +148,7 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
         ("what_change_away", lambda domain, bindings: meaning.change(domain, bindings, away=True)),
         ("difference", meaning.difference),
         ("contrast", meaning.contrast),
+        ("contrast_turned", meaning.contrast_turned),
         ("why_not", lambda domain, bindings: meaning.why(domain, bindings, denied=True)),
         ("why", meaning.why),
         ("what_if", meaning.supposing),
@@ -164,6 +167,6 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
         ("neither", meaning.neither),
     ),
     (("which_value", meaning.value), ("which_static", meaning.told)),
-    (("describe", _plain(Asks.DESCRIBE)),),
+    (("describe", _plain(Asks.DESCRIBE)), ("supposed_alone", meaning.supposing)),
 )
 """Phrases that are whole questions, and what they mean; an earlier rank is preferred."""

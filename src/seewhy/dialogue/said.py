@@ -21,6 +21,8 @@ class Said:
     """Whether the "not" stands before the subject ("isn't it …"), which asks the same."""
     named: bool = False
     """Whether it was only named, and what is said of it follows."""
+    replaced: bool = False
+    """Whether something else is said instead of it."""
 
 
 _STATEMENTS = (
@@ -28,7 +30,8 @@ _STATEMENTS = (
     "supposed_more", "equipment", "unequipped", "other_one", "surely", "located", "group_state",
     "goal", "avoided", "one_value", "first_existing", "existing_too", "deny_one", "deny_other",
     "pair_rest", "lacking", "pair_two", "fragment_named", "possessed", "dispossessed",
-    "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class",
+    "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class", "supposed_object",
+    "no_object", "half", "inverted",
 )  # fmt: skip
 
 
@@ -44,7 +47,13 @@ _ROLES: dict[str, Fold] = {
 
 def folds() -> dict[str, Fold]:
     """Return what the bindings inside of a phrase come to, by the phrase's name."""
-    return {**dict.fromkeys(_STATEMENTS, _folded), **_ROLES, "existing_named": _folded_named}
+    return {
+        **dict.fromkeys(_STATEMENTS, _folded),
+        **_ROLES,
+        "existing_named": _folded_named,
+        "neither_of": _folded_neither,
+        "replaced": _folded_replaced,
+    }
 
 
 def stated(fact: object) -> Statement:
@@ -85,6 +94,19 @@ def _folded_named(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]
     """What is named first of two things of which the same is said."""
     for said in _said_in(bindings) or ():
         yield (Binding("said", replace(said, named=True)),)
+
+
+def _folded_neither(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What is denied of each by "neither … nor …"."""
+    yield tuple(
+        Binding("said", replace(said, denied=not said.denied)) for said in all_said(bindings)
+    )
+
+
+def _folded_replaced(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What is named behind "instead of"."""
+    for said in _said_in(bindings) or ():
+        yield (Binding("said", replace(said, denied=True, replaced=True)),)
 
 
 def _said_in(bindings: tuple[Binding, ...]) -> tuple[Said, ...] | None:
