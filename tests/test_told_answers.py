@@ -115,7 +115,10 @@ TOLD = {
     "of 0.90.",
     "why is the base not narrow?": "I see that the structure has a wide base, with a probability "
     "of 0.90.",
-    "why unstable rather than stable?": "The structure is unstable, since a block is displaced.",
+    "why unstable rather than stable?": (
+        "The structure is unstable, since a block is displaced; it is stable when no block is "
+        "displaced."
+    ),
     "why stable rather than unstable?": "The structure is not stable: it is unstable, since a "
     "block is displaced.",
     "why four blocks rather than three?": "I see that the structure has four blocks, with a "

@@ -298,7 +298,7 @@ def found_by(reply: Reply) -> str:
         return "telling the steps behind the class"
     if Basis.RECURRENT in bases:
         return "the recurrent network (LSTM)"
-    if reply.kind.form in ("undecided", "unknown"):
+    if reply.kind.form in ("undecided", "several", "contradictory", "unknown"):
         return "no component"
     if reply.question.feature is not None:
         return "reading the feature"

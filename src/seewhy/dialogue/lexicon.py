@@ -10,7 +10,7 @@ from seewhy.dialogue.inflection import ARTICLES, lemma
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain, Feature
 
-__all__ = ["CATEGORIES", "Entries", "Value", "lexicon_of", "persons_of", "words_in"]
+__all__ = ["CATEGORIES", "NUMBERS", "Entries", "Value", "lexicon_of", "persons_of", "words_in"]
 
 Value = tuple[str, str]
 """A feature and a value of it."""
@@ -23,6 +23,12 @@ CATEGORIES = (
 )  # fmt: skip
 """The phrases of the grammar that a domain's own words fill."""
 
+NUMBERS = (
+    "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
+    "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen",
+    "nineteen", "twenty",
+)  # fmt: skip
+_LEAST_ALIKE = 3
 _BE = {"is", "are"}
 _HAVE = {"has", "have"}
 _TRIVIAL = {"yes", "no", "none", "there", "away", "missing", "absent"}
@@ -35,6 +41,9 @@ class Entries:
     by_first: dict[str, list[tuple[tuple[str, ...], tuple[Binding, ...]]]] = field(
         default_factory=dict
     )
+    other_words: tuple[Binding, ...] = ()
+    """What every other word means, but those of ``means_something``."""
+    means_something: frozenset[str] = frozenset()
 
     def add(self, words: Sequence[str], *bindings: Binding) -> None:
         """Let a row of normalised words mean something."""
@@ -48,10 +57,13 @@ class Entries:
         """Yield the phrases that begin at a position."""
         if position >= len(words):
             return
-        for phrase, bindings in self.by_first.get(words[position], ()):
+        listed = self.by_first.get(words[position], ())
+        for phrase, bindings in listed:
             end = position + len(phrase)
             if tuple(words[position:end]) == phrase:
                 yield Match(end, bindings)
+        if self.other_words and not listed and words[position] not in self.means_something:
+            yield Match(position + 1, self.other_words)
 
 
 Normalise = Callable[[str], tuple[str, ...]]
@@ -79,6 +91,9 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
             if words[:1] == ("not",):
                 continue  # the grammar denies by itself
             found["class"].add(words, Binding("label", key))
+            for number in _number_words(word, normalise):
+                found["class"].add(number, Binding("label", key))
+                found["class_bare"].add(number, Binding("label", key))
             rest = words[: -len(subject)] if words[-len(subject) :] == subject else ()
             found["class_bare"].add(rest or words, Binding("label", key))
             if len(rest or words) == 2 and words_of(word)[0] in ("a", "an"):
@@ -91,6 +106,7 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
     for feature in domain.features.values():
         _add_feature(feature, found, normalise)
     _add_groups(domain, found, normalise)
+    _add_features_alike(domain, found)
     _add_beliefs(domain, found, normalise)
     return found
 
@@ -215,6 +231,8 @@ def _add_words(
         if word in _TRIVIAL:
             continue
         words = normalise(word)
+        for named in _number_words(word, normalise):
+            found["word"].add(named, meaning)
         if number:
             thing = normalise(number)
             found["counted"].add((*words, *thing), meaning)
@@ -226,6 +244,15 @@ def _add_words(
     if number:
         found["counts"].add(normalise(number), Binding("feature", feature.key))
         found["piece"].add(normalise(number))
+
+
+def _number_words(word: str, normalise: Normalise) -> list[tuple[str, ...]]:
+    """What else names a number: "three" and "number three" of "3"."""
+    if not word.isdigit():
+        return []
+    named = [normalise(NUMBERS[int(word)])] if int(word) < len(NUMBERS) else []
+    noun = lemma("number")
+    return [*named, *((noun, *number) for number in (normalise(word), *named))]
 
 
 def _add_groups(domain: Domain, found: dict[str, Entries], normalise: Normalise) -> None:
@@ -254,6 +281,25 @@ def _add_groups(domain: Domain, found: dict[str, Entries], normalise: Normalise)
         if len(members) < 2:
             continue
         found["group"].add((head,), Binding("group", tuple(members)))
+
+
+def _add_features_alike(domain: Domain, found: dict[str, Entries]) -> None:
+    """Of what most features are, another noun may speak: thumb, index and ring are fingers.
+
+    Only where at least three features, and more than half of all, are in the same states: then
+    nothing else can be meant by "which fingers are stretched?".
+    """
+    by_states: dict[tuple[str, ...], list[str]] = {}
+    for key, feature in domain.features.items():
+        clauses = [_taken_apart(clause) for clause in feature.say.values()]
+        if all(clause.rest and clause.subject not in ("{it}", "there") for clause in clauses):
+            by_states.setdefault(tuple(clause.rest for clause in clauses), []).append(key)
+    largest = max(by_states.values(), key=len, default=[])
+    if found["group"].by_first or len(largest) < _LEAST_ALIKE:
+        return
+    if len(largest) * 2 > len(domain.features):
+        found["group"].other_words = (Binding("group", tuple(largest)),)
+        found["group"].means_something = frozenset(words_in(found.values()))
 
 
 def persons_of(domain: Domain) -> list[str]:

@@ -56,10 +56,19 @@ class Readings:
             for phrase, mean in rank:
                 for bindings in chart.whole(_phrase(phrase)):
                     for question in mean(self.domain, bindings):
-                        found.setdefault(question.query, question)
+                        if self._can_be_stated(question):
+                            found.setdefault(question.query, question)
             if found:
                 return self._best(list(found.values()))
         return []
+
+    def _can_be_stated(self, question: Question) -> bool:
+        """Whether every feature that is spoken of has the value that is said of it."""
+        return all(
+            statement.feature is None
+            or statement.value in self.domain.features[statement.feature].values
+            for statement in question.statements
+        )
 
     def is_opening(self, words: Sequence[str]) -> bool:
         """Whether words only lead to a question, as "can you tell me" does."""

@@ -32,6 +32,7 @@ _STATEMENTS = (
     "pair_rest", "lacking", "pair_two", "fragment_named", "possessed", "dispossessed",
     "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class", "supposed_object",
     "no_object", "half", "inverted",
+    "footing",
 )  # fmt: skip
 
 
@@ -52,6 +53,7 @@ def folds() -> dict[str, Fold]:
         **_ROLES,
         "existing_named": _folded_named,
         "neither_of": _folded_neither,
+        "parts_alike": _folded_parts,
         "replaced": _folded_replaced,
     }
 
@@ -101,6 +103,17 @@ def _folded_neither(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ..
     yield tuple(
         Binding("said", replace(said, denied=not said.denied)) for said in all_said(bindings)
     )
+
+
+def _folded_parts(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What is said of several parts at once; the state is read as the first part's."""
+    parts = roles(bindings, "about")
+    denied = any(binding.role == "denied" for binding in bindings)
+    for statement in (stated(binding.meaning) for binding in bindings if binding.role == "fact"):
+        if statement.feature == parts[0]:
+            yield tuple(
+                Binding("said", Said(replace(statement, feature=part), denied)) for part in parts
+            )
 
 
 def _folded_replaced(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
