@@ -203,10 +203,9 @@ def learn_axioms(
     >>> learned = learn_axioms(features, vectors, ["up", "down", "up", "down"] * 10,
     ...                        decide=decide_by_candidates(features))
     >>> for judgement in learned.accepted:
-    ...     candidate = judgement.candidate
-    ...     print(candidate.label, candidate.conditions, judgement.tally.right)
-    up (PathCondition(feature='lean', values=('no',)),) 20
-    down (PathCondition(feature='lean', values=('yes',)),) 20
+    ...     print(judgement.candidate, judgement.tally.right)
+    Candidate(label='up', conditions=(PathCondition(feature='lean', values=('no',)),)) 20
+    Candidate(label='down', conditions=(PathCondition(feature='lean', values=('yes',)),)) 20
     """
     table = scene_table(features, vectors, labels, reasons=reasons)
     rng = np.random.default_rng(options.seed)
@@ -297,9 +296,7 @@ def _explained(
             continue
         seen.add(candidate)
         tallied = tally(candidate, table, left)
-        explained, otherwise = (
-            int(counts.sum()) for counts in explained_otherwise(candidate, table)
-        )
+        explained, otherwise = (int(n.sum()) for n in explained_otherwise(candidate, table))
         fate, reason = Fate.ACCEPTED, ""
         if not is_borne_out(candidate, table, options.tolerance):
             fate = Fate.REJECTED
@@ -348,11 +345,8 @@ def _proposed(
         elif chance(candidate, table, tallied) > BY_CHANCE:
             fate, reason = Fate.DROPPED, "so few scenes could be alike by chance"
         proposed[candidate] = Judgement(path, candidate, tallied, fate, reason)
-    general = set(
-        most_general(
-            [judgement.candidate for judgement in proposed.values() if not judgement.reason]
-        )
-    )
+    accepted = [judgement.candidate for judgement in proposed.values() if not judgement.reason]
+    general = set(most_general(accepted))
     for judgement in sorted(proposed.values(), key=lambda judgement: -judgement.tally.left):
         if not judgement.reason and judgement.candidate not in general:
             yield _with(judgement, Fate.MERGED, "a more general one says the same")
