@@ -28,7 +28,9 @@ def _structures():
 
 def _wide():
     reasoner = Reasoner(wide_knowledge(), wide_schema())
-    vector = next(v for v in wide_vectors(500) if reasoner.decide(v).label is not None)
+    vector = next(
+        vector for vector in wide_vectors(500) if reasoner.decide(vector).label is not None
+    )
     label = reasoner.decide(vector).label
     other = next(name for name in reasoner.schema.classes if name != label)
     return reasoner, vector, label, other

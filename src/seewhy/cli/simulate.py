@@ -72,26 +72,28 @@ def simulate(
     if record is not None and record.suffix != ".al":
         raise PlanningError(f"{record}: a record is written as .al; choose a name that ends so")
     world = load_planning_domain(domain)
-    own = with_knowledge_of_robot(world, learned=learned, without=without)
-    aim = read_goal(goal, own.knowledge)
-    sight = None if model is None else _sight(own, model)
+    robot_domain = with_knowledge_of_robot(world, learned=learned, without=without)
+    aim = read_goal(goal, robot_domain.knowledge)
+    sight = None if model is None else _sight(robot_domain, model)
     last: Simulation | None = None
     interrupted = False
     try:
-        for last in run_simulation(own, aim, seed=seed, most_steps=steps, world=world, sight=sight):
+        for last in run_simulation(
+            robot_domain, aim, seed=seed, most_steps=steps, world=world, sight=sight
+        ):
             step = last.run.steps[-1]
             if not json:
-                for number, sentence in enumerate(narrate_step(own.words, step)):
+                for number, sentence in enumerate(narrate_step(robot_domain.words, step)):
                     say(f"{step.number:3}  {sentence}" if number == 0 else f"     {sentence}")
     except KeyboardInterrupt:
         interrupted = True
     if last is None:
         raise KeyboardInterrupt
     run = last.run
-    answers = RunAnswers(own, run)
+    answers = RunAnswers(robot_domain, run)
     asked = ask_all(answers, ask)
     if json:
-        told = {**_to_dict(last, goal, seed), "replies": [one.to_dict() for one in asked]}
+        told = {**_to_dict(last, goal, seed), "replies": [reply.to_dict() for reply in asked]}
         print_json(told, lines=not chat)
     else:
         say(narrate_end(run))
@@ -101,10 +103,10 @@ def simulate(
     command += "" if model is None else f" --model {model}"
     command += robot_options(learned=learned, without=without)
     if record is not None:
-        write_whole(record, history_text(record_of(own, run), title=command))
+        write_whole(record, history_text(record_of(robot_domain, run), title=command))
         remark(f"what was seen and done is in {record}")
     if out is not None:
-        write_whole(out, run_page(own, last, command=command))
+        write_whole(out, run_page(robot_domain, last, command=command))
         remark(f"the run with its map is in {out}")
     if chat:
         talk(answers, json=json)
@@ -139,12 +141,12 @@ def _to_dict(simulation: Simulation, goal: str, seed: int) -> dict[str, Any]:
                 "plan": list(map(str, step.plan)),
                 "action": None if step.action is None else str(step.action),
                 "surprises": [
-                    {"kind": own.kind.value, "what": str(own.what), "step": own.step}
-                    for own in step.surprises
+                    {"kind": surprise.kind.value, "what": str(surprise.what), "step": surprise.step}
+                    for surprise in step.surprises
                 ],
                 "because": list(map(str, step.because)),
                 "believed": list(map(str, step.believed.positive())),
-                "true": sorted(str(own) for own in world if own.positive),
+                "true": sorted(str(literal) for literal in world if literal.positive),
                 "planning_seconds": round(step.planning_seconds, 4),
                 **({"misread": list(map(str, looks[number].misread))} if looks else {}),
             }

@@ -59,8 +59,8 @@ class Seen(NamedTuple):
     def of(self, pictures: npt.NDArray[np.int64]) -> Seen:
         """What they make of the pictures at some positions."""
         return Seen(
-            {name: own[pictures] for name, own in self.probabilities.items()},
-            {name: own[pictures] for name, own in self.embeddings.items()},
+            {name: probabilities[pictures] for name, probabilities in self.probabilities.items()},
+            {name: embeddings[pictures] for name, embeddings in self.embeddings.items()},
         )
 
 
@@ -153,8 +153,8 @@ class FeatureExtractor:
                     network.see(torch.from_numpy(batch[i : i + 256]))
                     for i in range(0, max(1, len(batch)), 256)
                 ]
-                seen.probabilities[name] = torch.cat([own[0] for own in parts]).double().numpy()
-                seen.embeddings[name] = torch.cat([own[1] for own in parts]).numpy()
+                seen.probabilities[name] = torch.cat([part[0] for part in parts]).double().numpy()
+                seen.embeddings[name] = torch.cat([part[1] for part in parts]).numpy()
                 if not np.isfinite(seen.probabilities[name]).all():
                     raise ModelError(f"the network of '{name}' gives no number: {REMEDY}")
         return seen
@@ -363,7 +363,7 @@ def fit_extractor(
         on_progress=on_progress,
     )
     grown = {name: trained[name][0] for name in shared if name in trained}
-    joint = ready | {name: own for name, own in grown.items() if trained[name][1].epochs}
+    joint = ready | {name: network for name, network in grown.items() if trained[name][1].epochs}
     if joint:
         trained |= train_jointly(
             {name: joint[name] for name in shared if name in joint},
@@ -422,10 +422,10 @@ def _ready(
         return {}
     found = {}
     for name in labels:
-        own = options[name]
+        feature_options = options[name]
         if len({value for value in labels[name] if value is not None}) > 1:
-            with seeded(torch.device("cpu"), own.seed, name, "first"):
-                found[name] = new_network(size, len(values[name]), own)
+            with seeded(torch.device("cpu"), feature_options.seed, name, "first"):
+                found[name] = new_network(size, len(values[name]), feature_options)
     return found
 
 

@@ -81,7 +81,10 @@ def train_networks(
         return {}
     at_once = min(len(labels), cpu_count() if workers < 1 else workers)
     if at_once < 2 or torch.cuda.is_available():
-        return {name: _on_one_thread(pictures, own, on_progress) for name, own in arguments.items()}
+        return {
+            name: _on_one_thread(pictures, feature_arguments, on_progress)
+            for name, feature_arguments in arguments.items()
+        }
     return _in_processes(pictures, arguments, at_once, on_progress)
 
 
@@ -109,8 +112,8 @@ def _in_processes(
         finished = False
         try:
             running: dict[str, Future[Trained]] = {
-                name: executor.submit(_train_and_tell, pictures, own, events[name])
-                for name, own in arguments.items()
+                name: executor.submit(_train_and_tell, pictures, feature_arguments, events[name])
+                for name, feature_arguments in arguments.items()
             }
             read = dict.fromkeys(events, 0)
             open_futures = set(running.values())

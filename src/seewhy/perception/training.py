@@ -165,10 +165,10 @@ def train_network(
         if rehearsal is None
         else labelled(rehearsal.labels[feature], feature=feature, values=values)[1],
     )
-    file, found, own = None, None, ""
+    file, found, fingerprint = None, None, ""
     if checkpoints is not None:
         file = checkpoint.checkpoint_file(checkpoints, feature)
-        own = checkpoint.fingerprint(
+        fingerprint = checkpoint.fingerprint(
             pictures,
             labels,
             feature=feature,
@@ -179,7 +179,7 @@ def train_network(
             start_from=start_from,
             rehearsal=rehearsal,
         )
-        found = checkpoint.read(file, own, Position)
+        found = checkpoint.read(file, fingerprint, Position)
     if found is None:
         training.begin()
     else:
@@ -195,7 +195,7 @@ def train_network(
         else:
             event = training.finish()
         if file is not None:
-            checkpoint.write(file, own, training.position, training.tensors())
+            checkpoint.write(file, fingerprint, training.position, training.tensors())
         if on_progress is not None:
             on_progress(event)
 
