@@ -110,12 +110,12 @@ class Run:
     @property
     def actions(self) -> list[clingo.Symbol]:
         """What was done, in order."""
-        return [own.action for own in self.steps if own.action is not None]
+        return [step.action for step in self.steps if step.action is not None]
 
     @property
     def plans(self) -> list[Step]:
         """The steps at which a plan was made."""
-        return [own for own in self.steps if own.decision in (Decision.PLAN, Decision.REPLAN)]
+        return [step for step in self.steps if step.decision in (Decision.PLAN, Decision.REPLAN)]
 
 
 def execute(
@@ -150,7 +150,7 @@ def execute(
     known: tuple[Surprise, ...] = ()
     while run.outcome is None:
         diagnosis = diagnose(domain.knowledge, run.history, sensors_err=domain.sensors_err)
-        new = tuple(own for own in diagnosis.surprises if own not in known)
+        new = tuple(surprise for surprise in diagnosis.surprises if surprise not in known)
         known = diagnosis.surprises
         step = robot.decide(run.history, diagnosis.now, sensed, new)
         if step.action is not None and len(run.actions) == most_steps:
@@ -270,7 +270,7 @@ class _Robot:
         def leaves_a_plan(before: int) -> bool:
             return doubting(before)[1].found
 
-        steps = {own for fluent, own in last_seen.items() if fluent in self.doubt.fluents}
+        steps = {step for fluent, step in last_seen.items() if fluent in self.doubt.fluents}
         ages = sorted({0, *steps})
         if not leaves_a_plan(ages[-1]):
             return None
@@ -282,17 +282,17 @@ class _Robot:
     ) -> tuple[clingo.Symbol, ...]:
         """What is seen now that, were it otherwise, would leave a plan; the unusual first."""
         latest = max(last_seen.values(), default=0)
-        before = {own: step for own, step in last_seen.items() if step < latest}
+        before = {fluent: step for fluent, step in last_seen.items() if step < latest}
         if not self._plan(self.doubt.applied(now, before, before=latest)).found:
             return ()  # not even if all of it were otherwise
         found = []
-        for fluent in sorted(own for own, step in last_seen.items() if step == latest):
-            less = {own: step for own, step in last_seen.items() if own != fluent}
+        for fluent in sorted(fluent for fluent, step in last_seen.items() if step == latest):
+            less = {other: step for other, step in last_seen.items() if other != fluent}
             start = self.doubt.applied(now, less, before=latest)
             if fluent in start.unknown and self._plan(start).actions:
                 found.append(fluent if fluent in now.holds else complement_of(fluent))
         usual = diagnose(self.domain.knowledge, self.domain.history).states[0].holds
-        unusual = [own for own in found if complement_of(own) in usual]
+        unusual = [literal for literal in found if complement_of(literal) in usual]
         return tuple(unusual or found)
 
     def _plan(self, start: State, goal: Goal | None = None) -> Plan:
@@ -312,7 +312,7 @@ class _Robot:
 def _last_seen(history: History) -> dict[clingo.Symbol, int]:
     """For every fluent that was observed, the last step at which it was."""
     return {
-        fluent_of(symbol): own.step
-        for own in sorted(history.observations, key=lambda own: own.step)
-        for symbol in (clingo.parse_term(str(own.literal)),)
+        fluent_of(symbol): observation.step
+        for observation in sorted(history.observations, key=lambda observation: observation.step)
+        for symbol in (clingo.parse_term(str(observation.literal)),)
     }
