@@ -192,13 +192,13 @@ def _load(source: str, folder: Path, wanted: str) -> Any:
             module = importlib.import_module(source)
         return getattr(module, wanted.partition("(")[0])
     except Exception as problem:
-        if _lacks_library(source, problem):
+        if _lacks_library(problem, source):
             raise DomainError(f"{folder / 'domain.toml'}: {without_module(problem)}") from problem
         why = f"{type(problem).__name__}: {problem}"
         raise DomainError(_no_source(source, folder, wanted, why)) from problem
 
 
-def _lacks_library(source: str, problem: Exception) -> TypeGuard[ModuleNotFoundError]:
+def _lacks_library(problem: Exception, source: str) -> TypeGuard[ModuleNotFoundError]:
     """Whether the laboratory is there, and something that it imports is not."""
     if not of_laboratory(source) or not isinstance(problem, ModuleNotFoundError):
         return False
