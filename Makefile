@@ -1,6 +1,7 @@
 # make demo   the whole way once, from simulated pictures to demo/report.html
 # make test   install and run the tests
 # make lint   style and types
+# make dist   what is published: wheel and sdist in dist/, checked
 # make bench  the speed of the reasoner, beside plain clingo
 # make figures  the other numbers and the pictures of the README
 
@@ -10,7 +11,7 @@ OUT ?= demo
 VENV := .venv
 INSTALLED := $(VENV)/.installed
 
-.PHONY: demo test lint bench figures clean
+.PHONY: demo test lint dist bench figures clean
 
 $(INSTALLED): pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else "SeeWhy needs Python 3.11 or newer, found " + sys.version.split()[0] + "; name one with make PYTHON=...")'
@@ -29,6 +30,13 @@ lint: $(INSTALLED)
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/mypy
 	$(VENV)/bin/lint-imports
+
+# The laboratory's wheel lies apart: it is for checkouts, and not published.
+dist: $(INSTALLED)
+	rm -rf dist
+	$(VENV)/bin/python -m build --no-isolation --outdir dist .
+	$(VENV)/bin/python -m build --no-isolation --wheel --outdir dist/lab lab
+	$(VENV)/bin/twine check --strict dist/*.whl dist/*.tar.gz dist/lab/*.whl
 
 bench: $(INSTALLED)
 	$(VENV)/bin/python -m pytest benchmarks --benchmark-enable --benchmark-only --benchmark-columns=min,median,ops,rounds --benchmark-sort=name

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from seewhy.data.dataset import Dataset
+from seewhy.data.laboratory import not_there
 from seewhy.data.picture_source import check_source
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.question import Questions
@@ -78,9 +79,11 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
     loops = _odd_loops(reasoner, without)
     if loops and len(without) == len(vectors):
         raise KnowledgeError(f"{_said_odd(loops[0])}, so that no picture has an answer set")
-    if domain.source is not None:
+    without_laboratory = not_there(domain.source)
+    if domain.source is not None and without_laboratory is None:
         check_source(domain)
-    warnings = [
+    warnings = [without_laboratory] if without_laboratory else []
+    warnings += [
         f"{_said_odd(loop)}, so that {len(without)} of {len(vectors)} feature vectors have no "
         "answer set"
         for loop in loops

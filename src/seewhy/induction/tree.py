@@ -21,8 +21,11 @@ from seewhy.induction.tree_nodes import TreeNodes, TreeTable
 from seewhy.knowledge.scene import FeatureVector
 
 if TYPE_CHECKING:
+    import pandas as pd
     from sklearn.model_selection import GridSearchCV
     from sklearn.tree import DecisionTreeClassifier
+
+    from seewhy.domain.domain import Domain
 
 
 TREE = "tree.json"
@@ -221,6 +224,18 @@ class DecisionTree:
             return TreeNode(feature, allowed, path.label, path.support, path.precision, branches)
 
         return node_at(0, [])
+
+    def get_rules(self, domain: Domain | None = None) -> pd.DataFrame:
+        """Return the paths as a data frame; see :func:`seewhy.induction.rule_table.rules_of_tree`.
+
+        Raises
+        ------
+        SeeWhyError
+            If pandas is not installed.
+        """
+        from seewhy.induction.rule_table import rules_of_tree
+
+        return rules_of_tree(self, domain)
 
     def _path(self, steps: Sequence[tuple[int, bool]], leaf: int) -> TreePath:
         nodes = self._fitted()

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
+from seewhy import __version__
 from seewhy.data.dataset import Scene
 from seewhy.dialogue.question import Asks
 from seewhy.evaluation import Evaluation
@@ -62,7 +62,7 @@ def report_page(
             }
             for key in domain.features
         ],
-        version=version("seewhy"),
+        version=__version__,
         command=command,
     )
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from importlib.metadata import version
 from typing import Any
 
 import clingo
 
+from seewhy import __version__
 from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.domain import PlanningDomain
@@ -55,7 +55,7 @@ def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) ->
         ended=narrate_end(run),
         achieved=simulation.achieved,
         has_map=drawn is not None,
-        version=version("seewhy"),
+        version=__version__,
         command=command,
     )
 

@@ -25,6 +25,7 @@ from seewhy.planning.execution.sensing import condition_to_sense
 from seewhy.planning.goal import Goal, read_goal
 from seewhy.planning.planner.goal_test import holds_in
 from seewhy.planning.planner.planner import Plan, PlanStatus, plan
+from seewhy.text.notebook import html_line, html_table
 
 Act = Callable[[clingo.Symbol], list[Literal]]
 """Does an action in the world and returns what is sensed after it."""
@@ -106,6 +107,22 @@ class Run:
     steps: list[Step] = field(default_factory=list)
     outcome: Outcome | None = None
     sensors_err: bool = False
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the goal, how the run ended, and what was decided at each step."""
+        ended = "goes on" if self.outcome is None else self.outcome.value
+        return html_line(f"goal: {self.goal}; {ended}") + html_table(
+            ["step", "decision", "action", "surprises"],
+            (
+                (
+                    str(step.number),
+                    step.decision.value,
+                    "" if step.action is None else str(step.action),
+                    str(len(step.surprises)),
+                )
+                for step in self.steps
+            ),
+        )
 
     @property
     def actions(self) -> list[clingo.Symbol]:

@@ -40,6 +40,7 @@ from seewhy.planning.planner.mutex import mutexes
 from seewhy.planning.planner.reachability import Reachability, reachable, simplified
 from seewhy.planning.planner.relevance import relevant
 from seewhy.planning.planner.search_with_unknowns import search_open
+from seewhy.text.notebook import html_line, html_list
 
 HORIZON = 50
 _EXPANSIONS = 20_000
@@ -108,6 +109,11 @@ class Plan:
     def found(self) -> bool:
         """Whether the goal can be reached by these actions (none where it holds already)."""
         return self.status in (PlanStatus.FOUND, PlanStatus.ALREADY_TRUE)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: how the search ended, and the actions in order."""
+        said = html_line(f"{self.status.value} ({1000 * self.seconds:.0f} ms)")
+        return said + html_list(str(action) for action in self.actions)
 
     def settles(self, start: State) -> bool:
         """Whether the plan, made from ``start``, takes something to be so that is unknown there.
