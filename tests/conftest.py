@@ -258,7 +258,7 @@ def reasoning(structures: Domain) -> Agent:
 def seen(agent: Agent, *values: str | None, probability: float = 0.9) -> Classification:
     """The classification of a scene whose features are given, as the agent decides it."""
     vector: FeatureVector = tuple(values)
-    label, method, verdict = agent._decide(vector)
+    label, method, verdict = agent.deciding.decide(vector)
     readings = {
         key: FeatureReading(value or "", probability)
         for key, value in zip(agent.domain.features, vector, strict=True)

@@ -29,6 +29,7 @@ from seewhy.domain.domain import load_domain
 from seewhy.domain.tables import ReadingRule
 from seewhy.evaluation import evaluate
 from seewhy.files.whole_files import write_whole
+from seewhy.perception.course import Course
 from seewhy.perception.domain_options import training_options
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
 from seewhy.perception.rehearsal import Rehearsal
@@ -145,7 +146,7 @@ def pretrain(out: Path, *, drawn: int) -> tuple[Pretrained, Pretrained]:
     folder = out / f"drawn-{drawn}"
     domain = load_domain(DOMAIN)
     if not (folder / "features").is_dir():
-        first = pretrained(domain, count=drawn, checkpoints=folder)
+        first = pretrained(domain, count=drawn, course=Course(checkpoints=folder))
         (folder / "features").mkdir()
         first.extractor.save(folder / "features")
     scenes = Dataset.load(folder / "drawn", domain)

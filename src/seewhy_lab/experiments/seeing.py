@@ -21,6 +21,7 @@ from seewhy.errors import ExperimentError
 from seewhy.files.folders import whole_folder
 from seewhy.files.locks import locked
 from seewhy.files.whole_files import whole_file
+from seewhy.perception.course import Course
 from seewhy.perception.domain_options import (
     class_options,
     seen_labels,
@@ -268,8 +269,7 @@ def _pretrain(setting: Setting, folder: Path) -> None:
         first = pretrained(
             domain,
             count=setting.drawn,
-            workers=1,
-            checkpoints=folder,
+            course=Course(workers=1, checkpoints=folder),
         )
         _save(first.networks, folder / _FEATURES)
     scenes = Dataset.load(folder / "drawn", domain)
