@@ -69,16 +69,10 @@ def grow(
     See :func:`~seewhy.perception.extractor.fit_extractor`.
     """
     return fit_extractor(
-        shown.pixels,
-        shown.labels,
-        values=shown.values,
+        shown,
         options=training_options(domain, seed=settings.seed, with_class=settings.class_is_seen),
-        groups=shown.groups,
-        validation=shown.validation,
-        checkpoints=course.checkpoints,
         start_from=start_from,
         rehearsal=rehearsal,
         together=trained_together(domain),
-        workers=course.workers,
-        on_progress=course.on_progress,
+        course=course,
     )

@@ -77,9 +77,8 @@ def teach_eyes(
         given=given_variations(scenes.domain),
         start_from=start_from if same else None,
         cache=EmbeddingCache(cache_folder()),
-        checkpoints=course.checkpoints,
         seed=settings.seed,
-        on_progress=course.on_progress,
+        course=course,
     )
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -38,3 +38,8 @@ class LabelledPictures:
 
     def __len__(self) -> int:
         return len(self.pixels)
+
+    def of_features(self, names: Collection[str]) -> LabelledPictures:
+        """The same pictures with what is to be seen of some features."""
+        labels = {name: column for name, column in self.labels.items() if name in names}
+        return replace(self, labels=labels)

@@ -32,6 +32,7 @@ from seewhy.files.whole_files import write_whole
 from seewhy.perception.course import Course
 from seewhy.perception.domain_options import training_options
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.validation import split
 
@@ -78,15 +79,17 @@ def end_to_end(scenes: Dataset, *, seed: int, first: Pretrained | None = None) -
     options = training_options(domain, seed=seed)["primary_symbol"]
     _, validation = split(scenes.classes, share=0.15, seed=seed, groups=scenes.groups)
     return fit_extractor(
-        scenes.pictures(domain.pictures.size),
-        {"sign": scenes.classes},
-        values={"sign": tuple(domain.classes)},
+        LabelledPictures(
+            scenes.pictures(domain.pictures.size),
+            {"sign": scenes.classes},
+            {"sign": tuple(domain.classes)},
+            groups=scenes.groups,
+            validation=validation,
+        ),
         options=replace(options, channels=CHANNELS, dense=DENSE),
-        groups=scenes.groups,
-        validation=validation,
         start_from=_networks(first.extractor) if first else None,
         rehearsal=first.rehearsal if first else None,
-        workers=1,
+        course=Course(workers=1),
     )
 
 
