@@ -227,7 +227,7 @@ class Picture(Look):
 def test_a_picture_is_looked_at_again(structures_agent: Agent, question: str, answer: str) -> None:
     scene = seen(structures_agent, "4", "wide", "no", "yes")
     asked = structures_agent.questions.understand(question)
-    assert structures_agent._answering.answer(scene, asked, look=Picture()).text == answer
+    assert structures_agent.answering.answer(scene, asked, look=Picture()).text == answer
 
 
 @pytest.mark.parametrize("question", ["where is it displaced?", "are there similar pictures?"])

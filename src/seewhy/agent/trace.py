@@ -18,7 +18,8 @@ from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
 
 if TYPE_CHECKING:
-    from seewhy.agent.agent import Agent, Picture
+    from seewhy.agent.agent import Agent
+    from seewhy.agent.seeing import Picture
     from seewhy.domain.domain import Domain
 
 

@@ -29,8 +29,10 @@ from seewhy.domain.domain import load_domain
 from seewhy.domain.tables import ReadingRule
 from seewhy.evaluation import evaluate
 from seewhy.files.whole_files import write_whole
+from seewhy.perception.course import Course
 from seewhy.perception.domain_options import training_options
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.validation import split
 
@@ -77,15 +79,17 @@ def end_to_end(scenes: Dataset, *, seed: int, first: Pretrained | None = None) -
     options = training_options(domain, seed=seed)["primary_symbol"]
     _, validation = split(scenes.classes, share=0.15, seed=seed, groups=scenes.groups)
     return fit_extractor(
-        scenes.pictures(domain.pictures.size),
-        {"sign": scenes.classes},
-        values={"sign": tuple(domain.classes)},
+        LabelledPictures(
+            scenes.pictures(domain.pictures.size),
+            {"sign": scenes.classes},
+            {"sign": tuple(domain.classes)},
+            groups=scenes.groups,
+            validation=validation,
+        ),
         options=replace(options, channels=CHANNELS, dense=DENSE),
-        groups=scenes.groups,
-        validation=validation,
         start_from=_networks(first.extractor) if first else None,
         rehearsal=first.rehearsal if first else None,
-        workers=1,
+        course=Course(workers=1),
     )
 
 
@@ -145,7 +149,7 @@ def pretrain(out: Path, *, drawn: int) -> tuple[Pretrained, Pretrained]:
     folder = out / f"drawn-{drawn}"
     domain = load_domain(DOMAIN)
     if not (folder / "features").is_dir():
-        first = pretrained(domain, count=drawn, checkpoints=folder)
+        first = pretrained(domain, count=drawn, course=Course(checkpoints=folder))
         (folder / "features").mkdir()
         first.extractor.save(folder / "features")
     scenes = Dataset.load(folder / "drawn", domain)
