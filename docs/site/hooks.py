@@ -32,9 +32,7 @@ def on_files(files: Files, *, config: Any) -> Files:
         linked.update(path for _, path in _outside(file.src_uri, file.content_string))
     for path in sorted(linked):
         if (root / path).is_file():
-            files.append(
-                File.generated(config, f"{TAKEN}/{path}", abs_src_path=str(root / path))
-            )
+            files.append(File.generated(config, f"{TAKEN}/{path}", abs_src_path=str(root / path)))
     files.append(File.generated(config, "commands.md", content=_commands(root)))
     return files
 
