@@ -61,8 +61,8 @@ class Seen(NamedTuple):
     def of(self, pictures: npt.NDArray[np.int64]) -> Seen:
         """What they make of the pictures at some positions."""
         return Seen(
-            {name: own[pictures] for name, own in self.probabilities.items()},
-            {name: own[pictures] for name, own in self.embeddings.items()},
+            {name: table[pictures] for name, table in self.probabilities.items()},
+            {name: table[pictures] for name, table in self.embeddings.items()},
         )
 
 
@@ -155,8 +155,8 @@ class FeatureExtractor:
                     network.see(torch.from_numpy(batch[i : i + 256]))
                     for i in range(0, max(1, len(batch)), 256)
                 ]
-                seen.probabilities[name] = torch.cat([own[0] for own in parts]).double().numpy()
-                seen.embeddings[name] = torch.cat([own[1] for own in parts]).numpy()
+                seen.probabilities[name] = torch.cat([part[0] for part in parts]).double().numpy()
+                seen.embeddings[name] = torch.cat([part[1] for part in parts]).numpy()
                 if not np.isfinite(seen.probabilities[name]).all():
                     raise ModelError(f"the network of '{name}' gives no number: {REMEDY}")
         return seen

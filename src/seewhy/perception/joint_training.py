@@ -181,7 +181,7 @@ class _JointTraining:
         )
         if shown.validation is None:
             self.train, self.validation = split(
-                [tuple(own) for own in codes.tolist()],
+                [tuple(vector) for vector in codes.tolist()],
                 share=self.shared.validation_share,
                 seed=seed_of(self.shared.seed, TOGETHER, "split"),
                 groups=shown.groups,
@@ -220,8 +220,8 @@ class _JointTraining:
 
     def _on_device(self, pictures: Pictures, codes: npt.NDArray[np.int64]) -> _Shown:
         fitting = np.ones((len(codes), len(self.rows)), dtype=bool)
-        for own, column in zip(codes.T, self.rows.T, strict=True):
-            fitting &= (own[:, None] == column[None]) | (own[:, None] == UNKNOWN)
+        for known, column in zip(codes.T, self.rows.T, strict=True):
+            fitting &= (known[:, None] == column[None]) | (known[:, None] == UNKNOWN)
         return _Shown(
             torch.from_numpy(np.ascontiguousarray(pictures)).to(self.device),
             torch.from_numpy(codes).to(self.device),
@@ -287,7 +287,7 @@ class _JointTraining:
         names = list(self.networks)
         # Threads draw no random numbers: dropout comes after, in this one.
         seen = threads.map(lambda name: self.networks[name].embeddings(x), names)
-        leaves = [own.detach().requires_grad_() for own in seen]
+        leaves = [embedding.detach().requires_grad_() for embedding in seen]
         for optimizer in self.optimizers.values():
             optimizer.zero_grad(set_to_none=True)
             for group in optimizer.param_groups:
@@ -311,8 +311,10 @@ class _JointTraining:
         vectors = torch.logsumexp(joint[some], dim=1) - torch.logsumexp(fitting, dim=1)
         together = vectors.sum() / len(shown.x)
         alone = sum(
-            functional.cross_entropy(own, codes, weight=weight, ignore_index=UNKNOWN)
-            for own, codes, weight in zip(logits, shown.codes.T, self.weights.values(), strict=True)
+            functional.cross_entropy(of_feature, codes, weight=weight, ignore_index=UNKNOWN)
+            for of_feature, codes, weight in zip(
+                logits, shown.codes.T, self.weights.values(), strict=True
+            )
             if (codes != UNKNOWN).any()
         )
         return VECTOR_SHARE * together + (1.0 - VECTOR_SHARE) * alone
@@ -320,8 +322,8 @@ class _JointTraining:
     def _joint(self, logits: Sequence[torch.Tensor]) -> torch.Tensor:
         """The logits of all annotated vectors, shape (pictures, vectors)."""
         joint = torch.zeros((len(logits[0]), len(self.rows)), device=self.device)
-        for own, column in zip(logits, self.columns.T, strict=True):
-            joint = joint + own[:, column]
+        for of_feature, column in zip(logits, self.columns.T, strict=True):
+            joint = joint + of_feature[:, column]
         return joint
 
     def judged_logits(self) -> list[torch.Tensor]:
@@ -331,7 +333,7 @@ class _JointTraining:
             network.eval()
             with torch.inference_mode():
                 parts = torch.split(self.judged, _AT_ONCE)
-                found.append(torch.cat([network(self.shown.x[own]) for own in parts]))
+                found.append(torch.cat([network(self.shown.x[part]) for part in parts]))
         return found
 
     def score(self) -> list[float]:
@@ -341,9 +343,9 @@ class _JointTraining:
         """
         logits = self.judged_logits()
         judged = self.shown.of(self.judged)
-        for name, own, codes in zip(self.networks, logits, judged.codes.T, strict=True):
+        for name, of_feature, codes in zip(self.networks, logits, judged.codes.T, strict=True):
             known = codes != UNKNOWN
-            right = own.argmax(dim=1)[known] == codes[known]
+            right = of_feature.argmax(dim=1)[known] == codes[known]
             self.accuracy[name] = float(right.double().mean()) if len(right) else 1.0
         loss = float(self._loss(logits, judged))
         if not len(self.rows):
@@ -362,10 +364,12 @@ class _JointTraining:
         else:
             self.position.best = last
         pairs = []
-        for own, codes in zip(self.judged_logits(), self.shown.codes[self.judged].T, strict=True):
+        for of_feature, codes in zip(
+            self.judged_logits(), self.shown.codes[self.judged].T, strict=True
+        ):
             known = codes != UNKNOWN
-            if own.shape[1] > 1 and known.any():
-                pairs.append((own[known].cpu(), codes[known].cpu()))
+            if of_feature.shape[1] > 1 and known.any():
+                pairs.append((of_feature[known].cpu(), codes[known].cpu()))
         if pairs:
             temperature = fitted_temperature(*pairs)
             for network in self.networks.values():

@@ -53,9 +53,9 @@ def in_fold(scenes: Dataset, fold: int) -> np.ndarray[Any, Any]:
     rng = np.random.default_rng(0)
     tested: set[str] = set()
     for label in sorted(poles):
-        own = [str(pole) for pole in rng.permutation(list(poles[label]))]
+        shuffled = [str(pole) for pole in rng.permutation(list(poles[label]))]
         first = int(rng.integers(FOLDS))  # or rare classes would all fall into the first folds
-        tested |= {pole for n, pole in enumerate(own) if (n + first) % FOLDS == fold}
+        tested |= {pole for n, pole in enumerate(shuffled) if (n + first) % FOLDS == fold}
     return np.array([scene.group in tested for scene in scenes.scenes])
 
 
@@ -190,19 +190,21 @@ def report(out: Path) -> str:
             "|---|---|---|---|---|---|",
         ]
         for size in SIZES:
-            own = [r for r in rows if r["drawn"] == drawn and r["asked"] == (size or "all")]
-            if not own:
+            of_size = [r for r in rows if r["drawn"] == drawn and r["asked"] == (size or "all")]
+            if not of_size:
                 continue
-            better = [100 * (r["consistent"] - r["end_to_end"]) for r in own]
+            better = [100 * (r["consistent"] - r["end_to_end"]) for r in of_size]
             means = [
-                f"{100 * np.mean([r[key] for r in own]):.2f} %"
+                f"{100 * np.mean([r[key] for r in of_size]):.2f} %"
                 for key in ("consistent", "argmax", "end_to_end")
             ]
             spread, p = f"{np.mean(better):+.2f}", "–"
-            if len(own) > 1:
+            if len(of_size) > 1:
                 spread += f" ± {np.std(better, ddof=1):.2f}"
                 p = f"{ttest_1samp(better, 0).pvalue:.2f}"
-            lines.append(f"| {size or 'all'} ({len(own)}) | {' | '.join(means)} | {spread} | {p} |")
+            lines.append(
+                f"| {size or 'all'} ({len(of_size)}) | {' | '.join(means)} | {spread} | {p} |"
+            )
     return "\n".join(lines)
 
 
@@ -240,7 +242,7 @@ def main() -> None:
 
         out.mkdir(parents=True, exist_ok=True)
         trials = [(seed, size) for size in options.sizes for seed in range(options.seeds)]
-        Parallel(n_jobs=options.jobs)(delayed(run)(*own) for own in trials)
+        Parallel(n_jobs=options.jobs)(delayed(run)(*arguments) for arguments in trials)
     print(report(out))
 
 

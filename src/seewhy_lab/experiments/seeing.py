@@ -183,16 +183,16 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
             {
                 "seconds_features": round(middle - began, 2),
                 "seconds_class": round(ended - middle, 2),
-                "weights": sum(own.parameters_count for own in features.networks.values()),
+                "weights": sum(network.parameters_count for network in features.networks.values()),
                 "weights_class": classes.networks[CLASS].parameters_count,
                 "machine": here().machine,
             }
         )
     }
-    for part, own in pixels.items():
-        for key, found in features.probabilities(own).items():
+    for part, shown in pixels.items():
+        for key, found in features.probabilities(shown).items():
             kept[f"{part}/{key}"] = found
-        kept[f"{part}-{CLASS}"] = classes.probabilities(own)[CLASS]
+        kept[f"{part}-{CLASS}"] = classes.probabilities(shown)[CLASS]
     with whole_file(file) as temporary, temporary.open("wb") as stream:
         np.savez_compressed(stream, **kept)
 
