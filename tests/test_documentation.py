@@ -17,7 +17,7 @@ DOCS = ROOT / "docs"
 ROOMS = DOCS / "architecture.md"
 sys.path.insert(0, str(DOCS / "site"))
 
-import tutorials  # type: ignore[import-not-found]
+import tutorials  # type: ignore[import-not-found]  # noqa: E402
 
 # Training the backbone takes minutes: `make tutorials` runs all of this page.
 TUTORIALS = {"your_own_pictures": "seewhy train", "your_own_rules": None, "your_own_robot": None}

@@ -1,7 +1,7 @@
 """What the site has beside the pages of this folder: the commands, and files of the repository.
 
-A page may link to a file of the repository (``../results/…``), so that the link works where the page
-is read in the repository. The site takes such a file along, under ``repository/``, and links there.
+A page may link to a file of the repository (``../results/…``), so that the link works where the
+page is read in the repository. The site takes such a file along, under ``repository/``, and links there.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def on_files(files: Files, *, config: Any) -> Files:
 
 
 def on_page_markdown(markdown: str, *, page: Any, files: Files, **_: Any) -> str:
-    """Let links that lead out of docs/ lead to what was taken along; others stay, and are refused."""
+    """Let links out of docs/ lead to what was taken along; others stay, and are refused."""
     folder = posixpath.dirname(page.file.src_uri)
     for link, path in _outside(page.file.src_uri, markdown):
         target = f"{TAKEN}/{path}"
@@ -68,6 +68,6 @@ def _commands(root: Path) -> str:
     ).stdout
     _, _, rest = unescape(told).partition("\n")
     return (
-        "# Commands\n\nEvery command says the same with `--help`. With `--json` it prints its result for a "
-        "program. Wrong input ends\nwith one sentence and exit code 2.\n" + rest
+        "# Commands\n\nEvery command says the same with `--help`. With `--json` it prints its result "
+        "for a program. Wrong input ends\nwith one sentence and exit code 2.\n" + rest
     )

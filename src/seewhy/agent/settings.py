@@ -135,8 +135,9 @@ def settings_for(
     Examples
     --------
     >>> from seewhy.domain.domain import load_domain
-    >>> settings_for(load_domain("structure_stability"), eyes="none").reading
-    'argmax'
+    >>> settings = settings_for(load_domain("structure_stability"), eyes="none", gate=0)
+    >>> settings.reading, settings.gate
+    ('with_class', None)
     """
     sees = domain.eyes_after(domain.pictures.drawn) if eyes is None else eyes
     require_backbone(sees)

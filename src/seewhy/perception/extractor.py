@@ -61,8 +61,8 @@ class Seen(NamedTuple):
     def of(self, pictures: npt.NDArray[np.int64]) -> Seen:
         """What they make of the pictures at some positions."""
         return Seen(
-            {name: rows[pictures] for name, rows in self.probabilities.items()},
-            {name: rows[pictures] for name, rows in self.embeddings.items()},
+            {name: table[pictures] for name, table in self.probabilities.items()},
+            {name: table[pictures] for name, table in self.embeddings.items()},
         )
 
 

@@ -220,8 +220,8 @@ class _JointTraining:
 
     def _on_device(self, pictures: Pictures, codes: npt.NDArray[np.int64]) -> _Shown:
         fitting = np.ones((len(codes), len(self.rows)), dtype=bool)
-        for labels, column in zip(codes.T, self.rows.T, strict=True):
-            fitting &= (labels[:, None] == column[None]) | (labels[:, None] == UNKNOWN)
+        for known, column in zip(codes.T, self.rows.T, strict=True):
+            fitting &= (known[:, None] == column[None]) | (known[:, None] == UNKNOWN)
         return _Shown(
             torch.from_numpy(np.ascontiguousarray(pictures)).to(self.device),
             torch.from_numpy(codes).to(self.device),
@@ -287,7 +287,7 @@ class _JointTraining:
         names = list(self.networks)
         # Threads draw no random numbers: dropout comes after, in this one.
         seen = threads.map(lambda name: self.networks[name].embeddings(x), names)
-        leaves = [logit.detach().requires_grad_() for logit in seen]
+        leaves = [embedding.detach().requires_grad_() for embedding in seen]
         for optimizer in self.optimizers.values():
             optimizer.zero_grad(set_to_none=True)
             for group in optimizer.param_groups:
@@ -311,8 +311,8 @@ class _JointTraining:
         vectors = torch.logsumexp(joint[some], dim=1) - torch.logsumexp(fitting, dim=1)
         together = vectors.sum() / len(shown.x)
         alone = sum(
-            functional.cross_entropy(logit, codes, weight=weight, ignore_index=UNKNOWN)
-            for logit, codes, weight in zip(
+            functional.cross_entropy(of_feature, codes, weight=weight, ignore_index=UNKNOWN)
+            for of_feature, codes, weight in zip(
                 logits, shown.codes.T, self.weights.values(), strict=True
             )
             if (codes != UNKNOWN).any()
@@ -322,8 +322,8 @@ class _JointTraining:
     def _joint(self, logits: Sequence[torch.Tensor]) -> torch.Tensor:
         """The logits of all annotated vectors, shape (pictures, vectors)."""
         joint = torch.zeros((len(logits[0]), len(self.rows)), device=self.device)
-        for logit, column in zip(logits, self.columns.T, strict=True):
-            joint = joint + logit[:, column]
+        for of_feature, column in zip(logits, self.columns.T, strict=True):
+            joint = joint + of_feature[:, column]
         return joint
 
     def judged_logits(self) -> list[torch.Tensor]:
@@ -343,9 +343,9 @@ class _JointTraining:
         """
         logits = self.judged_logits()
         judged = self.shown.of(self.judged)
-        for name, logit, codes in zip(self.networks, logits, judged.codes.T, strict=True):
+        for name, of_feature, codes in zip(self.networks, logits, judged.codes.T, strict=True):
             known = codes != UNKNOWN
-            right = logit.argmax(dim=1)[known] == codes[known]
+            right = of_feature.argmax(dim=1)[known] == codes[known]
             self.accuracy[name] = float(right.double().mean()) if len(right) else 1.0
         loss = float(self._loss(logits, judged))
         if not len(self.rows):
@@ -364,10 +364,12 @@ class _JointTraining:
         else:
             self.position.best = last
         pairs = []
-        for logit, codes in zip(self.judged_logits(), self.shown.codes[self.judged].T, strict=True):
+        for of_feature, codes in zip(
+            self.judged_logits(), self.shown.codes[self.judged].T, strict=True
+        ):
             known = codes != UNKNOWN
-            if logit.shape[1] > 1 and known.any():
-                pairs.append((logit[known].cpu(), codes[known].cpu()))
+            if of_feature.shape[1] > 1 and known.any():
+                pairs.append((of_feature[known].cpu(), codes[known].cpu()))
         if pairs:
             temperature = fitted_temperature(*pairs)
             for network in self.networks.values():
