@@ -1,7 +1,8 @@
 """What the site has beside the pages of this folder: the commands, and files of the repository.
 
 A page may link to a file of the repository (``../results/…``), so that the link works where the
-page is read in the repository. The site takes such a file along, under ``repository/``, and links there.
+page is read in the repository. The site takes such a file along, under ``repository/``, and links
+there.
 """
 
 from __future__ import annotations
@@ -68,6 +69,6 @@ def _commands(root: Path) -> str:
     ).stdout
     _, _, rest = unescape(told).partition("\n")
     return (
-        "# Commands\n\nEvery command says the same with `--help`. With `--json` it prints its result "
-        "for a program. Wrong input ends\nwith one sentence and exit code 2.\n" + rest
+        "# Commands\n\nEvery command says the same with `--help`. With `--json` it prints its "
+        "result for a program. Wrong input ends\nwith one sentence and exit code 2.\n" + rest
     )
