@@ -1,8 +1,11 @@
 # make demo   the whole way once, from simulated pictures to demo/report.html
 # make test   install and run the tests
 # make lint   style and types
+# make dist   what is published: wheel and sdist in dist/, checked
 # make bench  the speed of the reasoner, beside plain clingo
 # make figures  the other numbers and the pictures of the README
+# make tutorials  run the tutorials as they stand, and make their pictures
+# make docs   the site, in site/index.html: opens with no network
 
 PYTHON ?= python3
 DOMAIN ?= structure_stability
@@ -10,7 +13,7 @@ OUT ?= demo
 VENV := .venv
 INSTALLED := $(VENV)/.installed
 
-.PHONY: demo test lint bench figures clean
+.PHONY: demo test lint dist bench figures tutorials docs clean
 
 $(INSTALLED): pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else "SeeWhy needs Python 3.11 or newer, found " + sys.version.split()[0] + "; name one with make PYTHON=...")'
@@ -30,6 +33,13 @@ lint: $(INSTALLED)
 	$(VENV)/bin/mypy
 	$(VENV)/bin/lint-imports
 
+# The laboratory's wheel lies apart: it is for checkouts, and not published.
+dist: $(INSTALLED)
+	rm -rf dist
+	$(VENV)/bin/python -m build --no-isolation --outdir dist .
+	$(VENV)/bin/python -m build --no-isolation --wheel --outdir dist/lab lab
+	$(VENV)/bin/twine check --strict dist/*.whl dist/*.tar.gz dist/lab/*.whl
+
 bench: $(INSTALLED)
 	$(VENV)/bin/python -m pytest benchmarks --benchmark-enable --benchmark-only --benchmark-columns=min,median,ops,rounds --benchmark-sort=name
 
@@ -45,5 +55,12 @@ figures: $(INSTALLED)
 	$(VENV)/bin/seewhy data show runs/signs --domain traffic_signs --rows 3 --columns 10 --out docs/pictures/signs.png
 	$(VENV)/bin/seewhy ask runs/model runs/pictures/images/000056.png "what is making this structure unstable?" --picture docs/pictures/answer.svg
 
+tutorials: $(INSTALLED)
+	$(VENV)/bin/python docs/site/tutorials.py docs/start/your_own_*.md --folder runs/tutorials
+
+docs: $(INSTALLED)
+	$(VENV)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[docs]'
+	NO_MKDOCS_2_WARNING=1 $(VENV)/bin/mkdocs build --strict
+
 clean:
-	rm -rf $(VENV) demo runs build dist
+	rm -rf $(VENV) demo runs build dist site

@@ -79,18 +79,18 @@ def building(rooms: int, messages: int, people: int, seed: int) -> tuple[Knowled
     """Return the knowledge of a random building, what holds at first, and who gets what."""
     chance = random.Random(f"{rooms} {messages} {people} {seed}")
     corridors = max(1, rooms // 5)
-    doors = [(chance.randrange(own), own) for own in range(1, corridors)]
+    doors = [(chance.randrange(room), room) for room in range(1, corridors)]
     doors += [
         (one, other)
         for one, other in (chance.sample(range(corridors), 2) for _ in range(corridors // 4))
         if corridors > 2 and (one, other) not in doors and (other, one) not in doors
     ]
-    doors += [(chance.randrange(corridors), own) for own in range(corridors, rooms)]
+    doors += [(chance.randrange(corridors), room) for room in range(corridors, rooms)]
     where = [chance.randrange(rooms) for _ in range(people)]
     lines = [
-        f"#sort place = {{{', '.join(f'r{own}' for own in range(rooms))}}}.",
-        f"#sort person = {{{', '.join(f'p{own}' for own in range(people))}}}.",
-        f"#sort message = {{{', '.join(f'm{own}' for own in range(messages))}}}.",
+        f"#sort place = {{{', '.join(f'r{room}' for room in range(rooms))}}}.",
+        f"#sort person = {{{', '.join(f'p{person}' for person in range(people))}}}.",
+        f"#sort message = {{{', '.join(f'm{message}' for message in range(messages))}}}.",
         LAWS,
         *(f"next_to(r{one}, r{other})." for one, other in doors),
     ]
@@ -99,10 +99,11 @@ def building(rooms: int, messages: int, people: int, seed: int) -> tuple[Knowled
         f"loc({who}, r{place})"
         for who, place in [("rob1", chance.randrange(rooms)), *_numbered(where)]
     ]
-    seen = " ".join(f"observed {own} at 0." for own in literals)
+    seen = " ".join(f"observed {literal} at 0." for literal in literals)
     start = diagnose(knowledge, read_history(seen, knowledge.signature)).now
     wanted = [
-        f"message_status(m{own}, p{chance.randrange(people)}, delivered)" for own in range(messages)
+        f"message_status(m{message}, p{chance.randrange(people)}, delivered)"
+        for message in range(messages)
     ]
     return knowledge, start, read_goal(", ".join(wanted), knowledge)
 

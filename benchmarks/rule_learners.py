@@ -44,12 +44,20 @@ Fitted = tuple[Callable[[Rows], np.ndarray], int]
 def structures(seed: int) -> tuple[Rows, np.ndarray, bool]:
     """Scenes of the structures, annotated by the knowledge."""
     domain = load_domain("structure_stability")
-    space = list(product(*(own.values for own in domain.features.values())))
+    space = list(product(*(feature.values for feature in domain.features.values())))
     decisions = Reasoner(domain.knowledge, domain.schema).decide_all(space)
-    decided = [(v, own.label) for v, own in zip(space, decisions, strict=True) if own.label]
+    decided = [
+        (vector, decision.label)
+        for vector, decision in zip(space, decisions, strict=True)
+        if decision.label
+    ]
     drawn = np.random.default_rng(seed).integers(len(decided), size=SCENES)
-    places = [{v: n for n, v in enumerate(own.values)} for own in domain.features.values()]
-    rows = [[p[v] for p, v in zip(places, decided[n][0], strict=True)] for n in drawn]
+    places = [
+        {value: n for n, value in enumerate(feature.values)} for feature in domain.features.values()
+    ]
+    rows = [
+        [place[value] for place, value in zip(places, decided[n][0], strict=True)] for n in drawn
+    ]
     return np.array(rows), np.array([decided[n][1] == "stable" for n in drawn]), False
 
 
@@ -58,7 +66,10 @@ def signs(seed: int) -> tuple[Rows, np.ndarray, bool]:
     domain = load_domain("traffic_signs")
     with (domain.folder / "classes.csv").open(encoding="utf-8", newline="") as stream:
         kinds = list(csv.DictReader(stream))
-    places = {key: {v: n for n, v in enumerate(f.values)} for key, f in domain.features.items()}
+    places = {
+        key: {value: n for n, value in enumerate(feature.values)}
+        for key, feature in domain.features.items()
+    }
     drawn = np.random.default_rng(seed).integers(len(kinds), size=SCENES)
     rows = [[place[kinds[n][key]] for key, place in places.items()] for n in drawn]
     return np.array(rows), np.array([kinds[n]["code"].startswith("A") for n in drawn]), False
@@ -68,8 +79,8 @@ def shipped(load: Callable[[], object], positive: int) -> Callable[[int], tuple]
     """A table of scikit-learn: whether a row is of one class."""
 
     def table(_: int) -> tuple[Rows, np.ndarray, bool]:
-        own = load()
-        return own.data, own.target == positive, True
+        loaded = load()
+        return loaded.data, loaded.target == positive, True
 
     return table
 
@@ -91,7 +102,9 @@ def seewhy_rules(rows: Rows, labels: np.ndarray, tolerance: float) -> Fitted:
     with fewer literals.
     """
     most = rows.max(axis=0)
-    features = {f"f{n}": tuple(map(str, range(int(own) + 1))) for n, own in enumerate(most)}
+    features = {
+        f"f{n}": tuple(map(str, range(int(greatest) + 1))) for n, greatest in enumerate(most)
+    }
     vectors = [tuple(map(str, row)) for row in rows]
     learned = learn_axioms(
         features, vectors, list(map(str, labels)), decide=decide_by_candidates(features),
@@ -99,25 +112,27 @@ def seewhy_rules(rows: Rows, labels: np.ndarray, tolerance: float) -> Fitted:
     )  # fmt: skip
 
     def spoken(some: Rows, label: bool) -> np.ndarray:
-        own = [tuple(map(str, row)) for row in np.minimum(some, most)]
-        table = scene_table(features, own, ["?"] * len(own))
+        bounded = [tuple(map(str, row)) for row in np.minimum(some, most)]
+        table = scene_table(features, bounded, ["?"] * len(bounded))
         by_row = np.zeros(len(table.vectors), dtype=bool)
-        for axiom in (own.candidate for own in learned.accepted):
-            if axiom.label == str(label):
-                by_row |= table.satisfying(axiom.conditions)
-        found = np.zeros(len(own), dtype=bool)
+        for judgement in learned.accepted:
+            if judgement.candidate.label == str(label):
+                by_row |= table.satisfying(judgement.candidate.conditions)
+        found = np.zeros(len(bounded), dtype=bool)
         for speaks, positions in zip(by_row, table.scenes, strict=True):
             found[list(positions)] = speaks
         return found if label else ~found
 
     literals = {
         label: sum(
-            o.candidate.literals for o in learned.accepted if o.candidate.label == str(label)
+            judgement.candidate.literals
+            for judgement in learned.accepted
+            if judgement.candidate.label == str(label)
         )
         for label in (True, False)
     }
     chosen = max(
-        (True, False), key=lambda own: ((spoken(rows, own) == labels).mean(), -literals[own])
+        (True, False), key=lambda label: ((spoken(rows, label) == labels).mean(), -literals[label])
     )
     return lambda some: spoken(some, chosen), literals[chosen]
 
@@ -134,7 +149,9 @@ def best_tolerance(rows: Rows, labels: np.ndarray, seed: int) -> float:
         scores.append(right)
     means, best = np.mean(scores, axis=1), int(np.argmax(np.mean(scores, axis=1)))
     least = means[best] - sem(scores[best])
-    return max(own for own, mean in zip(TOLERANCES, means, strict=True) if mean >= least)
+    return max(
+        tolerance for tolerance, mean in zip(TOLERANCES, means, strict=True) if mean >= least
+    )
 
 
 def foldrpp_rules(rows: Rows, labels: np.ndarray, _: float) -> Fitted:
@@ -148,8 +165,8 @@ def foldrpp_rules(rows: Rows, labels: np.ndarray, _: float) -> Fitted:
 
     model = Foldrpp(str_attrs=[], num_attrs=names, label="label", pos_val="1")
     data = dictionaries(rows)
-    for own, label in zip(data, labels, strict=True):
-        own["label"] = int(label)
+    for row, label in zip(data, labels, strict=True):
+        row["label"] = int(label)
     model.fit(data)
 
     def predict(some: Rows) -> np.ndarray:
@@ -242,7 +259,9 @@ def main() -> None:
             found = [one(name, noise, seed) for seed in range(options.seeds)]
             cells: Sequence[str] = [
                 "{:.1f} %, {:.1f}, {:.2f} s".format(
-                    *np.mean([(100 * a, b, c) for a, b, c in (own[key] for own in found)], axis=0)
+                    *np.mean(
+                        [(100 * a, b, c) for a, b, c in (result[key] for result in found)], axis=0
+                    )
                 )
                 for key in LEARNERS
             ]

@@ -49,7 +49,7 @@ def main() -> None:
         together = stacked(networks, pictures, targets)
         times = turn_by_turn(one_by_one, together, turns=options.turns)
         ratio = statistics.median(first / second for first, second in times)
-        first, second = (1000 * statistics.median(own) for own in zip(*times, strict=True))
+        first, second = (1000 * statistics.median(seconds) for seconds in zip(*times, strict=True))
         print(
             f"{depth} convolutions: one by one {first:.0f} ms, stacked {second:.0f} ms, "
             f"ratio {ratio:.2f}"
@@ -58,7 +58,7 @@ def main() -> None:
 
 def separate(networks: list[GrowingNetwork], pictures: torch.Tensor, targets: torch.Tensor) -> Step:
     """A step of each network by itself."""
-    optimizers = [new_optimizer(own, TrainingOptions()) for own in networks]
+    optimizers = [new_optimizer(network, TrainingOptions()) for network in networks]
 
     def step() -> None:
         for network, optimizer, right in zip(networks, optimizers, targets, strict=True):
@@ -76,9 +76,11 @@ def stacked(networks: list[GrowingNetwork], pictures: torch.Tensor, targets: tor
     shell = networks[0]
 
     def loss_of(
-        own: dict[str, torch.Tensor], state: dict[str, torch.Tensor], right: torch.Tensor
+        weights: dict[str, torch.Tensor], state: dict[str, torch.Tensor], right: torch.Tensor
     ) -> torch.Tensor:
-        return functional.cross_entropy(functional_call(shell, (own, state), (pictures,)), right)
+        return functional.cross_entropy(
+            functional_call(shell, (weights, state), (pictures,)), right
+        )
 
     every = torch.vmap(loss_of, randomness="different")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from default_knowledge import default_knowledge, default_schema, scene_with_exception
 from wide_knowledge import wide_knowledge, wide_schema, wide_vectors
 
 from seewhy.domain.domain import load_domain
@@ -27,13 +28,23 @@ def _structures():
 
 def _wide():
     reasoner = Reasoner(wide_knowledge(), wide_schema())
-    vector = next(v for v in wide_vectors(500) if reasoner.decide(v).label is not None)
+    vector = next(
+        vector for vector in wide_vectors(500) if reasoner.decide(vector).label is not None
+    )
     label = reasoner.decide(vector).label
     other = next(name for name in reasoner.schema.classes if name != label)
     return reasoner, vector, label, other
 
 
-@pytest.fixture(params=[_structures, _wide], ids=["structures", "wide"])
+def _defaults():
+    reasoner = Reasoner(default_knowledge(), default_schema())
+    vector = scene_with_exception()
+    (answer_set,) = reasoner.answer_sets(vector)
+    assert answer_set.exceptions
+    return reasoner, vector, "unsafe", "safe"
+
+
+@pytest.fixture(params=[_structures, _wide, _defaults], ids=["structures", "wide", "defaults"])
 def scene(request):
     reasoner, vector, label, other = request.param()
     classes = reasoner.schema.classes

@@ -41,7 +41,7 @@ def test_repeated_scenes(benchmark, vectors):
 def test_plain_clingo_one_program_per_scene(benchmark, vectors):
     text = program_text(wide_knowledge(), wide_schema())
     names = list(wide_schema().features)
-    classes = {f"holds({own})".replace(", ", ",") for own in wide_schema().classes.values()}
+    classes = {f"holds({literal})".replace(", ", ",") for literal in wide_schema().classes.values()}
 
     def decide(vector: FeatureVector) -> str | None:
         control = clingo.Control(["--warn=none", "--enum-mode=cautious", "0"])
@@ -54,7 +54,9 @@ def test_plain_clingo_one_program_per_scene(benchmark, vectors):
         believed: list[str] = []
 
         def on_model(model: clingo.Model) -> None:
-            believed[:] = [s for s in map(str, model.symbols(atoms=True)) if s in classes]
+            believed[:] = [
+                symbol for symbol in map(str, model.symbols(atoms=True)) if symbol in classes
+            ]
 
         control.solve(on_model=on_model)
         return believed[0] if len(believed) == 1 else None
@@ -65,7 +67,7 @@ def test_plain_clingo_one_program_per_scene(benchmark, vectors):
     plain = benchmark.pedantic(decide_all, rounds=2)
     # The two ways must agree, or the comparison is worth nothing.
     fast = [
-        own.label and f"holds(kind_of(thing,{own.label}))"
-        for own in Reasoner(wide_knowledge(), wide_schema()).decide_all(vectors)
+        decision.label and f"holds(kind_of(thing,{decision.label}))"
+        for decision in Reasoner(wide_knowledge(), wide_schema()).decide_all(vectors)
     ]
     assert plain == fast

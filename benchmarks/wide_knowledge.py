@@ -62,8 +62,8 @@ def wide_schema() -> SceneSchema:
 def wide_vectors(count: int, *, seed: int = 0) -> list[FeatureVector]:
     """``count`` distinct feature vectors at random."""
     generator = np.random.default_rng(seed)
-    values = [tuple(own) for own in wide_schema().features.values()]
+    values = [tuple(possible) for possible in wide_schema().features.values()]
     found: dict[FeatureVector, None] = {}
     while len(found) < count:
-        found[tuple(own[int(generator.integers(len(own)))] for own in values)] = None
+        found[tuple(possible[int(generator.integers(len(possible)))] for possible in values)] = None
     return list(found)

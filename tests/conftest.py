@@ -8,6 +8,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -31,6 +32,7 @@ from seewhy.dialogue.reply import Classification, FeatureReading
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception import extractor, fitting_eyes, parallel
+from seewhy.perception.course import Course
 
 DOMAIN = """\
 [domain]
@@ -215,8 +217,8 @@ def one_process() -> Iterator[None]:
         yield
 
 
-def _train_networks_here(*args: Any, **options: Any) -> Any:
-    trained = parallel.train_networks(*args, **{**options, "workers": 1})
+def _train_networks_here(*args: Any, course: Course, **options: Any) -> Any:
+    trained = parallel.train_networks(*args, course=replace(course, workers=1), **options)
     # Judged by six pictures, no network is surer of a value than 7 to 1; tests want one that is.
     for network, _ in trained.values():
         network.temperature /= 2
@@ -258,7 +260,7 @@ def reasoning(structures: Domain) -> Agent:
 def seen(agent: Agent, *values: str | None, probability: float = 0.9) -> Classification:
     """The classification of a scene whose features are given, as the agent decides it."""
     vector: FeatureVector = tuple(values)
-    label, method, verdict = agent._decide(vector)
+    label, method, verdict = agent.deciding.decide(vector)
     readings = {
         key: FeatureReading(value or "", probability)
         for key, value in zip(agent.domain.features, vector, strict=True)

@@ -17,6 +17,7 @@ from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks
 from seewhy.domain.domain import Domain
 from seewhy.errors import NotFittedError, PictureError, QuestionError
+from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.justification import Basis
 
 
@@ -164,16 +165,16 @@ def test_the_tree_learns_from_what_the_knowledge_leaves_open_or_gets_wrong(
 ) -> None:
     agent = Agent(tiles)
     given: dict[str, list[Any]] = {}
-    fit = agent.tree.fit
+    fit = DecisionTree.fit
 
-    def spy(vectors: list[Any], labels: list[str], *, seed: int) -> Any:
+    def spy(tree: DecisionTree, vectors: list[Any], labels: list[str], *, seed: int) -> Any:
         given["tree"] = list(zip(vectors, labels, strict=True))
-        return fit(vectors, labels, seed=seed)
+        return fit(tree, vectors, labels, seed=seed)
 
     def answers(*args: Any, **_: Any) -> None:
         given["answers"] = list(zip(args[3], args[4], strict=True))
 
-    monkeypatch.setattr(agent.tree, "fit", spy)
+    monkeypatch.setattr(DecisionTree, "fit", spy)
     monkeypatch.setattr("seewhy.dialogue.learned.fit_learned_answers", answers)
     train = dataset.of_split("train")
     agent.fit_induction(train.vectors, train.labels)

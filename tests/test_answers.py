@@ -97,7 +97,9 @@ GOLDEN = {
         "such scenes to learn from either.",
     },
     ("2", "wide", "no", "yes"): {
-        "is it stable?": UNDECIDED.format("stable"),
+        "is it stable?": (
+            "I cannot tell what the structure is: the knowledge contradicts itself about it."
+        ),
         "please explain this answer": "I see that the structure has two blocks, it is standing "
         "straight, and a block is displaced (each with a probability of at least 0.90). The "
         'knowledge contradicts itself here: "two blocks that do not lean stay where they are" '

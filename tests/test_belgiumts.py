@@ -348,7 +348,7 @@ BAD_FILES = {
     "a half twice in one archive": (
         training() | {f"copy/{name}": content for name, content in training().items()},
         "{home}/a.zip/copy/Training: the Training half is also in {home}/a.zip/Training; give one "
-        "of the two with --from",
+        "of the two",
     ),
     "tables without pictures": (
         {"Training/00000/GT-00000.csv": HEADER.encode()},
@@ -457,7 +457,7 @@ def test_bad_sources(signs: Domain, tmp_path: Path) -> None:
         (
             twice,
             f"{tmp_path}/b.zip/Training: the Training half is also in {tmp_path}/x/Training; give "
-            "one of the two with --from",
+            "one of the two",
         ),
     ):
         with pytest.raises(DatasetError) as problem:

@@ -256,7 +256,8 @@ def test_a_word_says_so_exactly_where_something_is_unsure(
 def test_every_form_that_says_what_is_seen_has_a_wording_that_does_not_say_it_as_sure() -> None:
     templates = default_answer_templates()
     silent = {
-            "undecided", "unknown", "no_belief", "no_difference", "explain", "feature_unknown"
+            "undecided", "several", "contradictory", "unknown", "no_belief", "no_difference",
+            "explain", "feature_unknown",
         }  # fmt: skip
     forms = {form for form in templates if not form.endswith("_unsure")}
     for form in forms - silent - {"supposed", "supposed_not"}:

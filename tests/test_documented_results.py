@@ -46,9 +46,6 @@ TABLES: list[tuple[str, str, str, list[tuple[str, str]]]] = [
     ("README.md", "## The paper's claims", "structures/vqa",
      [("accuracy", "seewhy"), ("accuracy", "end_to_end"), ("accuracy", "frozen"),
       ("answers", "believing"), ("answers", "end_to_end")]),
-    ("README.md", "photographs of traffic signs", "signs/vqa-with_class",
-     [("accuracy", "seewhy"), ("accuracy", "end_to_end"), ("accuracy", "frozen"),
-      ("answers", "believing"), ("answers", "end_to_end")]),
 ]  # fmt: skip
 """A document, the text that the table follows, the rows, and what its numbers are in turn."""
 

@@ -20,6 +20,7 @@ from seewhy.errors import DatasetError, DomainError, ModelError
 from seewhy.perception import tail_training
 from seewhy.perception.backbones import efficientnet_lite, load_backbone
 from seewhy.perception.backbones.backbone import Backbone
+from seewhy.perception.course import Course
 from seewhy.perception.embedding import embed_pictures, embed_variations
 from seewhy.perception.embedding_cache import EmbeddingCache
 from seewhy.perception.events import EyesEvent
@@ -170,7 +171,7 @@ def test_heads_alone_are_fitted_where_nothing_is_to_be_tuned(fitted: FittedEyes)
 
 def test_the_same_seed_teaches_the_same(backbone: Backbone, lesson: Lesson) -> None:
     events: list[EyesEvent] = []
-    first = fit_eyes(backbone, lesson, seed=5, on_progress=events.append)
+    first = fit_eyes(backbone, lesson, seed=5, course=Course(on_progress=events.append))
     second = fit_eyes(backbone, lesson, seed=5)
     assert first.eyes.tail is not None
     assert second.eyes.tail is not None
@@ -207,12 +208,16 @@ def test_an_interrupted_tuning_goes_on_with_the_same_weights(
                 raise KeyboardInterrupt
 
         with pytest.raises(KeyboardInterrupt):
-            fit_eyes(backbone, lesson, seed=2, checkpoints=tmp_path, on_progress=told)
+            fit_eyes(
+                backbone, lesson, seed=2, course=Course(checkpoints=tmp_path, on_progress=told)
+            )
 
     until("tuning layers by most", 6)
     until("tuning layers once more, by all", 8)
     last: list[EyesEvent] = []
-    again = fit_eyes(backbone, lesson, seed=2, checkpoints=tmp_path, on_progress=last.append)
+    again = fit_eyes(
+        backbone, lesson, seed=2, course=Course(checkpoints=tmp_path, on_progress=last.append)
+    )
     steps = [event.done for event in last if event.stage.startswith("tuning")]
     assert steps[0] == 10  # nothing finished is done again
     assert whole is not None
@@ -222,7 +227,9 @@ def test_an_interrupted_tuning_goes_on_with_the_same_weights(
         assert torch.equal(weights[name], weight)
     # Another seed is another training, and what lies there is not its own.
     events: list[EyesEvent] = []
-    fit_eyes(backbone, lesson, seed=3, checkpoints=tmp_path, on_progress=events.append)
+    fit_eyes(
+        backbone, lesson, seed=3, course=Course(checkpoints=tmp_path, on_progress=events.append)
+    )
     tuned = [event.done for event in events if event.stage == "tuning layers by most"]
     assert tuned[0] == 2
 

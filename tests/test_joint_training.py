@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import torch
 
+from seewhy.perception.course import Course
 from seewhy.perception.events import TrainingEvent
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
 from seewhy.perception.joint_training import TOGETHER
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
 
@@ -37,17 +40,21 @@ def scenes(n: int, *, seed: int = 0, blurred: float = 0.0) -> tuple[np.ndarray, 
     return pictures.astype(np.uint8), dict(zip(VALUES, map(list, columns), strict=True))
 
 
-def fit(n: int = 60, **changes: object) -> FeatureExtractor:
-    pictures, labels = scenes(n)
-    arguments: dict[str, object] = {
-        "labels": labels,
-        "values": VALUES,
-        "options": OPTIONS,
-        "together": tuple(VALUES),
-        "workers": 1,
-        **changes,
-    }
-    return fit_extractor(pictures, **arguments)  # type: ignore[arg-type]
+def fit(
+    n: int = 60,
+    *,
+    labels: Labels | None = None,
+    workers: int = 1,
+    checkpoints: Path | None = None,
+    on_progress: Callable[[TrainingEvent], None] | None = None,
+    **changes: Any,
+) -> FeatureExtractor:
+    pictures, annotated = scenes(n)
+    course = Course(checkpoints=checkpoints, workers=workers, on_progress=on_progress)
+    options: dict[str, Any] = {"options": OPTIONS, "together": tuple(VALUES), **changes}
+    return fit_extractor(
+        LabelledPictures(pictures, labels or annotated, VALUES), course=course, **options
+    )
 
 
 def tensors(extractor: FeatureExtractor) -> list[torch.Tensor]:
@@ -133,7 +140,10 @@ def test_unknown_values_are_left_out() -> None:
         "light": [None if n % 3 == 1 else own for n, own in enumerate(labels["light"])],
     }
     extractor = fit_extractor(
-        pictures, gaps, values=VALUES, options=OPTIONS, together=VALUES, workers=1
+        LabelledPictures(pictures, gaps, VALUES),
+        options=OPTIONS,
+        together=VALUES,
+        course=Course(workers=1),
     )
     assert all(bool(tensor.isfinite().all()) for tensor in tensors(extractor))
     truth = list(zip(*labels.values(), strict=True))
@@ -148,7 +158,10 @@ def test_no_scene_whose_values_are_all_known() -> None:
         "light": [None if n % 2 else own for n, own in enumerate(labels["light"])],
     }
     extractor = fit_extractor(
-        pictures, halves, values=VALUES, options=OPTIONS, together=VALUES, workers=1
+        LabelledPictures(pictures, halves, VALUES),
+        options=OPTIONS,
+        together=VALUES,
+        course=Course(workers=1),
     )
     assert all(bool(tensor.isfinite().all()) for tensor in tensors(extractor))
 

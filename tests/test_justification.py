@@ -442,6 +442,68 @@ default stable(S) if structure(S).
     )
 
 
+def test_where_a_double_negation_chooses_each_choice_is_told_and_their_features_suffice() -> None:
+    axioms = """
+#static sound(structure).
+sound(S) if structure(S), not not sound(S).
+stable(S) if sound(S), lean(S).
+stable(S) if structure(S), not sound(S).
+"""
+    assert tree(axioms, "stable(structure)", None, None, "yes", None) == (
+        "stable(structure), whichever is so\n"
+        '├─ either stable(structure): "stable(S) if sound(S), lean(S)" (knowledge.al:12)\n'
+        '│  ├─ sound(structure): "sound(S) if structure(S), not not sound(S)" (knowledge.al:11)\n'
+        "│  │  └─ supposing that sound(structure)\n"
+        "│  └─ lean(structure)\n"
+        '└─ or stable(structure): "stable(S) if structure(S), not sound(S)" (knowledge.al:13)\n'
+        "   └─ supposing that nothing says that sound(structure)"
+    )
+
+
+def test_a_belief_that_only_a_double_negation_of_itself_concludes_is_supposed() -> None:
+    axioms = """
+#static sound(structure).
+sound(S) if structure(S), not not sound(S).
+sound(S) if structure(S), not sound(S).
+stable(S) if sound(S), lean(S).
+"""
+    assert tree(axioms, "stable(structure)", None, None, "yes", None) == (
+        'stable(structure): "stable(S) if sound(S), lean(S)" (knowledge.al:13)\n'
+        '├─ sound(structure): "sound(S) if structure(S), not not sound(S)" (knowledge.al:11)\n'
+        "│  └─ supposing that sound(structure)\n"
+        "└─ lean(structure)"
+    )
+
+
+def test_literals_are_supposed_where_a_sum_settles_nothing_without_what_it_concludes() -> None:
+    axioms = """
+#sort weight = {-1, 1}.
+#static load(structure, weight).
+load(S, 1) if load(S, -1).
+load(S, -1) if load(S, 1).
+load(S, 1) if structure(S), #sum { W : load(S, W) } >= 0.
+"""
+    assert tree(axioms, "load(structure, -1)", *[None] * 4) == (
+        'load(structure, -1): "load(S, -1) if load(S, 1)" (knowledge.al:13)\n'
+        '└─ load(structure, 1): "load(S, 1) if structure(S), 0 <= #sum { W: load(S,W) }" '
+        "(knowledge.al:14)\n"
+        "   └─ the sum of weight where load(structure, weight) is at least 0\n"
+        "      └─ supposing that load(structure, 1)"
+    )
+
+
+def test_absences_that_wait_for_each_other_are_settled_through_an_aggregate() -> None:
+    axioms = """
+#static sound(structure).
+sound(S) if structure(S), #count { T : sound(T) } > 0.
+stable(S) if structure(S), not sound(S).
+"""
+    assert tree(axioms, "stable(structure)", *[None] * 4) == (
+        'stable(structure): "stable(S) if structure(S), not sound(S)" (knowledge.al:12)\n'
+        "└─ nothing says that sound(structure)"
+    )
+
+
 def test_why_not_puts_the_nearest_axiom_first() -> None:
     assert refuted(STABILITY, "stable(structure)", "3", "wide", "no", "yes") == (
         "it does not follow that stable(structure)\n"

@@ -10,6 +10,7 @@ from seewhy.agent.agent import Agent
 from seewhy.agent.trace import trace_of
 from seewhy.domain.domain import Domain
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.labelled_pictures import LabelledPictures
 
 VECTOR = ("3", "wide", "no", "no")
 
@@ -25,7 +26,7 @@ def agent(structures: Domain) -> Agent:
 def trained(structures: Domain) -> FeatureExtractor:
     pictures = np.zeros((10, 32, 32, 3), dtype=np.uint8)
     values = {key: list(feature.values) for key, feature in structures.features.items()}
-    return fit_extractor(pictures, {"base": ["wide"] * 10}, values=values)
+    return fit_extractor(LabelledPictures(pictures, {"base": ["wide"] * 10}, values))
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,9 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,8 +23,10 @@ from seewhy.errors import DatasetError, DomainError, ModelError, SeeWhyError
 from seewhy.perception import extractor as perception_extractor
 from seewhy.perception.augmentation import augment
 from seewhy.perception.calibration import fitted_temperature
+from seewhy.perception.course import Course
 from seewhy.perception.events import TrainingEvent
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.training import train_network
@@ -93,7 +96,9 @@ def trained() -> FeatureExtractor:
         "side": TrainingOptions(threshold=0.95, max_epochs=6),
         "count": TrainingOptions(threshold=0.95, max_epochs=8, flip=True),
     }
-    return fit_extractor(pictures, labels, values=VALUES, options=options, workers=1)
+    return fit_extractor(
+        LabelledPictures(pictures, labels, VALUES), options=options, course=Course(workers=1)
+    )
 
 
 # The network
@@ -265,7 +270,9 @@ def test_grows_only_as_far_as_it_must() -> None:
     def depth(threshold: float, column: list[str]) -> int:
         options = dataclasses.replace(SHORT, threshold=threshold)
         network, record = train_network(
-            pictures, column, feature="side", values=VALUES["side"], options=options
+            LabelledPictures(pictures, {"side": column}, {"side": VALUES["side"]}),
+            "side",
+            options=options,
         )
         assert network.depth == record.depth
         return record.depth
@@ -273,12 +280,14 @@ def test_grows_only_as_far_as_it_must() -> None:
     assert depth(0.2, labels["side"]) == 1
     events: list[TrainingEvent] = []
     train_network(
-        pictures,
-        np.random.default_rng(0).choice(VALUES["count"], 120).tolist(),  # nothing to be learned
-        feature="count",
-        values=VALUES["count"],
+        LabelledPictures(
+            pictures,
+            {"count": np.random.default_rng(0).choice(VALUES["count"], 120).tolist()},
+            {"count": VALUES["count"]},
+        ),
+        "count",
         options=dataclasses.replace(SHORT, threshold=1.0),
-        on_progress=events.append,
+        course=Course(on_progress=events.append),
     )
     kinds = [event.kind for event in events]
     assert kinds.count("grown") >= 1
@@ -302,12 +311,14 @@ def test_same_seed_same_weights_and_the_callers_randomness_is_untouched() -> Non
     torch.manual_seed(1)
     expected = torch.rand(3)
     torch.manual_seed(1)
-    one = fit_extractor(pictures, {"side": labels["side"]}, values=VALUES, options=SHORT)
+    one = fit_extractor(LabelledPictures(pictures, {"side": labels["side"]}, VALUES), options=SHORT)
     assert torch.equal(torch.rand(3), expected)
-    two = fit_extractor(pictures, {"side": labels["side"]}, values=VALUES, options=SHORT)
+    two = fit_extractor(LabelledPictures(pictures, {"side": labels["side"]}, VALUES), options=SHORT)
     assert_same_weights(one, two)
     other = dataclasses.replace(SHORT, seed=1)
-    three = fit_extractor(pictures, {"side": labels["side"]}, values=VALUES, options=other)
+    three = fit_extractor(
+        LabelledPictures(pictures, {"side": labels["side"]}, VALUES), options=other
+    )
     assert any(not torch.equal(a, weights(three)[k]) for k, a in weights(one).items())
 
 
@@ -316,9 +327,12 @@ def test_unlabelled_pictures_are_left_out() -> None:
     misleading = np.zeros((20, 16, 16, 3), dtype=np.uint8)
     column: list[str | None] = [*labels["side"], *[None] * 20]
     with_them = fit_extractor(
-        np.concatenate([pictures, misleading]), {"side": column}, values=VALUES, options=SHORT
+        LabelledPictures(np.concatenate([pictures, misleading]), {"side": column}, VALUES),
+        options=SHORT,
     )
-    without = fit_extractor(pictures, {"side": labels["side"]}, values=VALUES, options=SHORT)
+    without = fit_extractor(
+        LabelledPictures(pictures, {"side": labels["side"]}, VALUES), options=SHORT
+    )
     assert_same_weights(with_them, without)
 
 
@@ -334,7 +348,7 @@ def test_rare_values_are_found_more_often_when_balanced() -> None:
     def found(balance: float) -> int:
         options = dataclasses.replace(plain(balance=balance), max_epochs=4, growing_epochs=1)
         extractor = fit_extractor(
-            pictures, {"light": column}, values={"light": ["yes", "no"]}, options=options
+            LabelledPictures(pictures, {"light": column}, {"light": ["yes", "no"]}), options=options
         )
         return int((extractor.probabilities(pictures)["light"].argmax(axis=1) == 0).sum())
 
@@ -370,14 +384,10 @@ def test_killed_training_ends_with_the_same_weights(
 
     def fit(checkpoints: Path | None, on_progress=None) -> FeatureExtractor:
         return fit_extractor(
-            pictures,
-            labels,
-            values=VALUES,
+            LabelledPictures(pictures, labels, VALUES),
             options=options,
-            checkpoints=checkpoints,
             start_from=start_from,
-            workers=1,
-            on_progress=on_progress,
+            course=Course(checkpoints=checkpoints, workers=1, on_progress=on_progress),
         )
 
     events: list[TrainingEvent] = []
@@ -415,12 +425,9 @@ def test_checkpoints_of_other_data_or_options_are_not_mixed_in(tmp_path: Path) -
     column = {"side": labels["side"]}
     with pytest.raises(StoppedError):
         fit_extractor(
-            pictures,
-            column,
-            values=VALUES,
+            LabelledPictures(pictures, column, VALUES),
             options=SHORT,
-            checkpoints=tmp_path,
-            on_progress=stop_after(3),
+            course=Course(checkpoints=tmp_path, on_progress=stop_after(3)),
         )
     other_options = dataclasses.replace(SHORT, learning_rate=0.001)
     other_pictures = pictures.copy()
@@ -428,15 +435,14 @@ def test_checkpoints_of_other_data_or_options_are_not_mixed_in(tmp_path: Path) -
     for data, options in ((pictures, other_options), (other_pictures, SHORT)):
         first: list[TrainingEvent] = []
         found = fit_extractor(
-            data,
-            column,
-            values=VALUES,
+            LabelledPictures(data, column, VALUES),
             options=options,
-            checkpoints=tmp_path,
-            on_progress=first.append,
+            course=Course(checkpoints=tmp_path, on_progress=first.append),
         )
         assert (first[0].depth, first[0].epoch) == (1, 1)
-        assert_same_weights(found, fit_extractor(data, column, values=VALUES, options=options))
+        assert_same_weights(
+            found, fit_extractor(LabelledPictures(data, column, VALUES), options=options)
+        )
 
 
 @pytest.mark.parametrize("damage", ["cut short", "not safetensors", "one number changed"])
@@ -445,12 +451,9 @@ def test_damaged_checkpoints_are_started_over(tmp_path: Path, damage: str) -> No
     column = {"side": labels["side"]}
     with pytest.raises(StoppedError):
         fit_extractor(
-            pictures,
-            column,
-            values=VALUES,
+            LabelledPictures(pictures, column, VALUES),
             options=SHORT,
-            checkpoints=tmp_path,
-            on_progress=stop_after(2),
+            course=Course(checkpoints=tmp_path, on_progress=stop_after(2)),
         )
     (file,) = tmp_path.iterdir()
     assert file.name == "side.checkpoint.safetensors"
@@ -464,12 +467,9 @@ def test_damaged_checkpoints_are_started_over(tmp_path: Path, damage: str) -> No
     file.write_bytes(content)
     events: list[TrainingEvent] = []
     fit_extractor(
-        pictures,
-        column,
-        values=VALUES,
+        LabelledPictures(pictures, column, VALUES),
         options=SHORT,
-        checkpoints=tmp_path,
-        on_progress=events.append,
+        course=Course(checkpoints=tmp_path, on_progress=events.append),
     )
     assert (events[0].depth, events[0].epoch) == (1, 1)
 
@@ -479,11 +479,9 @@ def test_checkpoints_of_odd_feature_names_stay_in_the_folder(tmp_path: Path) -> 
     folder = tmp_path / "checkpoints"
     name = "../is it left?"
     fit_extractor(
-        pictures,
-        {name: labels["side"]},
-        values={name: VALUES["side"]},
+        LabelledPictures(pictures, {name: labels["side"]}, {name: VALUES["side"]}),
         options=SHORT,
-        checkpoints=folder,
+        course=Course(checkpoints=folder),
     )
     assert [path.name for path in tmp_path.iterdir()] == ["checkpoints"]
     assert len(list(folder.iterdir())) == 1
@@ -493,7 +491,9 @@ def test_what_a_killed_process_left_half_written_is_removed(tmp_path: Path) -> N
     pictures, labels = scenes(20)
     (tmp_path / ".side.checkpoint-new.safetensors").write_bytes(b"half")
     fit_extractor(
-        pictures, {"side": labels["side"]}, values=VALUES, options=SHORT, checkpoints=tmp_path
+        LabelledPictures(pictures, {"side": labels["side"]}, VALUES),
+        options=SHORT,
+        course=Course(checkpoints=tmp_path),
     )
     names = sorted(path.name for path in tmp_path.iterdir())
     assert names == ["side.checkpoint.safetensors"]
@@ -502,10 +502,16 @@ def test_what_a_killed_process_left_half_written_is_removed(tmp_path: Path) -> N
 # Several features at the same time
 
 
-def fit_two(workers: int, **changes: object) -> FeatureExtractor:
-    pictures, labels = scenes(60)
-    arguments: dict[str, object] = {"labels": labels, "options": SHORT, **changes}
-    return fit_extractor(pictures, values=VALUES, workers=workers, **arguments)  # type: ignore[arg-type]
+def fit_two(
+    workers: int,
+    *,
+    labels: Mapping[str, Sequence[str | None]] | None = None,
+    options: TrainingOptions = SHORT,
+    **course: Any,
+) -> FeatureExtractor:
+    pictures, annotated = scenes(60)
+    shown = LabelledPictures(pictures, labels or annotated, VALUES)
+    return fit_extractor(shown, options=options, course=Course(workers=workers, **course))
 
 
 def test_workers_change_neither_weights_nor_events() -> None:
@@ -577,17 +583,23 @@ def test_a_killed_worker_is_one_sentence() -> None:
 SCRIPT = """
 import multiprocessing
 import numpy as np
+from seewhy.perception.course import Course
 from seewhy.perception.extractor import fit_extractor
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.options import TrainingOptions
+
+def tell(_):
+    print(*(p.pid for p in multiprocessing.active_children()), flush=True)
 
 print("started", flush=True)
 fit_extractor(
-    np.random.default_rng(0).integers(0, 256, (60, 16, 16, 3), dtype=np.uint8),
-    {"one": ["a", "b"] * 30, "other": ["a", "b"] * 30},
-    values={"one": ["a", "b"], "other": ["a", "b"]},
+    LabelledPictures(
+        np.random.default_rng(0).integers(0, 256, (60, 16, 16, 3), dtype=np.uint8),
+        {"one": ["a", "b"] * 30, "other": ["a", "b"] * 30},
+        {"one": ["a", "b"], "other": ["a", "b"]},
+    ),
     options=TrainingOptions(max_epochs=9999),
-    workers=2,
-    on_progress=lambda _: print(*(p.pid for p in multiprocessing.active_children()), flush=True),
+    course=Course(workers=2, on_progress=tell),
 )
 """
 
@@ -627,9 +639,7 @@ def test_training_on_needs_fewer_epochs(trained: FeatureExtractor) -> None:
     def outcome(start_from: FeatureExtractor | None) -> tuple[float, int]:
         options = TrainingOptions(max_epochs=2, growing_epochs=1, threshold=1.0)
         extractor = fit_extractor(
-            pictures,
-            {"count": labels["count"]},
-            values=VALUES,
+            LabelledPictures(pictures, {"count": labels["count"]}, VALUES),
             options=options,
             start_from=start_from,
         )
@@ -650,12 +660,10 @@ def test_start_from_other_values_and_size_keeps_the_convolutions(
     values = {"side": ["right", "middle", "left"], "new": ["left", "right"]}
     column = labels["side"]
     extractor = fit_extractor(
-        pictures,
-        {"side": column, "new": column},
-        values=values,
+        LabelledPictures(pictures, {"side": column, "new": column}, values),
         options=SHORT,
         start_from=trained,
-        workers=1,
+        course=Course(workers=1),
     )
     assert extractor.networks["side"].depth == trained.networks["side"].depth
     assert extractor.networks["side"].values == 3
@@ -669,12 +677,11 @@ def test_a_network_is_shown_what_it_is_trained_on(tmp_path: Path) -> None:
     values = {**VALUES, "side": ["left", "right", "middle", "none"]}
     options = dataclasses.replace(SHORT, threshold=1.0)
     extractor = fit_extractor(
-        pictures,
-        {"side": sides, "count": labels["count"]},
-        values=values,
+        LabelledPictures(
+            pictures, {"side": sides, "count": labels["count"]}, values, validation=np.arange(6)
+        ),
         options=options,
-        validation=np.arange(6),
-        workers=1,
+        course=Course(workers=1),
     )
     assert extractor.shown("side") == {"left", "right"}
     assert extractor.shown("other") == frozenset()
@@ -689,7 +696,8 @@ def test_one_value_only() -> None:
     pictures, _ = scenes(10)
     events: list[TrainingEvent] = []
     extractor = fit_extractor(
-        pictures, {"side": ["left"] * 10}, values=VALUES, on_progress=events.append
+        LabelledPictures(pictures, {"side": ["left"] * 10}, VALUES),
+        course=Course(on_progress=events.append),
     )
     probabilities = extractor.probabilities(pictures)["side"]
     np.testing.assert_allclose(probabilities, [[11 / 12, 1 / 12]] * 10, rtol=1e-5)
@@ -704,7 +712,7 @@ def test_few_pictures(n: int) -> None:
     pictures, _ = scenes(n)
     values = {"kind": list("abcdefg")}
     column = ["abcdefg"[i % 7] for i in range(n)]
-    extractor = fit_extractor(pictures, {"kind": column}, values=values, options=SHORT)
+    extractor = fit_extractor(LabelledPictures(pictures, {"kind": column}, values), options=SHORT)
     probabilities = extractor.probabilities(pictures)["kind"]
     assert probabilities.shape == (n, 7)
     assert np.isfinite(probabilities).all()
@@ -714,7 +722,7 @@ def test_few_pictures(n: int) -> None:
 def test_black_pictures() -> None:
     pictures = np.zeros((12, 8, 8, 3), dtype=np.uint8)
     extractor = fit_extractor(
-        pictures, {"side": ["left", "right"] * 6}, values=VALUES, options=SHORT
+        LabelledPictures(pictures, {"side": ["left", "right"] * 6}, VALUES), options=SHORT
     )
     assert np.isfinite(extractor.probabilities(pictures)["side"]).all()
 
@@ -766,10 +774,9 @@ def test_what_does_not_fit_is_refused(change: dict[str, object], sentence: str) 
     }
     with pytest.raises(DatasetError) as caught:
         fit_extractor(
-            arguments["pictures"],  # type: ignore[arg-type]
-            arguments["labels"],  # type: ignore[arg-type]
-            values=VALUES,
-            groups=arguments["groups"],  # type: ignore[arg-type]
+            LabelledPictures(
+                arguments["pictures"], arguments["labels"], VALUES, groups=arguments["groups"]
+            )
         )
     assert str(caught.value) == sentence
 
@@ -803,11 +810,9 @@ def test_one_picture_takes_milliseconds(trained: FeatureExtractor) -> None:
 def test_a_feature_of_one_value_is_saved_at_its_depth(tmp_path: Path) -> None:
     pictures = np.zeros((6, 16, 16, 3), dtype=np.uint8)
     made = fit_extractor(
-        pictures,
-        {"light": ["on"] * 6},
-        values={"light": ["on", "off"]},
+        LabelledPictures(pictures, {"light": ["on"] * 6}, {"light": ["on", "off"]}),
         options=TrainingOptions(depth=3),
-        workers=1,
+        course=Course(workers=1),
     )
     made.save(tmp_path)
     loaded = FeatureExtractor.load(tmp_path)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
 from pathlib import Path
 
 import pytest
 from joblib.externals.loky import get_reusable_executor
 
 from conftest import DOMAIN, Run, write_domain
+from seewhy.data import picture_source
 from seewhy.data.dataset import Dataset
 from seewhy.data.making import determined_share, make_dataset
 from seewhy.domain.domain import Domain, load_domain
@@ -317,3 +319,21 @@ def test_structures_are_made_by_their_own_source(structures: Domain, tmp_path: P
     }
     with (tmp_path / "scenes.csv").open() as stream:
         assert [row["split"] for row in csv.DictReader(stream)] == (["train", "train", "test"] * 2)
+
+
+def test_a_laboratory_without_its_libraries_says_which(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in [name for name in sys.modules if name.startswith("seewhy_lab.")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    picture_source._load.cache_clear()
+    result = run("data", "make", "structure_stability", "--out", tmp_path / "out", "--count", 2)
+    said = (
+        "the pictures of this domain are made by the laboratory, which needs the module 'mujoco', "
+        "and that is not installed; install it with pip install 'seewhy[lab]'\n"
+    )
+    assert result.code == 2
+    assert result.err.startswith("seewhy: ")
+    assert result.err.endswith(f"structure_stability/domain.toml: {said}")
+    assert not (tmp_path / "out").exists()

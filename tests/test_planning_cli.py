@@ -117,6 +117,52 @@ def test_a_run_is_told_and_drawn(run: Run, tmp_path: Path) -> None:
         ElementTree.fromstring(drawn)
 
 
+def test_a_record_is_asked_as_its_run_was(run: Run, tmp_path: Path) -> None:
+    goal, record = "message_status(m1, sally, delivered)", tmp_path / "run.al"
+    questions = ("what did you do?", "why did the plan change?", "what was your plan?",
+                 "what was your plan at step 1?", "was Sally in her office?", "are you done?",
+                 "why did you move to the kitchen?")  # fmt: skip
+    asking = [part for question in questions for part in ("--ask", question)]
+    told = run("simulate", "robot_assistant", "--goal", goal, "--seed", "2", *asking,
+               "--record", str(record))  # fmt: skip
+    again = run("plan", "robot_assistant", "--goal", goal, "--history", str(record), *asking)
+    first = "\nwhat did you do?\n"
+    assert "did not change" not in told.out
+    assert again.out.partition(first)[1:] == told.out.partition(first)[1:]
+    assert "The goal holds already; nothing is to be done.\n" in again.out
+    assert again.code == 0
+
+
+def test_a_record_of_other_actions_is_told_as_they_were_done(run: Run, tmp_path: Path) -> None:
+    record = tmp_path / "other.al"
+    record.write_text(
+        "observed loc(rob1, library) at 0. happened move(rob1, bobs_office) at 0. "
+        "observed loc(rob1, bobs_office) at 1. happened move(rob1, library) at 1. "
+        "observed loc(rob1, library) at 2.",
+        encoding="utf-8",
+    )
+    done = run("plan", "robot_assistant", "--goal", "loc(rob1, kitchen)", "--history", str(record),
+               "--ask", "what did you do?", "--ask", "what is your plan?", "--json")  # fmt: skip
+    replies = json.loads(done.out)["replies"]
+    assert [reply["text"] for reply in replies] == [
+        "I moved to Bob's office and moved to the library.",
+        "My plan is to move to the kitchen.",
+    ]
+
+
+@pytest.mark.parametrize("command", ["plan", "simulate"])
+def test_what_is_not_understood_does_not_stop_the_other_questions(run: Run, command: str) -> None:
+    asking = ("--ask", "why did you frob?", "--ask", "what is your goal?")
+    done = run(command, "robot_assistant", "--goal", "loc(rob1, kitchen)", *asking)
+    assert done.out.endswith("\nwhat is your goal?\nMy goal is that I am in the kitchen.\n")
+    assert done.err.startswith("seewhy: 'why did you frob?' is not understood; ask for instance: ")
+    assert done.code == 2
+    told = run(command, "robot_assistant", "--goal", "loc(rob1, kitchen)", *asking, "--json")
+    first, second = json.loads(told.out)["replies"]
+    assert (first["question"], first["nearest"] != []) == ("why did you frob?", True)
+    assert second["text"] == "My goal is that I am in the kitchen."
+
+
 def test_the_same_seed_gives_the_same_run(run: Run) -> None:
     arguments = ("simulate", "robot_assistant", "--goal", "loc(rob1, L), loc(bob, L)", "--json")
 
@@ -166,7 +212,8 @@ def test_a_run_can_be_asked_about(run: Run) -> None:
         "why did you move to the kitchen?\n"
         "I moved to the kitchen at step 0 because I wanted to move to Sally's office, in order to "
         'deliver the first message to Sally. Otherwise I could not have done that: "the robot '
-        'moves to places next to its own", and I was in the library.\n'
+        'moves to places next to its own", and I was in the library and the library is not next '
+        "to Sally's office.\n"
     )
     refused = run(*asked, questions[1])
     assert refused.code == 2

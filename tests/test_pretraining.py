@@ -16,6 +16,7 @@ from seewhy.data.dataset import Dataset
 from seewhy.data.making import make_dataset
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError
+from seewhy.perception.course import Course
 
 SOURCE = """\
 import numpy as np
@@ -60,7 +61,9 @@ def weights(agent: Agent) -> list[bytes]:
 
 def test_drawings_alone_teach_the_features(drawing: Domain, tmp_path: Path) -> None:
     drawn: list[int] = []
-    extractor = pretrained(drawing, count=120, workers=1, on_picture=drawn.append).extractor
+    extractor = pretrained(
+        drawing, count=120, course=Course(workers=1, on_picture=drawn.append)
+    ).extractor
     assert drawn == list(range(1, 121))
     scenes = Dataset.load(write_tiles(tmp_path / "others", count=48), drawing)
     probabilities = extractor.probabilities(scenes.pictures(16))
@@ -108,8 +111,8 @@ def test_an_interrupted_pretraining_goes_on_with_the_same_weights(
 
 
 def test_classes_left_out_are_not_drawn_either(drawing: Domain, few: Dataset) -> None:
-    both = pretrained(drawing, count=36, workers=1).extractor
-    good = pretrained(drawing, count=36, without=["bad"], workers=1).extractor
+    both = pretrained(drawing, count=36, course=Course(workers=1)).extractor
+    good = pretrained(drawing, count=36, without=["bad"], course=Course(workers=1)).extractor
     pictures = np.stack([few.pictures(16)[n] for n in range(4)])
     assert not np.allclose(
         both.probabilities(pictures)["round"], good.probabilities(pictures)["round"]
@@ -238,7 +241,7 @@ def test_a_class_was_shown_by_drawings_of_which_the_class_was_learned(
     odd = labelled(few, three, "odd", "bad")
     own = witness(three).fit(odd, drawn=24, answers=False, workers=1)
     assert shown(own) == {"good", "bad", "odd"}
-    features = pretrained(three, count=24, workers=1)
+    features = pretrained(three, count=24, course=Course(workers=1))
     assert set(features.labels) == {"good", "bad"}
     later = witness(three).fit(odd, start_from=features, answers=False, workers=1)
     assert shown(later) == {"odd", "bad"}

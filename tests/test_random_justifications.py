@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import pytest
 
-from seewhy.knowledge.justification import Node
+from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.settling import JointCondition
 from seewhy_lab.experiments import justifications
@@ -68,6 +68,23 @@ def test_reasons_that_name_no_features_are_found_out(monkeypatch: pytest.MonkeyP
 def test_beliefs_without_reasons_are_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
     found = faults(monkeypatch, "why", lambda *_: None)
     assert any(fault.endswith("believed by the book: True, told: False") for fault in found)
+
+
+@pytest.mark.parametrize(("basis", "is_found"), [(Basis.AXIOM, True), (Basis.ASSUMED, False)])
+def test_beliefs_below_themselves_are_found_out_unless_they_are_supposed(
+    monkeypatch: pytest.MonkeyPatch, basis: Basis, is_found: bool
+) -> None:
+    right = justifications.why
+
+    def broken(*given: object) -> Node | None:
+        node = right(*given)  # type: ignore[arg-type]
+        if node is None or node.basis is not Basis.AXIOM:
+            return node
+        again = replace(node, basis=basis, axiom=None, children=())
+        return replace(node, children=(*node.children, again))
+
+    found = faults(monkeypatch, "why", broken)
+    assert any("is its own reason" in fault for fault in found) is is_found
 
 
 def test_conditions_that_are_left_out_of_why_not_are_found_out(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import io
 import json
 import os
@@ -155,3 +156,14 @@ def test_other_streams_are_closed(command: str, code: int) -> None:
 def test_nobody_reads(command: str) -> None:
     found = shell(f"seewhy {command} | true")
     assert found.stderr == ""
+
+
+def test_only_commands_print() -> None:
+    package = Path(screen.__file__).parents[1]
+    for file in package.rglob("*.py"):
+        if file.is_relative_to(package / "cli"):
+            continue
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+                into = {keyword.arg for keyword in node.keywords}
+                assert node.func.id != "print" or "file" in into, f"{file}:{node.lineno}"

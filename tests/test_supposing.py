@@ -295,8 +295,9 @@ def test_a_share_out_of_range(agent: Agent, wrong: float) -> None:
 def test_with_many_classes_little_suffices_for_who_names_one() -> None:
     """Of those who are wrong few would name this class, of 62; being denied it tells less."""
     agent = Agent(load_domain("traffic_signs"))
-    assert agent._believed_from == pytest.approx(0.1 / (0.1 + 0.9 * 61))
-    assert Agent(load_domain("structure_stability"))._believed_from == pytest.approx(0.1)
+    assert agent.settings.believed_from(agent.domain) == pytest.approx(0.1 / (0.1 + 0.9 * 61))
+    structures = load_domain("structure_stability")
+    assert Agent(structures).settings.believed_from(structures) == pytest.approx(0.1)
     first, second, third = (replace(own, probability=0.04) for own in scenes_of(agent)[:3])
     scene = replace(first, probability=0.92, otherwise=(second, third))
 
@@ -375,7 +376,7 @@ def class_probabilities(
         probability = float(
             np.prod([sight[key][0, n] for key, n in zip(features, places, strict=True)])
         )
-        shares = agent._class_shares(vector)
+        shares = agent.deciding.class_shares(vector)
         for n, label in enumerate(found):
             weight = witness[n] if rule == "with_class" else 1.0
             found[label] += probability * shares.get(label, 0.0) * weight
@@ -426,7 +427,7 @@ def test_nothing_is_supposed_silently_however_pictures_are_read(
         assert f"to be {structures.classes[scene.label].say}." in reply.text
         assert presumed.label != scene.label
         assert presumed.probability == pytest.approx(probable[presumed.label or ""], abs=2e-3)
-        assert (presumed.probability or 0.0) >= agent._believed_from
+        assert (presumed.probability or 0.0) >= agent.settings.believed_from(agent.domain)
     assert scene.probability == pytest.approx(probable[scene.label], abs=2e-3)
     other = sum(own for label, own in probable.items() if label != scene.label)
     presumes_another = (question.asks is Asks.WHY_CLASS and question.label != scene.label) or (
@@ -470,10 +471,10 @@ def test_what_a_tree_is_in_doubt_about_is_not_supposed_silently_either(
     for words in (f"why is it {other}?", f"why is it not {scene.label}?"):
         reply = agent.answer(scene, agent.questions.understand(words))
         assert (reply.supposed is not None) == reply.text.startswith("I took the tile to be ")
-        if probable[other] > agent._believed_from + 3e-3:
+        if probable[other] > agent.settings.believed_from(agent.domain) + 3e-3:
             assert reply.supposed is not None
         if reply.supposed is not None:
-            assert (reply.supposed.probability or 0.0) >= agent._believed_from
+            assert (reply.supposed.probability or 0.0) >= agent.settings.believed_from(agent.domain)
         elif probable[scene.label] < SURE_FROM - 2e-3:
             assert reply.certainty is not Certainty.SURE
     plain = agent.answer(scene, agent.questions.understand(f"is it {other}?"))
@@ -551,6 +552,6 @@ def test_more_vectors_than_are_looked_at_make_no_class_more_probable() -> None:
         key: np.full((1, len(feature.values)), 1 / len(feature.values))
         for key, feature in signs.features.items()
     }
-    (reading,) = agent._read(even, "argmax")
+    (reading,) = agent.reading_by.read(even, "argmax")
     assert reading.probability < 0.05
     assert sum(own.probability for own in reading.others) < 0.05

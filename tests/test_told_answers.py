@@ -115,7 +115,10 @@ TOLD = {
     "of 0.90.",
     "why is the base not narrow?": "I see that the structure has a wide base, with a probability "
     "of 0.90.",
-    "why unstable rather than stable?": "The structure is unstable, since a block is displaced.",
+    "why unstable rather than stable?": (
+        "The structure is unstable, since a block is displaced; it is stable when no block is "
+        "displaced."
+    ),
     "why stable rather than unstable?": "The structure is not stable: it is unstable, since a "
     "block is displaced.",
     "why four blocks rather than three?": "I see that the structure has four blocks, with a "
@@ -224,7 +227,7 @@ class Picture(Look):
 def test_a_picture_is_looked_at_again(structures_agent: Agent, question: str, answer: str) -> None:
     scene = seen(structures_agent, "4", "wide", "no", "yes")
     asked = structures_agent.questions.understand(question)
-    assert structures_agent._answering.answer(scene, asked, look=Picture()).text == answer
+    assert structures_agent.answering.answer(scene, asked, look=Picture()).text == answer
 
 
 @pytest.mark.parametrize("question", ["where is it displaced?", "are there similar pictures?"])

@@ -10,6 +10,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+__version__ = "0.1.0"
+
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent
     from seewhy.classification import classify_pictures
@@ -28,6 +30,7 @@ __all__ = [
     "Node",
     "Reply",
     "SeeWhyError",
+    "__version__",
     "classify_pictures",
     "evaluate",
     "load_domain",

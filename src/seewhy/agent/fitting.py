@@ -2,28 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from seewhy.agent.pretraining import Pretrained
-from seewhy.perception.extractor import FeatureExtractor, Seen, fit_extractor
+from seewhy.agent.consistent_reading import (
+    READINGS,
+    ReadingRule,
+    ReadingWeights,
+    fit_reading_weights,
+)
+from seewhy.agent.growing import grow, labelled_pictures
+from seewhy.agent.pretraining import Pretrained, is_drawn
+from seewhy.agent.reading import PictureReading
+from seewhy.agent.seeing import Seeing, likeness
+from seewhy.agent.settings import Settings
+from seewhy.domain.tables import CLASS
+from seewhy.errors import DatasetError
+from seewhy.perception.course import Course
+from seewhy.perception.device import device_of
+from seewhy.perception.extractor import FeatureExtractor, Seen
 from seewhy.perception.eyes import Eyes
 from seewhy.perception.familiarity import Familiarity, TrainingPicture, fit_familiarity
-from seewhy.perception.fitting_eyes import HeldOut
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.validation import split
 
 if TYPE_CHECKING:
-    from seewhy.agent.agent import Agent
     from seewhy.data.dataset import Dataset
+    from seewhy.domain.domain import Domain
+    from seewhy.knowledge.scene import FeatureVector
+    from seewhy.perception.fitting_eyes import HeldOut
 
-__all__ = ["Taught", "grown_networks", "taught_eyes"]
+__all__ = ["Sees", "Taught", "known_from_training", "pictures_to_draw", "teach"]
 
-Progress = Callable[[Any], None]
+
+class Sees(Protocol):
+    """What has networks to start from: an agent, or those that drawings taught."""
+
+    @property
+    def extractor(self) -> FeatureExtractor | Eyes | None:
+        """What sees; None where nothing does yet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,8 +52,12 @@ class Taught:
     Attributes
     ----------
     extractor : FeatureExtractor or Eyes
+    scenes : Dataset
+        That taught it.
+    drawings : Pretrained or None
+        That taught it before.
     seen : Seen
-        What it makes of the pictures that taught it.
+        What it makes of their pictures.
     held_out : HeldOut or None
         Pictures as they were seen by what they had not taught.
     familiarity : Familiarity or None
@@ -47,44 +70,108 @@ class Taught:
     """
 
     extractor: FeatureExtractor | Eyes
+    scenes: Dataset
+    drawings: Pretrained | None
     seen: Seen
     held_out: HeldOut | None = None
     familiarity: Familiarity | None = None
     judged: Seen | None = None
     scores: list[float] | None = None
 
+    @property
+    def annotated(self) -> tuple[list[FeatureVector], list[str]]:
+        """The feature vectors and classes of the scenes that have one, and of the drawings.
 
-def taught_eyes(
-    scenes: Dataset,
-    *,
-    backbone: str,
-    device: str,
-    start_from: Agent | Pretrained | None,
-    seed: int,
-    checkpoints: Path | None,
-    on_progress: Progress | None,
+        Drawings show all classes alike; a few photographs leave most of them out.
+        """
+        classed = self.scenes.with_class()
+        if self.drawings is None:
+            return classed.vectors, classed.classes
+        return (
+            [*classed.vectors, *self.drawings.vectors],
+            [*classed.classes, *self.drawings.labels],
+        )
+
+    def less_sure_than(self, gate: float | None) -> list[int]:
+        """Of the scenes with a class, the places of those of which some network is less sure."""
+        features = self.scenes.domain.features
+        if gate is None or not features:
+            return []
+        classed = [n for n, label in enumerate(self.scenes.labels) if label is not None]
+        seen = self.seen.of(np.array(classed, dtype=np.int64))
+        certainty = np.min([seen.probabilities[key].max(axis=1) for key in features], axis=0)
+        return [int(n) for n in np.flatnonzero(certainty < gate)]
+
+
+def pictures_to_draw(
+    dataset: Dataset, domain: Domain, *, drawn: int | None, start_from: Sees | None
+) -> int:
+    """Return how many pictures are to be drawn that train the networks before.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        To train on then.
+    domain : Domain
+        That says how many, where nobody else does.
+    drawn : int or None
+        So many; where left out, none if the dataset was drawn itself.
+    start_from : Sees or None
+        Networks that there are already: none are drawn for then.
+
+    Raises
+    ------
+    DatasetError
+        If there are both networks to start from and pictures to draw.
+    """
+    if start_from is not None:
+        if drawn:
+            raise DatasetError(
+                "start_from, drawn: networks begin with what they know (--from) or with new "
+                "drawings (--drawn); leave one of the two out"
+            )
+        return 0
+    if drawn is None:
+        return 0 if is_drawn(dataset) else domain.pictures.drawn
+    return drawn
+
+
+def teach(
+    scenes: Dataset, settings: Settings, *, start_from: Sees | None, course: Course
 ) -> Taught:
-    """Teach eyes by annotated scenes; see :func:`seewhy.agent.teaching.teach_eyes`."""
+    """Teach what sees by annotated scenes: eyes, or a network for each feature that grows."""
+    if settings.grown:
+        device_of(settings.device)  # networks take CUDA where there is one; none that is not there
+        return _grown_networks(scenes, settings, start_from=start_from, course=course)
+    return _taught_eyes(scenes, settings, start_from=start_from, course=course)
+
+
+def _drawings(start_from: Sees | None) -> Pretrained | None:
+    return start_from if isinstance(start_from, Pretrained) else None
+
+
+def _taught_eyes(
+    scenes: Dataset, settings: Settings, *, start_from: Sees | None, course: Course
+) -> Taught:
     from seewhy.agent.teaching import familiar_scores, teach_eyes
 
     earlier = start_from.extractor if start_from else None
     fitted = teach_eyes(
         scenes,
-        backbone=backbone,
-        device=device,
+        settings,
         start_from=earlier if isinstance(earlier, Eyes) else None,
-        seed=seed,
-        checkpoints=checkpoints,
-        on_progress=on_progress,
+        course=course,
     )
     familiarity, scores = familiar_scores(
         fitted.eyes.familiar_by(fitted.embedded),
         scenes.groups,
         pictures=_named(scenes),
-        seed=seed,
+        seed=settings.seed,
     )
     return Taught(
         fitted.eyes,
+        scenes,
+        _drawings(start_from),
         fitted.seen,
         held_out=fitted.held_out,
         familiarity=familiarity,
@@ -108,70 +195,84 @@ def _named(scenes: Dataset) -> list[TrainingPicture]:
     ]
 
 
-def grown_networks(
-    scenes: Dataset,
-    *,
-    with_class: bool,
-    judged: bool,
-    start_from: Agent | Pretrained | None,
-    seed: int,
-    checkpoints: Path | None,
-    workers: int,
-    on_progress: Progress | None,
+def _grown_networks(
+    scenes: Dataset, settings: Settings, *, start_from: Sees | None, course: Course
 ) -> Taught:
-    """Grow a network for each feature, as the paper does.
-
-    Parameters
-    ----------
-    scenes : Dataset
-    with_class : bool
-        Whether one sees the class as well.
-    judged : bool
-        Whether pictures are kept for validation of all networks, to tell what is refused.
-    start_from, seed, checkpoints, workers, on_progress
-        See :meth:`seewhy.agent.agent.Agent.fit`.
-    """
-    from seewhy.perception.domain_options import (
-        seen_labels,
-        seen_values,
-        trained_together,
-        training_options,
-    )
-
-    domain = scenes.domain
-    pixels = scenes.pictures(domain.pictures.size)
     validation = None
-    if judged:
+    if settings.known_share < 1.0:
         # Only of pictures that no network was trained on is it known how well such fit.
         _, validation = split(
             scenes.labels,
             share=TrainingOptions().validation_share,
-            seed=seed,
+            seed=settings.seed,
             groups=scenes.groups,
         )
+    drawings = _drawings(start_from)
+    shown = labelled_pictures(scenes, with_class=settings.class_is_seen, validation=validation)
     earlier = start_from.extractor if start_from else None
-    extractor = fit_extractor(
-        pixels,
-        seen_labels(domain, scenes.vectors, scenes.labels, with_class=with_class),
-        values=seen_values(domain, with_class=with_class),
-        options=training_options(domain, seed=seed, with_class=with_class),
-        groups=scenes.groups,
-        validation=validation,
-        checkpoints=checkpoints,
+    extractor = grow(
+        shown,
+        scenes.domain,
+        settings,
         start_from=earlier if isinstance(earlier, FeatureExtractor) else None,
-        rehearsal=start_from.rehearsal if isinstance(start_from, Pretrained) else None,
-        together=trained_together(domain),
-        workers=workers,
-        on_progress=on_progress,
+        rehearsal=drawings.rehearsal if drawings else None,
+        course=course,
     )
-    seen = extractor.see(pixels)
+    seen = extractor.see(shown.pixels)
     if validation is None:
-        return Taught(extractor, seen)
+        return Taught(extractor, scenes, drawings, seen)
     known = np.setdiff1d(np.arange(len(scenes)), validation)
+    features = scenes.domain.features
     columns = zip(*(scenes.vectors[n] for n in known), strict=True)
     familiarity = fit_familiarity(
-        {key: seen.embeddings[key][known] for key in domain.features},
-        dict(zip(domain.features, columns, strict=True)),
-        seed=seed,
+        {key: seen.embeddings[key][known] for key in features},
+        dict(zip(features, columns, strict=True)),
+        seed=settings.seed,
     )
-    return Taught(extractor, seen, familiarity=familiarity, judged=seen.of(validation))
+    return Taught(
+        extractor, scenes, drawings, seen, familiarity=familiarity, judged=seen.of(validation)
+    )
+
+
+def known_from_training(taught: Taught, reading: PictureReading) -> Seeing:
+    """Return what sees with what is known of it, now that what it sees can be decided.
+
+    What is seen is weighed by pictures that taught it nothing, for both consistent readings; and
+    it is kept how like those of training others are.
+    """
+    seeing = replace(
+        reading.seeing,
+        reading_weights=_reading_weights(taught, reading),
+        familiarity=taught.familiarity,
+        validation_scores={},
+    )
+    scores = _validation_scores(taught, replace(reading, seeing=seeing))
+    return replace(seeing, validation_scores=scores)
+
+
+def _reading_weights(taught: Taught, reading: PictureReading) -> dict[ReadingRule, ReadingWeights]:
+    held = taught.held_out
+    if held is None or not len(held.rows):
+        return {}
+    labels = [taught.scenes.labels[n] for n in held.rows]
+    return {
+        rule: fit_reading_weights(reading.consistent(rule), held.probabilities, labels)
+        for rule in READINGS
+        if rule != "argmax"
+    }
+
+
+def _validation_scores(taught: Taught, reading: PictureReading) -> dict[ReadingRule, list[float]]:
+    if taught.scores is not None:
+        return dict.fromkeys(READINGS, taught.scores)
+    judged, familiarity = taught.judged, taught.familiarity
+    if judged is None or familiarity is None:
+        return {}
+    features = taught.scenes.domain.features
+    return {
+        rule: likeness(
+            familiarity, judged, reading.read(judged.probabilities, rule), features=features
+        )
+        for rule in READINGS
+        if rule != "with_class" or CLASS in judged.probabilities
+    }

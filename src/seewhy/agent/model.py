@@ -5,13 +5,16 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seewhy.agent.consistent_reading import ReadingWeights
 from seewhy.agent.model_schema import ExperienceRows, Manifest, may_have, must_have
+from seewhy.agent.seeing import Seeing
+from seewhy.agent.settings import Settings
+from seewhy.agent.training_pictures import TrainingPictures
+from seewhy.agent.working_knowledge import WorkingKnowledge, working_knowledge
 from seewhy.dialogue.reference import Experience
 from seewhy.domain.domain import FILES, Domain, load_domain
 from seewhy.domain.tables import CLASS, ReadingRule
@@ -19,9 +22,7 @@ from seewhy.errors import ModelError, SeeWhyError
 from seewhy.files.folders import settle_folder, whole_folder
 from seewhy.files.json_file import read_json, read_object
 from seewhy.induction.tree import TREE, DecisionTree
-from seewhy.knowledge.axiom import Axiom
-from seewhy.knowledge.learned_file import LEARNED, Withdrawn, read_learned, write_learned
-from seewhy.knowledge.reasoner import Minimality
+from seewhy.knowledge.learned_file import LEARNED, read_learned, write_learned
 from seewhy.perception.backbones import NONE
 from seewhy.perception.weights import LARGEST as LARGEST_WEIGHTS
 from seewhy.text.visible import visible
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
     from seewhy.perception.extractor import FeatureExtractor
     from seewhy.perception.eyes import Eyes
-    from seewhy.perception.familiarity import Familiarity
 
 MANIFEST = "model.json"
 EXPERIENCE = "experience.json"
@@ -43,34 +43,27 @@ _REMEDY = "train it again"
 class Model:
     """Everything that training leaves behind.
 
-    ``domain`` is as given; ``learned`` are the axioms that were found in pictures, ``withdrawn``
-    those that were and are known no more. ``answerer`` is None where the knowledge decided all
-    training scenes rightly; ``trained_on`` holds digests of the pictures, ``without`` the classes
-    of which there were none on purpose, ``validation_scores`` how like those of training the
-    pictures kept for validation are, under each way of reading; it and ``familiarity`` are empty
-    where no picture is to be refused. ``without_class`` are those of ``trained_on`` that had no
-    class, so that ``experience`` does not count them.
+    Attributes
+    ----------
+    settings : Settings
+        What the agent was told.
+    known : WorkingKnowledge
+        Its knowledge, and what it remembers.
+    seeing : Seeing
+        What sees.
+    tree : DecisionTree
+    answerer : RecurrentAnswerer or None
+        None where the knowledge decided all training scenes rightly.
+    training_pictures : TrainingPictures
+        Those that it was trained on.
     """
 
-    domain: Domain
-    learned: tuple[Axiom, ...]
-    withdrawn: tuple[Withdrawn, ...]
-    extractor: FeatureExtractor | Eyes
+    settings: Settings
+    known: WorkingKnowledge
+    seeing: Seeing
     tree: DecisionTree
     answerer: RecurrentAnswerer | None
-    experience: Experience
-    trained_on: frozenset[str]
-    without_class: frozenset[str]
-    minimality: Minimality
-    seed: int
-    eyes: str
-    reading: ReadingRule
-    reading_weights: Mapping[ReadingRule, ReadingWeights]
-    gate: float | None
-    known_share: float
-    familiarity: Familiarity | None
-    validation_scores: Mapping[ReadingRule, list[float]]
-    without: tuple[str, ...]
+    training_pictures: TrainingPictures
 
 
 def write_model(model: Model, folder: Path) -> None:
@@ -84,13 +77,14 @@ def write_model(model: Model, folder: Path) -> None:
     check_target(folder)
     with whole_folder(folder, replacing=True) as temporary:
         (temporary / "domain").mkdir()
+        known, seeing = model.known, model.seeing
         for name in FILES:
-            shutil.copyfile(model.domain.folder / name, temporary / "domain" / name)
-        if model.learned or model.withdrawn:
-            write_learned(temporary, model.learned, model.withdrawn)
-        model.extractor.save(temporary / "perception")
-        if model.familiarity is not None:
-            model.familiarity.save(temporary / "perception")
+            shutil.copyfile(known.given.folder / name, temporary / "domain" / name)
+        if known.learned or known.withdrawn:
+            write_learned(temporary, known.learned, known.withdrawn)
+        seeing.trained.save(temporary / "perception")
+        if seeing.familiarity is not None:
+            seeing.familiarity.save(temporary / "perception")
         model.tree.save(temporary / "induction")
         if model.answerer is not None:
             model.answerer.save(temporary / "dialogue")
@@ -144,6 +138,15 @@ def read_model(folder: Path, *, device: str = "auto") -> Model:
                 raise
 
 
+def require_readable(model: Model, reading: ReadingRule, folder: Path) -> None:
+    """Raise a ModelError if a model's pictures cannot be read in some way."""
+    if reading == "with_class" and CLASS not in model.seeing.trained.values:
+        raise ModelError(
+            f"{folder}: the model has no network of the class; train it with --reading "
+            "with_class, or read its pictures in another way"
+        )
+
+
 def _state(folder: Path) -> tuple[int, int] | None:
     try:
         found = folder.stat()
@@ -158,7 +161,9 @@ def _read_model(folder: Path, *, device: str) -> Model:
     try:
         domain = load_domain(folder / "domain")
         signature = domain.knowledge.signature
-        found = read_learned(folder / LEARNED, signature) if LEARNED in manifest.files else ((), ())
+        learned, withdrawn = (
+            read_learned(folder / LEARNED, signature) if LEARNED in manifest.files else ((), ())
+        )
     except SeeWhyError as problem:
         raise ModelError(f"{folder}: the model's domain cannot be read: {problem}") from None
     if domain.name != manifest.domain:
@@ -194,28 +199,35 @@ def _read_model(folder: Path, *, device: str) -> Model:
             f"the model's domain names; {_REMEDY}"
         )
     return Model(
-        domain=domain,
-        learned=found[0],
-        withdrawn=found[1],
-        extractor=extractor,
+        settings=Settings(
+            eyes=manifest.eyes,
+            device=device,
+            reading=manifest.reading,
+            gate=manifest.gate,
+            known_share=manifest.known_share,
+            seed=manifest.seed,
+        ),
+        known=working_knowledge(
+            domain,
+            learned=learned,
+            withdrawn=withdrawn,
+            minimality=manifest.minimality,
+            experience=_read_experience(folder / EXPERIENCE, domain),
+        ),
+        seeing=Seeing(
+            extractor,
+            familiarity,
+            manifest.validation_scores,
+            {
+                rule: ReadingWeights(weights.features, weights.witness)
+                for rule, weights in manifest.reading_weights.items()
+            },
+        ),
         tree=tree,
         answerer=answerer,
-        experience=_read_experience(folder / EXPERIENCE, domain),
-        trained_on=manifest.trained_on,
-        without_class=manifest.without_class,
-        minimality=manifest.minimality,
-        seed=manifest.seed,
-        eyes=manifest.eyes,
-        reading_weights={
-            rule: ReadingWeights(own.features, own.witness)
-            for rule, own in manifest.reading_weights.items()
-        },
-        reading=manifest.reading,
-        gate=manifest.gate,
-        known_share=manifest.known_share,
-        familiarity=familiarity,
-        validation_scores=manifest.validation_scores,
-        without=manifest.without,
+        training_pictures=TrainingPictures(
+            manifest.trained_on, manifest.without_class, manifest.without
+        ),
     )
 
 
@@ -247,7 +259,7 @@ def _read_extractor(folder: Path, eyes: str, device: str) -> FeatureExtractor | 
 def _experience_text(model: Model) -> str:
     rows = [
         {"features": list(vector), "classes": dict(counts)}
-        for vector, counts in sorted(model.experience.items(), key=lambda row: str(row[0]))
+        for vector, counts in sorted(model.known.experience.items(), key=lambda row: str(row[0]))
     ]
     return json.dumps(rows, indent=1)
 
@@ -255,24 +267,25 @@ def _experience_text(model: Model) -> str:
 def _manifest(model: Model, folder: Path) -> dict[str, Any]:
     from importlib.metadata import version
 
+    settings, known, seeing = model.settings, model.known, model.seeing
     manifest = {
         "format": FORMAT,
         "seewhy": version("seewhy"),
-        "domain": model.domain.name,
-        "minimality": model.minimality,
-        "seed": model.seed,
-        "eyes": model.eyes,
+        "domain": known.given.name,
+        "minimality": known.minimality,
+        "seed": settings.seed,
+        "eyes": settings.eyes,
         "reading_weights": {
-            rule: asdict(weights) for rule, weights in model.reading_weights.items()
+            rule: asdict(weights) for rule, weights in seeing.reading_weights.items()
         },
-        "reading": model.reading,
-        "gate": model.gate,
-        "known_share": model.known_share,
-        "validation_scores": dict(model.validation_scores),
-        "without": list(model.without),
+        "reading": settings.reading,
+        "gate": settings.gate,
+        "known_share": settings.known_share,
+        "validation_scores": dict(seeing.validation_scores),
+        "without": list(model.training_pictures.without),
         "answers": model.answerer is not None,
-        "trained_on": sorted(model.trained_on),
-        "without_class": sorted(model.without_class),
+        "trained_on": sorted(model.training_pictures.trained_on),
+        "without_class": sorted(model.training_pictures.without_class),
         "files": {
             path.relative_to(folder).as_posix(): _digest(path)
             for path in sorted(folder.rglob("*"))

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
+from seewhy.agent.settings import Settings
 from seewhy.data.dataset import Dataset
 from seewhy.data.making import MADE, make_dataset
 from seewhy.domain.domain import Domain
 from seewhy.files.folders import scratch_folder
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception.backbones import NONE
+from seewhy.perception.course import QUIETLY, Course
 
 if TYPE_CHECKING:
     from seewhy.perception.extractor import FeatureExtractor
@@ -48,18 +49,12 @@ def is_drawn(dataset: Dataset) -> bool:
 def pretrained(
     domain: Domain,
     *,
-    eyes: str = NONE,
-    device: str = "auto",
     count: int,
-    seed: int = 0,
+    settings: Settings | None = None,
     without: Sequence[str] = (),
-    with_class: bool = False,
-    workers: int = -1,
-    checkpoints: Path | None = None,
-    on_picture: Callable[[int], None] | None = None,
-    on_progress: Callable[[Any], None] | None = None,
+    course: Course = QUIETLY,
 ) -> Pretrained:
-    """Draw pictures with the domain's source and train a network for each feature on them.
+    """Draw pictures with the domain's source and train what sees on them.
 
     Use it where drawings are free and photographs are few: networks that know the drawings need
     fewer photographs. Source: none; the paper trains on the pictures of the domain alone.
@@ -68,79 +63,50 @@ def pretrained(
     ----------
     domain : Domain
         With a source of pictures.
-    eyes : str, default "none"
-        A backbone to teach instead of growing networks; see :mod:`seewhy.perception.backbones`.
-    device : str, default "auto"
-        Where it computes.
     count : int
         How many pictures to draw.
-    seed : int, default 0
+    settings : Settings, optional
+        Of the agent that goes on from there; a network grown for each feature where left out.
     without : sequence of str
         Classes of which no drawing is used.
-    with_class : bool, default False
-        Whether a network of the class is trained as well.
-    workers : int, default -1
-        Processes that draw and train; -1: one a core.
-    checkpoints : Path, optional
-        A folder in which an interrupted call finds the pictures and where training was.
-    on_picture : callable, optional
-        Called with the number of pictures drawn so far.
-    on_progress : callable, optional
-        See :func:`seewhy.perception.extractor.fit_extractor`.
+    course : Course
+        How the training is run.
 
     Raises
     ------
     DomainError
         If the domain has no source of pictures.
     """
-    from seewhy.perception.domain_options import (
-        seen_labels,
-        seen_values,
-        trained_together,
-        training_options,
-    )
-    from seewhy.perception.extractor import fit_extractor
-    from seewhy.perception.rehearsal import Rehearsal
-
+    settings = settings or Settings(eyes=NONE, reading="argmax")
     with scratch_folder() as temporary:
-        folder = checkpoints if checkpoints is not None else temporary
+        folder = temporary if course.checkpoints is None else course.checkpoints
         make_dataset(
             domain,
             folder / "drawn",
             count=count,
-            seed=seed,
+            seed=settings.seed,
             # Twice as large as the networks see them, as photographs are: stretching blurs less.
             size=2 * domain.pictures.size,
             test_share=0.0,
-            workers=workers,
-            on_progress=on_picture,
+            workers=course.workers,
+            on_progress=course.on_picture,
         )
         scenes = Dataset.load(folder / "drawn", domain).without_classes(without)
-        shown = (tuple(scenes.vectors), tuple(scenes.classes))
-        if eyes != NONE:
-            from seewhy.agent.teaching import teach_eyes
+        training = replace(course, checkpoints=folder / "drawn.training")
+        return _taught(scenes, settings, training)
 
-            taught = teach_eyes(
-                scenes,
-                backbone=eyes,
-                device=device,
-                seed=seed,
-                checkpoints=folder / "drawn.training",
-                on_progress=on_progress,
-            )
-            return Pretrained(taught.eyes, None, *shown)
-        columns = seen_labels(domain, scenes.vectors, scenes.labels, with_class=with_class)
-        labels = {key: [str(value) for value in column] for key, column in columns.items()}
-        pixels = scenes.pictures(domain.pictures.size)
-        extractor = fit_extractor(
-            pixels,
-            labels,
-            values=seen_values(domain, with_class=with_class),
-            options=training_options(domain, seed=seed, with_class=with_class),
-            together=trained_together(domain),
-            workers=workers,
-            checkpoints=folder / "drawn.training",
-            on_progress=on_progress,
-        )
-        drawn = Rehearsal(pixels, labels)
-        return Pretrained(extractor, drawn, *shown)
+
+def _taught(scenes: Dataset, settings: Settings, course: Course) -> Pretrained:
+    """What drawings teach."""
+    annotated = (tuple(scenes.vectors), tuple(scenes.classes))
+    if not settings.grown:
+        from seewhy.agent.teaching import teach_eyes
+
+        return Pretrained(teach_eyes(scenes, settings, course=course).eyes, None, *annotated)
+    from seewhy.agent.growing import grow, labelled_pictures
+    from seewhy.perception.rehearsal import Rehearsal
+
+    shown = labelled_pictures(scenes, with_class=settings.class_is_seen, groups=False)
+    columns = {key: [str(value) for value in column] for key, column in shown.labels.items()}
+    networks = grow(shown, scenes.domain, settings, course=course)
+    return Pretrained(networks, Rehearsal(shown.pixels, columns), *annotated)

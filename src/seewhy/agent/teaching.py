@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
+from seewhy.agent.settings import Settings
 from seewhy.perception.backbones import load_backbone
+from seewhy.perception.course import Course
 from seewhy.perception.domain_options import given_variations, seen_labels, seen_values
 from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
 from seewhy.perception.eyes import SCENE, Eyes
@@ -53,14 +54,7 @@ def lesson_of(scenes: Dataset, *, side: int) -> Lesson:
 
 
 def teach_eyes(
-    scenes: Dataset,
-    *,
-    backbone: str,
-    device: str = "auto",
-    start_from: Eyes | None = None,
-    seed: int = 0,
-    checkpoints: Path | None = None,
-    on_progress: Callable[[Any], None] | None = None,
+    scenes: Dataset, settings: Settings, *, start_from: Eyes | None = None, course: Course
 ) -> FittedEyes:
     """Teach eyes the features and the class of annotated scenes.
 
@@ -68,25 +62,23 @@ def teach_eyes(
     ----------
     scenes : Dataset
         Each with something annotated.
-    backbone, device : str
-        See :func:`~seewhy.perception.backbones.load_backbone`.
+    settings : Settings
+        Which backbone is to see, where it computes, and the seed.
     start_from : Eyes, optional
         Earlier ones, whose tuned layers are tuned further.
-    seed : int, default 0
-    checkpoints, on_progress : optional
-        See :func:`~seewhy.perception.fitting_eyes.fit_eyes`.
+    course : Course
+        How the training is run.
     """
-    network = load_backbone(backbone, device=device)
-    same = start_from is not None and start_from.backbone.digest == network.digest
+    backbone = load_backbone(settings.eyes, device=settings.device)
+    same = start_from is not None and start_from.backbone.digest == backbone.digest
     return fit_eyes(
-        network,
-        lesson_of(scenes, side=network.side),
+        backbone,
+        lesson_of(scenes, side=backbone.side),
         given=given_variations(scenes.domain),
         start_from=start_from if same else None,
         cache=EmbeddingCache(cache_folder()),
-        checkpoints=checkpoints,
-        seed=seed,
-        on_progress=on_progress,
+        seed=settings.seed,
+        course=course,
     )
 
 

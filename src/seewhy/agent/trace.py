@@ -18,7 +18,8 @@ from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
 
 if TYPE_CHECKING:
-    from seewhy.agent.agent import Agent, Picture
+    from seewhy.agent.agent import Agent
+    from seewhy.agent.seeing import Picture
     from seewhy.domain.domain import Domain
 
 
@@ -107,7 +108,7 @@ class Trace:
             "class_probability": _rounded(scene.probability),
             "method": scene.method,
             "networks": {
-                "features": {key: _reading(own) for key, own in scene.features.items()},
+                "features": {key: _reading(feature) for key, feature in scene.features.items()},
                 "class_seen": None
                 if scene.class_seen is None
                 else {"class": scene.class_seen[0], "probability": _rounded(scene.class_seen[1])},
@@ -121,7 +122,7 @@ class Trace:
                 "not_asked": concluded.not_asked,
                 "verdict": scene.verdict,
                 "class": concluded.label,
-                "exceptions": [str(own) for own in concluded.given_up],
+                "exceptions": [str(axiom) for axiom in concluded.given_up],
                 "justification": None if why is None else why.to_dict(),
             },
             "tree": {
@@ -131,7 +132,9 @@ class Trace:
                 if path is None
                 else {
                     "text": say_path(self.domain, path),
-                    "conditions": {own.feature: list(own.values) for own in path.conditions},
+                    "conditions": {
+                        condition.feature: list(condition.values) for condition in path.conditions
+                    },
                     "class": path.label,
                     "support": path.support,
                     "precision": path.precision,
@@ -162,11 +165,11 @@ class Trace:
         yield from self._say_whole_seen()
 
     def _say_each_seen(self) -> Iterator[str]:
-        for key, own in self.scene.features.items():
-            value = own.value.replace("_", " ")
-            line = f"{self.domain.features[key].name}: {value} (p = {own.probability:.2f})"
-            if own.overruled is not None:
-                alone, probability = own.overruled
+        for key, reading in self.scene.features.items():
+            value = reading.value.replace("_", " ")
+            line = f"{self.domain.features[key].name}: {value} (p = {reading.probability:.2f})"
+            if reading.overruled is not None:
+                alone, probability = reading.overruled
                 line += (
                     f"; overruled: the network alone saw {alone.replace('_', ' ')} "
                     f"(p = {probability:.2f}), which does not fit what is known"
@@ -201,8 +204,8 @@ class Trace:
         else:
             yield "no class follows:"
         yield from _indented(concluded.justification.to_text().splitlines())
-        for own in concluded.given_up:
-            yield f'other than usual: "{own.text}" does not hold here'
+        for axiom in concluded.given_up:
+            yield f'other than usual: "{axiom.text}" does not hold here'
 
     def _say_tree(self) -> Iterator[str]:
         if self.path is None:
@@ -222,16 +225,16 @@ class Trace:
 
     def _say_answer(self, reply: Reply) -> Iterator[str]:
         if reply.supposed is not None:
-            own = reply.supposed
-            label = self.domain.classes[own.label or ""].say
+            supposed = reply.supposed
+            label = self.domain.classes[supposed.label or ""].say
             others = [
                 f"{self.domain.features[key].name} {reading.value.replace('_', ' ')}"
-                for key, reading in own.features.items()
+                for key, reading in supposed.features.items()
                 if reading.value != self.scene.features[key].value
             ]
             yield (
                 f"supposes what the question presumes: {self.domain.subject} is {label} "
-                f"(p = {own.probability or 0.0:.2f}), with "
+                f"(p = {supposed.probability or 0.0:.2f}), with "
                 f"{join_words(others) if others else 'the same features'}"
             )
         if reply.least_sure is not None and reply.certainty not in (None, Certainty.SURE):
@@ -270,7 +273,7 @@ def trace_of(
     >>> values = {"num_blocks": "4", "base": "wide", "lean": "no", "block_displaced": "yes"}
     >>> scene = Classification(
     ...     "unstable", "knowledge", agent.domain.vector(values),
-    ...     {key: FeatureReading(own, 0.9) for key, own in values.items()}, "believed")
+    ...     {key: FeatureReading(value, 0.9) for key, value in values.items()}, "believed")
     >>> reply = agent.answer(scene, agent.questions.understand("is it stable?"))
     >>> traced = trace_of(agent, scene, asked="is it stable?", reply=reply)
     >>> traced.concluded.label, traced.no_tree, found_by(reply)
@@ -298,7 +301,7 @@ def found_by(reply: Reply) -> str:
         return "telling the steps behind the class"
     if Basis.RECURRENT in bases:
         return "the recurrent network (LSTM)"
-    if reply.kind.form in ("undecided", "unknown"):
+    if reply.kind.form in ("undecided", "several", "contradictory", "unknown"):
         return "no component"
     if reply.question.feature is not None:
         return "reading the feature"
@@ -319,7 +322,7 @@ def _concluded(agent: Agent, scene: Classification) -> Concluded:
     beliefs = agent.reasoner.answer_set(scene.vector)
     names = {name for name, _ in beliefs.exceptions} if beliefs else set()
     axioms = agent.domain.knowledge.axioms
-    return Concluded(label, why, tuple(own for own in axioms if own.identifier in names))
+    return Concluded(label, why, tuple(axiom for axiom in axioms if axiom.identifier in names))
 
 
 def _no_tree(scene: Classification) -> str:
@@ -341,10 +344,13 @@ def _say_question(reply: Reply) -> Iterator[str]:
 
 
 def _arguments(reply: Reply) -> dict[str, str]:
-    own = reply.question
+    question = reply.question
     named = {
-        "class": own.label, "feature": own.feature, "value": own.value, "static": own.predicate,
-    }  # fmt: skip
+        "class": question.label,
+        "feature": question.feature,
+        "value": question.value,
+        "static": question.predicate,
+    }
     return {name: value for name, value in named.items() if value is not None}
 
 
@@ -356,11 +362,11 @@ def _say_least_sure(domain: Domain, least: Ground) -> str:
     return f"not sure; the least sure that it rests on is {what} (p = {least.probability:.2f})"
 
 
-def _reading(own: FeatureReading) -> dict[str, Any]:
-    value, probability = own.overruled or (None, None)
+def _reading(reading: FeatureReading) -> dict[str, Any]:
+    value, probability = reading.overruled or (None, None)
     return {
-        "value": own.value,
-        "probability": _rounded(own.probability),
+        "value": reading.value,
+        "probability": _rounded(reading.probability),
         "overruled": None
         if probability is None
         else {"value": value, "probability": _rounded(probability)},

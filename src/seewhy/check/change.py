@@ -53,7 +53,7 @@ def check_change(domain: PlanningDomain) -> tuple[str, ...]:
         *check.defaults(),
         *check.needless_laws(),
         *check.several_outcomes(),
-        *(_said_never(own, domain) for own in never_possible(domain.knowledge, start)),
+        *(_said_never(action, domain) for action in never_possible(domain.knowledge, start)),
     )
 
 
@@ -74,7 +74,7 @@ def never_possible(knowledge: Knowledge, start: State) -> Iterator[Literal]:
     ... next_to(hall, hall).
     ... ''')
     >>> start = diagnose(known, read_history("observed at(hall) at 0.", known.signature)).now
-    >>> [str(own) for own in never_possible(known, start)]
+    >>> [str(action) for action in never_possible(known, start)]
     ['move(rob1, attic)']
     """
     signature = knowledge.signature
@@ -82,15 +82,15 @@ def never_possible(knowledge: Knowledge, start: State) -> Iterator[Literal]:
     for predicate in signature.predicates.values():
         if predicate.kind is not PredicateKind.ACTION:
             continue
-        done = [own.arguments for own in can if own.name == predicate.name]
+        done = [action.arguments for action in can if action.name == predicate.name]
         members = [signature.members(sort) for sort in predicate.sorts]
-        usual = [own[0] if len(own) == 1 else "_" for own in members]
+        usual = [objects[0] if len(objects) == 1 else "_" for objects in members]
         if not done:
             yield Literal(predicate.name, tuple(usual))
             continue
-        for place, every in enumerate(members):
+        for place, objects in enumerate(members):
             seen = {str(arguments[place]) for arguments in done}
-            for member in every:
+            for member in objects:
                 if str(clingo.parse_term(member)) not in seen:
                     terms = [*usual[:place], member, *usual[place + 1 :]]
                     yield Literal(predicate.name, tuple(terms))
@@ -104,9 +104,9 @@ class _Check:
         self.knowledge = knowledge = domain.knowledge
         signature = knowledge.signature
         always = list(constraints(knowledge))
-        self.usual = [own for own in always if gives_way(own, signature)]
+        self.usual = [axiom for axiom in always if gives_way(axiom, signature)]
         self.usual += of_kind(knowledge, AxiomKind.DEFAULT)
-        self.always = [own for own in always if own not in self.usual]
+        self.always = [axiom for axiom in always if axiom not in self.usual]
         self.conditions = list(of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION))
         self.laws = list(of_kind(knowledge, AxiomKind.CAUSAL_LAW))
         self.now = TransitionProbe(knowledge, following=0)
@@ -132,8 +132,8 @@ class _Check:
         """Note what cannot all be as usual, whatever is observed."""
         if self.now.find() is None:
             needed = self.now.smallest_conflict([*self.usual, *self.always])
-            first = next(own for own in needed if own in self.usual)
-            others = [own for own in needed if own is not first]
+            first = next(axiom for axiom in needed if axiom in self.usual)
+            others = [axiom for axiom in needed if axiom is not first]
             yield (
                 f"{first.location}: in every initial state there is an exception to '{first}'"
                 + (f" or to what it contradicts: {_quoted(others)}" if others else "")
@@ -144,8 +144,12 @@ class _Check:
         for action in self.now.actions:
             if self.now.find(action=action, without=self.usual) is not None:
                 continue
-            own = [one for one in self.conditions if one.action and one.action.predicate == action]
-            needed = self.now.smallest_conflict(own, action=action, without=self.usual)
+            conditions = [
+                condition
+                for condition in self.conditions
+                if condition.action and condition.action.predicate == action
+            ]
+            needed = self.now.smallest_conflict(conditions, action=action, without=self.usual)
             which = "one of these forbids it" if len(needed) > 1 else "this forbids it"
             raise KnowledgeError(
                 f"{needed[0].location}: '{action}' is never possible: in every state {which}: "
@@ -180,9 +184,9 @@ class _Check:
         both = TransitionProbe(self.knowledge, following=2)
         found = next(
             (
-                own
+                outcome
                 for action in (None, *both.actions)
-                if (own := both.find(action=action, without=self.usual)) is not None
+                if (outcome := both.find(action=action, without=self.usual)) is not None
             ),
             None,
         )
@@ -212,19 +216,19 @@ class _Check:
         found = self.next.find(
             action=law.action.predicate, applies=law, without=self.usual, contradictions=True
         )
-        axioms = {own.identifier: own for own in self.knowledge.axioms}
+        axioms = {axiom.identifier: axiom for axiom in self.knowledge.axioms}
         for fluent in sorted(found.contradicted) if found else ():
             concluding = {
                 sign: [axioms[name] for name, head, _ in found.conclusions if head == literal]
                 for sign, literal in ((True, fluent), (False, complement_of(fluent)))
                 if found
             }
-            for sign, own in concluding.items():
-                if law in own and concluding[not sign]:
+            for sign, sources in concluding.items():
+                if law in sources and concluding[not sign]:
                     (other, *_) = concluding[not sign]
                     return f"wherever it applies, {_line(other)} brings about the opposite"
             if all(concluding.values()):
-                one, other = (own[0] for own in concluding.values())
+                one, other = (sources[0] for sources in concluding.values())
                 return f"wherever it applies, {_line(one)} and {_line(other)} bring about opposites"
         return "wherever it applies, no state can follow"
 
@@ -235,8 +239,8 @@ def _said_never(action: Literal, domain: PlanningDomain) -> str:
         return f"never possible: {action}"
     sorts = domain.knowledge.signature.predicates[action.predicate].sorts
     arguments = [
-        clingo.Function(f"any_{sort}") if own == "_" else clingo.parse_term(own)
-        for own, sort in zip(action.arguments, sorts, strict=True)
+        clingo.Function(f"any_{sort}") if argument == "_" else clingo.parse_term(argument)
+        for argument, sort in zip(action.arguments, sorts, strict=True)
     ]
     said = domain.words.do(clingo.Function(action.predicate, arguments))
     return f"it is never possible to {said}: {action}"
@@ -259,8 +263,8 @@ def _place_of(
     if not path.is_file():
         return None
     for statement in statements(path.read_text(encoding="utf-8"), file=str(path)):
-        own = read_history(f"{statement.text}.", domain.knowledge.signature)
-        if {*own.observations, *own.occurrences} & {*entries}:
+        history = read_history(f"{statement.text}.", domain.knowledge.signature)
+        if {*history.observations, *history.occurrences} & {*entries}:
             return statement.location
     return None
 
@@ -268,8 +272,10 @@ def _place_of(
 def _all_done(knowledge: Knowledge) -> Knowledge:
     """The knowledge as if what happens unasked were done like any action."""
     predicates = {
-        name: replace(own, kind=PredicateKind.ACTION) if own.kind.is_action else own
-        for name, own in knowledge.signature.predicates.items()
+        name: replace(predicate, kind=PredicateKind.ACTION)
+        if predicate.kind.is_action
+        else predicate
+        for name, predicate in knowledge.signature.predicates.items()
     }
     signature: Signature = replace(knowledge.signature, predicates=predicates)
     return replace(knowledge, signature=signature)
@@ -284,9 +290,9 @@ def _undecided(found: Found, knowledge: Knowledge) -> Axiom | None:
     names = {name for name, _ in one ^ other}
     return next(
         (
-            own
-            for own in knowledge.axioms
-            if own.identifier in names and any(part.absent for part in own.body)
+            axiom
+            for axiom in knowledge.axioms
+            if axiom.identifier in names and any(part.absent for part in axiom.body)
         ),
         None,
     )

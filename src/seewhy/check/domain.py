@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from seewhy.data.dataset import Dataset
+from seewhy.data.laboratory import not_there
 from seewhy.data.picture_source import check_source
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.question import Questions
@@ -51,7 +52,7 @@ class DomainReport:
         """Return the report as values that JSON can hold."""
         return {
             **asdict(self),
-            "axioms": [{**asdict(own), "accuracy": own.accuracy} for own in self.axioms],
+            "axioms": [{**asdict(record), "accuracy": record.accuracy} for record in self.axioms],
         }
 
 
@@ -71,29 +72,31 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
     decisions = reasoner.decide_all(vectors)
     counted = Counter(decision.verdict.value for decision in decisions)
     without = [
-        own
-        for own, decision in zip(vectors, decisions, strict=True)
+        vector
+        for vector, decision in zip(vectors, decisions, strict=True)
         if decision.verdict is Verdict.NO_ANSWER_SET
     ]
     loops = _odd_loops(reasoner, without)
     if loops and len(without) == len(vectors):
         raise KnowledgeError(f"{_said_odd(loops[0])}, so that no picture has an answer set")
-    if domain.source is not None:
+    without_laboratory = not_there(domain.source)
+    if domain.source is not None and without_laboratory is None:
         check_source(domain)
-    warnings = [
+    warnings = [without_laboratory] if without_laboratory else []
+    warnings += [
         f"{_said_odd(loop)}, so that {len(without)} of {len(vectors)} feature vectors have no "
         "answer set"
         for loop in loops
     ]
     # Where there is no answer set, no axiom applies; that is for the loop to answer for.
-    apart = {own.identifier for loop in loops for own in loop}
-    sound = tuple(own for own in domain.knowledge.axioms if own.identifier not in apart)
+    apart = {axiom.identifier for loop in loops for axiom in loop}
+    sound = tuple(axiom for axiom in domain.knowledge.axioms if axiom.identifier not in apart)
     warnings += [
         f"{axiom.location}: no feature vector satisfies the conditions of '{axiom}'"
         for axiom in never_applies(replace(domain.knowledge, axioms=sound), domain.schema)
     ]
     warnings += filter(None, [large_grounding(domain.knowledge)])
-    covered = {q.feature for q in questions.all if q.feature}
+    covered = {question.feature for question in questions.all if question.feature}
     warnings += [
         f"no question asks about the feature '{key}'"
         for key in domain.features
@@ -135,7 +138,7 @@ def _odd_loops(reasoner: Reasoner, vectors: Sequence[FeatureVector]) -> list[tup
     found: dict[tuple[str, ...], tuple[Axiom, ...]] = {}
     for vector in vectors[:_LOOKED_AT]:
         loop = reasoner.odd_loop(vector)
-        found.setdefault(tuple(own.identifier for own in loop), loop)
+        found.setdefault(tuple(axiom.identifier for axiom in loop), loop)
     return list(found.values())
 
 
@@ -150,4 +153,7 @@ def feature_vectors(domain: Domain, *, most: int = MOST_VECTORS) -> list[Feature
     if prod(map(len, values)) <= most:
         return [tuple(vector) for vector in product(*values)]
     generator = np.random.default_rng(0)
-    return [tuple(own[int(generator.integers(len(own)))] for own in values) for _ in range(most)]
+    return [
+        tuple(possible[int(generator.integers(len(possible)))] for possible in values)
+        for _ in range(most)
+    ]

@@ -88,10 +88,12 @@ class TransitionProbe:
             "\n".join(_rules(knowledge, following)),
             size=grounding_size(knowledge).times(following + 1),
         )
-        self._literals = {str(own.symbol): own.literal for own in self.control.atoms}
-        self.actions = [n for n, p in knowledge.signature.predicates.items() if p.kind.is_action]
+        self._literals = {str(atom.symbol): atom.literal for atom in self.control.atoms}
+        self.actions = [
+            n for n, predicate in knowledge.signature.predicates.items() if predicate.kind.is_action
+        ]
         self.guarded = [
-            own for own in knowledge.axioms if f"used({own.identifier})" in self._literals
+            axiom for axiom in knowledge.axioms if f"used({axiom.identifier})" in self._literals
         ]
 
     def find(
@@ -115,18 +117,18 @@ class TransitionProbe:
         contradictions : bool
             Whether what follows may contradict itself.
         """
-        dropped = {own.identifier for own in without}
+        dropped = {axiom.identifier for axiom in without}
         wanted = [] if contradictions else ["consistent"]
         wanted += [f"applies({applies.identifier})"] if applies else []
-        if any(own not in self._literals for own in wanted):
+        if any(atom not in self._literals for atom in wanted):
             return None
-        assumed = [self._literals[own] for own in wanted]
+        assumed = [self._literals[atom] for atom in wanted]
         for name in self.actions:
             literal = self._literals[f"doing({name})"]
             assumed.append(literal if name == action else -literal)
-        for own in self.guarded:
-            literal = self._literals[f"used({own.identifier})"]
-            assumed.append(-literal if own.identifier in dropped else literal)
+        for axiom in self.guarded:
+            literal = self._literals[f"used({axiom.identifier})"]
+            assumed.append(-literal if axiom.identifier in dropped else literal)
         found = self.control.solve(assumed, on_model=lambda model: list(model.symbols(atoms=True)))
         return _read(found[-1]) if found else None
 
@@ -135,8 +137,8 @@ class TransitionProbe:
     ) -> list[Axiom]:
         """Return those of ``axioms`` that leave no state; without any of them there is one."""
         needed = list(axioms)
-        for own in axioms:
-            fewer = [other for other in needed if other is not own]
+        for axiom in axioms:
+            fewer = [other for other in needed if other is not axiom]
             dropped = [*without, *(other for other in axioms if other not in fewer)]
             if self.find(action=action, without=dropped) is None:
                 needed = fewer
@@ -158,7 +160,9 @@ def _rules(knowledge: Knowledge, following: int) -> Iterator[str]:
         used = f"used({axiom.identifier})"
         yield f"{{ {used} }}."
         if gives_way(axiom, signature):
-            usual = [own for own in axiom.body if own.literal != axiom.head.complement]
+            usual = [
+                condition for condition in axiom.body if condition.literal != axiom.head.complement
+            ]
             body = body_at(replace(axiom, body=tuple(usual)), signature, "0")
             yield rule("", [*body, f"holds({axiom.head.complement}, 0)", used])
             continue
@@ -186,23 +190,23 @@ def _rules(knowledge: Knowledge, following: int) -> Iterator[str]:
 
 
 def _read(model: list[clingo.Symbol]) -> Found:
-    occurs = [own.arguments[0] for own in model if own.name == "occurs"]
+    occurs = [atom.arguments[0] for atom in model if atom.name == "occurs"]
     after = {
-        own.arguments[0]
-        for own in model
-        if own.name == "holds" and len(own.arguments) == 2 and str(own.arguments[1]) == "1"
+        atom.arguments[0]
+        for atom in model
+        if atom.name == "holds" and len(atom.arguments) == 2 and str(atom.arguments[1]) == "1"
     }
     return Found(
         action=occurs[0] if occurs else None,
         conclusions=tuple(
             sorted(
-                (str(own.arguments[0]), own.arguments[1], own.arguments[2].number)
-                for own in model
-                if own.name == "concludes"
+                (str(atom.arguments[0]), atom.arguments[1], atom.arguments[2].number)
+                for atom in model
+                if atom.name == "concludes"
             )
         ),
         contradicted=frozenset(
-            own for own in after if own.positive and complement_of(own) in after
+            fluent for fluent in after if fluent.positive and complement_of(fluent) in after
         ),
-        differing=frozenset(own.arguments[0] for own in model if own.name == "differs"),
+        differing=frozenset(atom.arguments[0] for atom in model if atom.name == "differs"),
     )

@@ -51,18 +51,18 @@ def columns_of(domain: Domain) -> tuple[Column, ...]:
     return (*first, *features, *last)
 
 
-def row_of(own: ClassifiedPicture, domain: Domain) -> list[Cell]:
+def row_of(classified: ClassifiedPicture, domain: Domain) -> list[Cell]:
     """Return the cells of a picture, one a column of :func:`columns_of`."""
     # A file's name may hold bytes that are no text, which no table can.
-    image = os.fsencode(own.picture.as_posix()).decode("utf-8", "backslashreplace")
-    scene = own.classification
+    image = os.fsencode(classified.picture.as_posix()).decode("utf-8", "backslashreplace")
+    scene = classified.classification
     if scene is None:
         empty: Sequence[Cell] = [None] * (len(_FIRST) - 1 + 2 * len(domain.features))
-        return [image, *empty, None, own.problem]
+        return [image, *empty, None, classified.problem]
     features: list[Cell] = []
     for feature in domain.features:
         reading = scene.features[feature]
         features += [reading.value, round(reading.probability, 4)]
     probability = None if scene.probability is None else round(scene.probability, 4)
     first = [image, scene.label, probability, scene.method, scene.verdict]
-    return [*first, *features, own.reasons, None]
+    return [*first, *features, classified.reasons, None]

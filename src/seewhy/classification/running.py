@@ -7,10 +7,10 @@ import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from seewhy import __version__
 from seewhy.classification.pictures import BATCH, classify_pictures
 from seewhy.classification.rows import Cell, columns_of, row_of
 from seewhy.classification.table_files import check_table, write_table
@@ -101,7 +101,7 @@ def classify_to_table(
     columns = columns_of(agent.domain)
     about = {
         "format": 1,
-        "seewhy": version("seewhy"),
+        "seewhy": __version__,
         "model": model,
         "options": [agent.reading, agent.gate, agent.known_share],
         "pictures": _digest_of(pictures),

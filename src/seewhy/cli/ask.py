@@ -80,7 +80,10 @@ def print_reply(reply: Reply) -> None:
 
     say(reply.text)
     say()
-    seen = [f"{name} {own.value} ({own.probability:.2f})" for name, own in reply.features.items()]
+    seen = [
+        f"{name} {reading.value} ({reading.probability:.2f})"
+        for name, reading in reply.features.items()
+    ]
     witness = reply.classification.class_seen
     if witness is not None:
         seen.append(f"class {witness[0]} ({witness[1]:.2f})")
@@ -89,12 +92,12 @@ def print_reply(reply: Reply) -> None:
         judge = "what is supposed"
     say(f"asked: {reply.question.text}?")
     say(f"seen: {', '.join(seen)}")
-    for name, own in reply.features.items():
-        if own.overruled is not None:
-            value, probability = own.overruled
+    for name, reading in reply.features.items():
+        if reading.overruled is not None:
+            value, probability = reading.overruled
             say(
                 f"{judge} overruled: {name} read as {value} (p = {probability:.2f}), "
-                f"{own.value} ({own.probability:.2f}) is what fits"
+                f"{reading.value} ({reading.probability:.2f}) is what fits"
             )
     if reply.supposed is not None:
         say(

@@ -54,4 +54,4 @@ def withdrawn_line(agent: Agent, gone: Withdrawn) -> str:
 
 def _identifier(agent: Agent, gone: Withdrawn) -> str:
     axioms = agent.given.knowledge.axioms
-    return next((own.identifier for own in axioms if str(own) == gone.statement), "")
+    return next((axiom.identifier for axiom in axioms if str(axiom) == gone.statement), "")

@@ -34,25 +34,25 @@ def axioms(
             say(f"withdrawn: {gone.statement}")
             return
     if restore is not None:
-        axiom = agent.restore(restore)
+        restored = agent.restore(restore)
         agent.save(model)
         if not json:
-            say(f"known again: {axiom}")
+            say(f"known again: {restored}")
             return
     known = agent.domain.knowledge.axioms
     if json:
         print_json(
             {
-                "axioms": [axiom_dict(own) for own in known],
-                "withdrawn": [withdrawn_dict(agent, own) for own in agent.withdrawn],
+                "axioms": [axiom_dict(axiom) for axiom in known],
+                "withdrawn": [withdrawn_dict(agent, withdrawn) for withdrawn in agent.withdrawn],
             }
         )
         return
     rows = table("id", "axiom", "origin")
-    for own in known:
-        origin = own.origin
+    for axiom in known:
+        origin = axiom.origin
         place = f"learned from {origin.support} {origin.things}" if origin.learned else "given"
-        add_row(rows, own.identifier, own.text, place)
+        add_row(rows, axiom.identifier, axiom.text, place)
     output().print(rows)
     for gone in agent.withdrawn:
         say(f"{withdrawn_line(agent, gone)}")

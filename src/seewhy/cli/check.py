@@ -34,16 +34,17 @@ def check(
         _print_planning(planning)
         say("nothing is wrong")
         return
-    own = load_domain(domain)
-    dataset = None if data is None else read_data(data, own, outside=outside)
-    report = check_domain(own, dataset)
+    loaded = load_domain(domain)
+    dataset = None if data is None else read_data(data, loaded, outside=outside)
+    report = check_domain(loaded, dataset)
     if json:
         print_json({**report.to_dict(), **({"planning": planning} if planning else {})})
         return
-    say(f"{own.title} ({own.name}) in {own.folder}")
-    say(f"  features: {', '.join(f'{k} ({len(f.values)})' for k, f in own.features.items())}")
-    say(f"  classes: {', '.join(own.classes)}")
-    say(f"  axioms: {len(own.knowledge.axioms)}")
+    say(f"{loaded.title} ({loaded.name}) in {loaded.folder}")
+    counts = (f"{key} ({len(feature.values)})" for key, feature in loaded.features.items())
+    say(f"  features: {', '.join(counts)}")
+    say(f"  classes: {', '.join(loaded.classes)}")
+    say(f"  axioms: {len(loaded.knowledge.axioms)}")
     say(f"  questions: {report.questions} in {report.wordings} wordings")
     verdicts = ", ".join(f"{name} {percent(share)}" for name, share in report.verdicts.items())
     say(f"  of {report.vectors} feature vectors: {verdicts}")
@@ -67,16 +68,16 @@ def _checked_planning(domain: str) -> dict[str, Any]:
     from seewhy.check.change import check_change
     from seewhy.planning.domain import load_planning_domain
 
-    own = load_planning_domain(domain)
-    notes = check_change(own)
-    kinds = [predicate.kind for predicate in own.knowledge.signature.predicates.values()]
+    loaded = load_planning_domain(domain)
+    notes = check_change(loaded)
+    kinds = [predicate.kind for predicate in loaded.knowledge.signature.predicates.values()]
     return {
-        "name": own.name,
-        "title": own.title,
-        "folder": str(own.folder),
+        "name": loaded.name,
+        "title": loaded.title,
+        "folder": str(loaded.folder),
         "fluents": sum(kind.is_fluent for kind in kinds),
         "actions": sum(kind.is_action for kind in kinds),
-        "axioms": len(own.knowledge.axioms),
+        "axioms": len(loaded.knowledge.axioms),
         "notes": list(notes),
     }
 

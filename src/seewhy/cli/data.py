@@ -48,12 +48,12 @@ def make(
 
     if workers == 0:
         raise SeeWhyError("--workers must be -1 or at least 1, got 0")
-    own = load_domain(domain)
-    remark_code(own)
+    loaded = load_domain(domain)
+    remark_code(loaded)
     with progress() as bars:
         task = bars.add_task("making pictures", total=count)
         made = make_dataset(
-            own,
+            loaded,
             out,
             count=count,
             seed=seed,
@@ -72,7 +72,7 @@ def make(
         )
         return
     say(f"{made.count} pictures in {made.folder}")
-    for part in say_shares(own, made.classes):
+    for part in say_shares(loaded, made.classes):
         say(f"  {part}")
     say(
         f"  {percent(made.determined)} of them have an outcome that their features determine "
@@ -113,21 +113,21 @@ def show(
     from seewhy.files.whole_files import whole_file
     from seewhy.report.contact_sheet import draw_contact_sheet
 
-    own = load_domain(domain) if domain else domain_of(folder)
-    dataset = Dataset.load(folder, own, outside=outside)
+    loaded = load_domain(domain) if domain else domain_of(folder)
+    dataset = Dataset.load(folder, loaded, outside=outside)
     sheet = draw_contact_sheet(dataset, rows=rows, columns=columns)
     target = out or folder / "contact_sheet.png"
     with whole_file(target) as temporary:
         sheet.save(temporary, format="PNG")
     classed = dataset.with_class()
     classes = Counter(classed.classes)
-    shares = {name: classes[name] / max(1, len(classed)) for name in own.classes}
+    shares = {name: classes[name] / max(1, len(classed)) for name in loaded.classes}
     determined = determined_share(classed.vectors, classed.classes) if len(classed) else None
     if json:
         print_json(
             {
                 "contact_sheet": str(target),
-                "domain": own.name,
+                "domain": loaded.name,
                 "scenes": len(dataset),
                 "without_class": len(dataset) - len(classed),
                 "classes": shares,
@@ -135,11 +135,11 @@ def show(
             }
         )
         return
-    remark(f"domain: {own.name}")
+    remark(f"domain: {loaded.name}")
     if determined is None:
         say(f"{len(dataset)} pictures, none of them with a class")
     else:
-        said = ", ".join(say_shares(own, shares, between=" "))
+        said = ", ".join(say_shares(loaded, shares, between=" "))
         without = len(dataset) - len(classed)
         more = f", and {without} without a class" if without else ""
         say(

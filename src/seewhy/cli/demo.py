@@ -42,7 +42,7 @@ def demo(
     from seewhy.report.page import report_page
 
     start = perf_counter()
-    own = load_domain(domain)
+    loaded = load_domain(domain)
     quiet = json
 
     def heading(text: str) -> None:
@@ -50,25 +50,25 @@ def demo(
             output().print()
             output().print(f"{text}  ({perf_counter() - start:.0f} s)", markup=False, style="bold")
 
-    heading(f"{own.title}: {count} pictures")
+    heading(f"{loaded.title}: {count} pictures")
     with progress() as bars:
         task = bars.add_task("making pictures", total=count)
         made = make_dataset(
-            own,
+            loaded,
             out / "pictures",
             count=count,
             seed=seed,
             on_progress=lambda done: bars.update(task, completed=done),
         )
     if not quiet:
-        shares = ", ".join(f"{n} {100 * s:.0f} %" for n, s in made.classes.items())
+        shares = ", ".join(f"{n} {100 * share:.0f} %" for n, share in made.classes.items())
         said = shares if len(made.classes) <= FEW_CLASSES else f"{len(made.classes)} classes"
         say(f"{said}; the features determine {100 * made.determined:.1f} % of the outcomes")
     heading("Training what sees, the tree and the answers")
-    dataset = Dataset.load(out / "pictures", own)
+    dataset = Dataset.load(out / "pictures", loaded)
     agent = trained_already(out / "model", dataset, seed=seed)
     if agent is None:
-        agent = train_model(own, out / "pictures", out / "model", seed=seed)
+        agent = train_model(loaded, out / "pictures", out / "model", seed=seed)
     elif not quiet:
         say(f"{out / 'model'} is trained on these pictures already")
     if not quiet:
@@ -104,13 +104,15 @@ def choose_scenes(agent: Agent, dataset: Dataset, *, most: int = 6) -> list[Scen
     scenes = dataset.of_split("test")
     pictures = scenes.pictures(agent.picture_size)
     kinds: dict[tuple[str, str | None, str], list[Scene]] = {}
-    for scene, own in zip(scenes.scenes, agent.classify_all(pictures), strict=True):
-        kinds.setdefault((own.method, own.label, own.verdict), []).append(scene)
+    for scene, classification in zip(scenes.scenes, agent.classify_all(pictures), strict=True):
+        kinds.setdefault(
+            (classification.method, classification.label, classification.verdict), []
+        ).append(scene)
     chosen: list[Scene] = []
     rank = 0
     ordered = [kinds[key] for key in sorted(kinds, key=str)]
-    while len(chosen) < most and any(len(own) > rank for own in ordered):
-        chosen += [own[rank] for own in ordered if len(own) > rank]
+    while len(chosen) < most and any(len(alike) > rank for alike in ordered):
+        chosen += [alike[rank] for alike in ordered if len(alike) > rank]
         rank += 1
     return chosen[:most]
 
@@ -119,8 +121,8 @@ def _ask_everything(agent: Agent, scene: Scene) -> list[Reply]:
     """Every question of the domain about one picture, and the explanation of one answer."""
     from seewhy.dialogue.question import Asks
 
-    own = agent.classify(scene.picture)
-    labels = _asked_about(agent, own)
+    classification = agent.classify(scene.picture)
+    labels = _asked_about(agent, classification)
     replies: list[Reply] = []
     explain = None
     for question in agent.questions.one_of_each():
@@ -131,32 +133,33 @@ def _ask_everything(agent: Agent, scene: Scene) -> list[Reply]:
             continue
         if (
             question.value is not None
-            and question.value != agent.domain.named(own.vector)[question.feature or ""]
+            and question.value != agent.domain.named(classification.vector)[question.feature or ""]
             and len(agent.domain.features[question.feature or ""].values) > 2
         ):
             continue
-        replies.append(agent.answer(own, question))
+        replies.append(agent.answer(classification, question))
     if explain is not None:
         about = next(
             (
-                r
-                for r in replies
-                if r.question.asks is Asks.WHY_CLASS and r.question.label == own.label
+                reply
+                for reply in replies
+                if reply.question.asks is Asks.WHY_CLASS
+                and reply.question.label == classification.label
             ),
             replies[0],
         )
-        replies.append(agent.answer(own, explain, previous=about))
+        replies.append(agent.answer(classification, explain, previous=about))
     return replies
 
 
-def _asked_about(agent: Agent, own: Classification) -> set[str]:
+def _asked_about(agent: Agent, classification: Classification) -> set[str]:
     """The classes to ask about: all of a few, or the picture's own and the nearest other one."""
     classes = tuple(agent.domain.classes)
     if len(classes) <= FEW_CLASSES:
         return set(classes)
-    nearest = agent.reasoned.nearest_classes(own.vector, most=2)
-    other = next((label for label in nearest if label != own.label), classes[0])
-    return {other, *([own.label] if own.label is not None else [])}
+    nearest = agent.reasoned.nearest_classes(classification.vector, most=2)
+    other = next((label for label in nearest if label != classification.label), classes[0])
+    return {other, *([classification.label] if classification.label is not None else [])}
 
 
 def _print_answers(answered: list[tuple[Scene, list[Reply]]]) -> None:

@@ -147,7 +147,9 @@ def print_axioms(result: Evaluation, *, most: int = MOST) -> None:
     """
     axioms = list(result.axioms)
     if len(axioms) > most:
-        axioms.sort(key=lambda own: (own.accuracy is None, own.accuracy or 0.0, -own.decided))
+        axioms.sort(
+            key=lambda record: (record.accuracy is None, record.accuracy or 0.0, -record.decided)
+        )
     rows = table("axiom", ">decides", ">right")
     for axiom in axioms[:most]:
         add_row(rows, axiom.statement, str(axiom.decided), share_of_cases(axiom.accuracy))

@@ -38,7 +38,7 @@ def learn_from_record(
     files = _records(runs)
     found = learn_from_runs(
         domain,
-        [read_history_file(own, domain.knowledge.signature) for own in files],
+        [read_history_file(file, domain.knowledge.signature) for file in files],
         names=list(map(str, files)),
         support=SUPPORT if support is None else support,
         tolerance=tolerance,
@@ -61,7 +61,7 @@ def _records(folder: Path) -> list[Path]:
     remedy = "'seewhy simulate DOMAIN --goal GOAL --record FOLDER/NAME.al' records a run"
     if not folder.is_dir():
         raise PlanningError(f"{folder}: there is no such folder; {remedy}")
-    files = sorted(own for own in folder.glob("*.al") if own.is_file())
+    files = sorted(file for file in folder.glob("*.al") if file.is_file())
     if not files:
         raise PlanningError(f"{folder}: there is no record (*.al) in this folder; {remedy}")
     return files
@@ -75,8 +75,8 @@ def _print(found: LearnedFromRuns, added: Sequence[Axiom]) -> None:
         said = f"{origin.support} {origin.things}, {percent(origin.precision)} of them rightly"
         say(f"added: {axiom.text}")
         say(f"  {axiom}  ({said})")
-    for own in found.rejected:
-        say(f"not added: {own.axiom} {own.reason}")
+    for rejection in found.rejected:
+        say(f"not added: {rejection.axiom} {rejection.reason}")
 
 
 def _to_dict(found: LearnedFromRuns, added: Sequence[Axiom]) -> dict[str, Any]:
@@ -84,7 +84,10 @@ def _to_dict(found: LearnedFromRuns, added: Sequence[Axiom]) -> dict[str, Any]:
         "runs": found.runs,
         "observations": found.observations,
         "tolerances": dict(found.tolerances),
-        "found": [str(own) for own in found.axioms],
-        "added": [axiom_dict(own) for own in added],
-        "rejected": [{"statement": str(o.axiom), "reason": o.reason} for o in found.rejected],
+        "found": [str(axiom) for axiom in found.axioms],
+        "added": [axiom_dict(axiom) for axiom in added],
+        "rejected": [
+            {"statement": str(rejection.axiom), "reason": rejection.reason}
+            for rejection in found.rejected
+        ],
     }

@@ -9,10 +9,11 @@ import os
 import sys
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 
+from seewhy import __version__
 from seewhy.cli import (
     ask,
     axioms,
@@ -32,10 +33,8 @@ from seewhy.cli import (
     trace,
     train,
 )
-from seewhy.cli.screen import complain
-
-LABORATORY = "seewhy_lab"
-"""Adds commands of its own where it is there."""
+from seewhy.cli.screen import complain, say
+from seewhy.data.laboratory import LABORATORY
 
 _INTERRUPTED = 130
 # Typer names only some of the errors of a command line; this is what they have in common.
@@ -49,6 +48,24 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+def _show_version(asked: bool) -> None:
+    if asked:
+        say(f"seewhy {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    _version: Annotated[
+        bool,
+        typer.Option("--version", help="Print the version.", is_eager=True, callback=_show_version),
+    ] = False,
+) -> None:
+    """Answers questions about pictures and says why."""
+
+
 app.add_typer(data.app, name="data", help="Make datasets and look at them.")
 app.command("train")(train.train)
 app.command("evaluate")(evaluate.evaluate)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,6 +10,14 @@ import typer
 
 from seewhy.cli.options import DomainName, Json
 from seewhy.cli.robot import Learned, Without, with_knowledge_of_robot
+from seewhy.cli.run_questions import (
+    Ask,
+    Chat,
+    ask_all,
+    exit_if_not_understood,
+    show_answers,
+    talk,
+)
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -45,40 +54,61 @@ def plan(
         Path | None,
         typer.Option("--pddl", help="Also write domain.pddl and problem.pddl to this folder."),
     ] = None,
+    ask: Ask = None,
+    chat: Chat = False,
     learned: Learned = None,
     without: Without = None,
     json: Json = False,
 ) -> None:
-    """Find a shortest plan to a goal."""
+    """Find a shortest plan to a goal, and answer questions about it.
+
+    With --history, what was done so far can be asked about like a run: --history takes what
+    'seewhy simulate --record' writes.
+    """
     from seewhy.knowledge.ground_literal import read_ground_literal
     from seewhy.knowledge.history import read_history_file
     from seewhy.planning.diagnosis.diagnosis import diagnose
+    from seewhy.planning.dialogue.replying import RunAnswers
     from seewhy.planning.domain import load_planning_domain
+    from seewhy.planning.execution.execution import Run
     from seewhy.planning.execution.plan_monitoring import suppositions
     from seewhy.planning.goal import read_goal
     from seewhy.planning.planner.pddl import to_pddl
     from seewhy.planning.planner.planner import plan as find_plan
 
-    own = with_knowledge_of_robot(load_planning_domain(domain), learned=learned, without=without)
-    knowledge = own.knowledge
+    robot_domain = with_knowledge_of_robot(
+        load_planning_domain(domain), learned=learned, without=without
+    )
+    knowledge = robot_domain.knowledge
     aim = read_goal(goal, knowledge)
-    past = read_history_file(history, knowledge.signature) if history else own.history
+    past = read_history_file(history, knowledge.signature) if history else robot_domain.history
     seen = [read_ground_literal(text, knowledge.signature, of="fluent") for text in observed or ()]
     past = past.with_observations(seen, step=past.last_step)
-    known = diagnose(knowledge, past, sensors_err=own.sensors_err)
+    known = diagnose(knowledge, past, sensors_err=robot_domain.sensors_err)
     if pddl is not None:
         _write_pddl(to_pddl(knowledge, aim, start=known.now), pddl)
-    most = own.horizon if horizon is None else horizon
-    found = find_plan(knowledge, aim, start=known.now, horizon=most, answer_sets=own.answer_sets)
+    most = robot_domain.horizon if horizon is None else horizon
+    found = find_plan(
+        knowledge, aim, start=known.now, horizon=most, answer_sets=robot_domain.answer_sets
+    )
     supposed: tuple[Symbol, ...] = ()
     if found.settles(known.now):
         supposed = suppositions(knowledge, aim, found.actions, start=known.now)
+    answers = (
+        RunAnswers(replace(robot_domain, horizon=most), Run(aim, past)) if ask or chat else None
+    )
+    asked = [] if answers is None else ask_all(answers, ask)
     if json:
-        print_json(_to_dict(found, goal, supposed))
+        replies = {"replies": [reply.to_dict() for reply in asked]} if ask else {}
+        print_json({**_to_dict(found, goal, supposed), **replies}, lines=not chat)
     else:
         for surprise in known.surprises:
-            say(f"It must be that {own.words.surprise(surprise)}.")
-        _show(found, own.words, supposed)
+            say(f"It must be that {robot_domain.words.surprise(surprise)}.")
+        _show(found, robot_domain.words, supposed)
+        show_answers(asked)
+    if chat and answers is not None:
+        talk(answers, json=json)
+    exit_if_not_understood(asked)
     if not found.found:
         raise typer.Exit(1)
 
@@ -109,8 +139,8 @@ def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...]) -> No
         say(
             f"No plan of at most {found.horizon} actions reaches the goal; try a greater --horizon."
         )
-    for own in supposed if found.found else ():
-        say(f"This supposes that {words.say(own)}, which is not known.")
+    for supposition in supposed if found.found else ():
+        say(f"This supposes that {words.say(supposition)}, which is not known.")
 
 
 def _to_dict(found: Plan, goal: str, supposed: tuple[Symbol, ...]) -> dict[str, Any]:
@@ -118,8 +148,8 @@ def _to_dict(found: Plan, goal: str, supposed: tuple[Symbol, ...]) -> dict[str, 
         "goal": goal,
         "status": found.status.value,
         "actions": [str(action) for action in found.actions],
-        "supposed": [str(own) for own in supposed],
-        "states": [[str(own) for own in state.positive()] for state in found.states],
+        "supposed": [str(supposition) for supposition in supposed],
+        "states": [[str(literal) for literal in state.positive()] for state in found.states],
         "horizon": found.horizon,
         "seconds": round(found.seconds, 4),
     }

@@ -46,5 +46,5 @@ def with_knowledge_of_robot(
 
 def robot_options(*, learned: Path | None, without: list[str] | None) -> str:
     """Return the options as they were given, to be shown in a command."""
-    said = [f' --without "{own}"' for own in without or ()]
+    said = [f' --without "{statement}"' for statement in without or ()]
     return "".join([*said, f" --learned {learned}" if learned else ""])

@@ -132,7 +132,7 @@ def add_row(to: Table, *cells: str) -> None:
 
 def table(*columns: str, title: str | None = None) -> Table:
     """An empty table of plain looks; numbers belong in columns named with a leading '>'."""
-    own = Table(
+    plain = Table(
         title=None if title is None else Text(harmless(title), style="table.title"),
         title_justify="left",
         box=None,
@@ -140,11 +140,11 @@ def table(*columns: str, title: str | None = None) -> Table:
         header_style="bold",
     )
     for column in columns:
-        own.add_column(
+        plain.add_column(
             Text(harmless(column.lstrip(">"))),
             justify="right" if column.startswith(">") else "left",
         )
-    return own
+    return plain
 
 
 @contextmanager

@@ -7,10 +7,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from seewhy.cli.conversation import converse
 from seewhy.cli.options import DomainName, Json, Seed
 from seewhy.cli.plan import GoalText
 from seewhy.cli.robot import Learned, Without, robot_options, with_knowledge_of_robot
+from seewhy.cli.run_questions import (
+    Ask,
+    Chat,
+    ask_all,
+    exit_if_not_understood,
+    show_answers,
+    talk,
+)
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -34,14 +41,8 @@ def simulate(
     out: Annotated[
         Path | None, typer.Option("--out", help="Also write the run to this .html file.")
     ] = None,
-    ask: Annotated[
-        list[str] | None,
-        typer.Option("--ask", help="A question about the run; may be given several times."),
-    ] = None,
-    chat: Annotated[
-        bool,
-        typer.Option("--chat", help="Afterwards answer questions about the run from the input."),
-    ] = False,
+    ask: Ask = None,
+    chat: Chat = False,
     record: Annotated[
         Path | None,
         typer.Option("--record", help="Also write what was seen and done to this .al file."),
@@ -71,47 +72,47 @@ def simulate(
     if record is not None and record.suffix != ".al":
         raise PlanningError(f"{record}: a record is written as .al; choose a name that ends so")
     world = load_planning_domain(domain)
-    own = with_knowledge_of_robot(world, learned=learned, without=without)
-    aim = read_goal(goal, own.knowledge)
-    sight = None if model is None else _sight(own, model)
+    robot_domain = with_knowledge_of_robot(world, learned=learned, without=without)
+    aim = read_goal(goal, robot_domain.knowledge)
+    sight = None if model is None else _sight(robot_domain, model)
     last: Simulation | None = None
     interrupted = False
     try:
-        for last in run_simulation(own, aim, seed=seed, most_steps=steps, world=world, sight=sight):
+        for last in run_simulation(
+            robot_domain, aim, seed=seed, most_steps=steps, world=world, sight=sight
+        ):
             step = last.run.steps[-1]
             if not json:
-                for number, sentence in enumerate(narrate_step(own.words, step)):
+                for number, sentence in enumerate(narrate_step(robot_domain.words, step)):
                     say(f"{step.number:3}  {sentence}" if number == 0 else f"     {sentence}")
     except KeyboardInterrupt:
         interrupted = True
     if last is None:
         raise KeyboardInterrupt
     run = last.run
-    answers = RunAnswers(own, run)
-    replies = [answers.answer(question) for question in ask or ()]
+    answers = RunAnswers(robot_domain, run)
+    asked = ask_all(answers, ask)
     if json:
-        told = {**_to_dict(last, goal, seed), "replies": [own.to_dict() for own in replies]}
+        told = {**_to_dict(last, goal, seed), "replies": [reply.to_dict() for reply in asked]}
         print_json(told, lines=not chat)
     else:
         say(narrate_end(run))
         say(f"In truth it {'is' if last.achieved else 'is not'} reached.")
-        for question, reply in zip(ask or (), replies, strict=True):
-            say(f"\n{question}\n{reply.text}")
+        show_answers(asked)
     command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
     command += "" if model is None else f" --model {model}"
     command += robot_options(learned=learned, without=without)
     if record is not None:
-        write_whole(record, history_text(record_of(own, run), title=command))
+        write_whole(record, history_text(record_of(robot_domain, run), title=command))
         remark(f"what was seen and done is in {record}")
     if out is not None:
-        write_whole(out, run_page(own, last, command=command))
+        write_whole(out, run_page(robot_domain, last, command=command))
         remark(f"the run with its map is in {out}")
     if chat:
-        greeting = [f"  {question}" for question in answers.questions.examples()]
-        greeting = ["Ask about the run, for instance:", *greeting, "An empty line ends."]
-        converse(answers.answer, greeting=greeting, json=json)
+        talk(answers, json=json)
     if interrupted:
         raise KeyboardInterrupt
+    exit_if_not_understood(asked)
     if not last.achieved:
         raise typer.Exit(1)
 
@@ -140,12 +141,12 @@ def _to_dict(simulation: Simulation, goal: str, seed: int) -> dict[str, Any]:
                 "plan": list(map(str, step.plan)),
                 "action": None if step.action is None else str(step.action),
                 "surprises": [
-                    {"kind": own.kind.value, "what": str(own.what), "step": own.step}
-                    for own in step.surprises
+                    {"kind": surprise.kind.value, "what": str(surprise.what), "step": surprise.step}
+                    for surprise in step.surprises
                 ],
                 "because": list(map(str, step.because)),
                 "believed": list(map(str, step.believed.positive())),
-                "true": sorted(str(own) for own in world if own.positive),
+                "true": sorted(str(literal) for literal in world if literal.positive),
                 "planning_seconds": round(step.planning_seconds, 4),
                 **({"misread": list(map(str, looks[number].misread))} if looks else {}),
             }

@@ -67,9 +67,9 @@ def train(
     """
     from seewhy.domain.domain import load_domain
 
-    own = load_domain(domain)
+    loaded = load_domain(domain)
     agent = train_model(
-        own,
+        loaded,
         data,
         out,
         without=without or (),
@@ -88,7 +88,7 @@ def train(
         print_json(
             {
                 "model": str(out),
-                "domain": own.name,
+                "domain": loaded.name,
                 "eyes": agent.eyes,
                 "networks": summary,
                 "tree_scenes": tree_scenes(agent),

@@ -18,13 +18,13 @@ from seewhy.data.digest import digest_of
 from seewhy.data.picture_path import require_own_table
 from seewhy.data.reading_ahead import read_ahead
 from seewhy.data.scene import Scene, TablePlace
-from seewhy.data.scene_rows import OPTIONAL, columns_of, scenes_of_rows
+from seewhy.data.scene_rows import OPTIONAL, cells_of_scenes, columns_of, scenes_of_rows
 from seewhy.data.table import read_table
 from seewhy.domain.domain import Domain
-from seewhy.domain.tables import CLASS
 from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.text.nearest import did_you_mean
+from seewhy.text.notebook import html_line, html_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,6 +35,9 @@ TABLE = "scenes.csv"
 
 BATCH = 64
 """Pictures that are in the memory at a time where they need not all be."""
+
+SHOWN = 10
+"""Rows that a notebook shows of a dataset."""
 
 
 @dataclass(frozen=True)
@@ -152,18 +155,19 @@ class Dataset:
         SeeWhyError
             If pandas is not installed.
         """
-        from seewhy.data.frame import frame_of_cells
+        from seewhy.files.data_frame import data_frame
 
-        columns: dict[str, list[str | None]] = {
-            "image": [self.name_of(scene) for scene in self.scenes],
-            CLASS: list(self.labels),
-        }
-        for position, key in enumerate(self.domain.features):
-            columns[key] = [scene.vector[position] for scene in self.scenes]
-        columns["split"] = [scene.split or None for scene in self.scenes]
-        columns["group"] = [scene.group or None for scene in self.scenes]
-        columns["reasons"] = [" ".join(scene.reasons) or None for scene in self.scenes]
-        return frame_of_cells(columns)
+        return data_frame(self._cells(self.scenes))
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: how many pictures there are, and the first rows of the table."""
+        cells = self._cells(self.scenes[:SHOWN])
+        more = f", of which the first {SHOWN} are shown" if len(self) > SHOWN else ""
+        rows = ([cell or "" for cell in row] for row in zip(*cells.values(), strict=True))
+        return html_line(f"{len(self)} pictures{more}") + html_table([*cells], rows)
+
+    def _cells(self, scenes: Sequence[Scene]) -> dict[str, list[str | None]]:
+        return cells_of_scenes([(self.name_of(scene), scene) for scene in scenes], self.domain)
 
     def _checked(self) -> Dataset:
         """This dataset, if it has rows that do not contradict each other."""

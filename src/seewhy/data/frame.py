@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
-from seewhy.errors import DatasetError, SeeWhyError
+from seewhy.errors import DatasetError
 
-if TYPE_CHECKING:
-    import pandas as pd
-
-__all__ = ["cells_of_frame", "frame_of_cells"]
+__all__ = ["cells_of_frame"]
 
 
 def cells_of_frame(frame: Any) -> tuple[tuple[str, ...], Iterator[tuple[str, ...]]]:
@@ -63,22 +60,3 @@ def _is_missing(value: Any) -> bool:
         return value != value
     pandas = sys.modules.get("pandas")
     return pandas is not None and (value is pandas.NA or value is pandas.NaT)
-
-
-def frame_of_cells(columns: Mapping[str, Sequence[str | None]]) -> pd.DataFrame:
-    """Return a data frame of text, None where there is none.
-
-    Raises
-    ------
-    SeeWhyError
-        If pandas is not installed.
-    """
-    try:
-        import pandas as pd
-    except ModuleNotFoundError:
-        raise SeeWhyError(
-            "pandas is not installed, which data frames need; install it with "
-            "pip install 'seewhy[tables]'"
-        ) from None
-    series = {name: pd.Series(list(cells), dtype=object) for name, cells in columns.items()}
-    return pd.DataFrame(series)

@@ -215,7 +215,8 @@ def _largest_difference(first: Path, second: Path) -> float:
     (one, one_side), (other, other_side) = _fine(first), _fine(second)
     side = min(SIDE, one_side, other_side)
     ours, theirs = (
-        np.asarray(own.resize((side, side), Image.Resampling.BICUBIC)) for own in (one, other)
+        np.asarray(picture.resize((side, side), Image.Resampling.BICUBIC))
+        for picture in (one, other)
     )
     apart = (ours - ours.mean()) - (theirs - theirs.mean())
     return float(np.abs(uniform_filter(apart, size=3, mode="nearest")).max())

@@ -141,7 +141,7 @@ def determined_share(vectors: list[FeatureVector], labels: list[str]) -> float:
     counts: dict[FeatureVector, Counter[str]] = {}
     for vector, label in zip(vectors, labels, strict=True):
         counts.setdefault(vector, Counter())[label] += 1
-    return sum(max(own.values()) for own in counts.values()) / len(labels)
+    return sum(max(by_class.values()) for by_class in counts.values()) / len(labels)
 
 
 def _check_annotation(domain: Domain, features: dict[str, str], label: str) -> None:

@@ -10,8 +10,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from importlib.machinery import ModuleSpec
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeGuard
 
+from seewhy.data.laboratory import LABORATORY, not_there, of_laboratory, without_module
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
 
@@ -86,6 +87,8 @@ def check_source(domain: Domain) -> None:
     >>> check_source(load_domain("structure_stability"))
     """
     source, folder = _named_source(domain), domain.folder
+    if missing := not_there(source):
+        raise DomainError(f"{folder / 'domain.toml'}: {missing}")
     file = folder / source if source.endswith(".py") else _file_of_module(source)
     problem = "there is no such module" if file is None else _lacks_draw(file)
     if problem:
@@ -174,6 +177,8 @@ def load_draw(source: str, folder: Path) -> Draw:
 @lru_cache(maxsize=8)
 def _load(source: str, folder: Path, wanted: str) -> Any:
     """Return a function of a source; ``wanted`` is its name with its arguments."""
+    if missing := not_there(source):
+        raise DomainError(f"{folder / 'domain.toml'}: {missing}")
     try:
         if source.endswith(".py"):
             spec = importlib.util.spec_from_file_location(
@@ -187,8 +192,17 @@ def _load(source: str, folder: Path, wanted: str) -> Any:
             module = importlib.import_module(source)
         return getattr(module, wanted.partition("(")[0])
     except Exception as problem:
+        if _lacks_library(problem, source):
+            raise DomainError(f"{folder / 'domain.toml'}: {without_module(problem)}") from problem
         why = f"{type(problem).__name__}: {problem}"
         raise DomainError(_no_source(source, folder, wanted, why)) from problem
+
+
+def _lacks_library(problem: Exception, source: str) -> TypeGuard[ModuleNotFoundError]:
+    """Whether the laboratory is there, and something that it imports is not."""
+    if not of_laboratory(source) or not isinstance(problem, ModuleNotFoundError):
+        return False
+    return str(problem.name).partition(".")[0] not in ("seewhy", LABORATORY)
 
 
 def _no_source(source: str, folder: Path, wanted: str, why: str) -> str:

@@ -13,7 +13,7 @@ from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["IMAGE", "OPTIONAL", "SPLITS", "columns_of", "scenes_of_rows"]
+__all__ = ["IMAGE", "OPTIONAL", "SPLITS", "cells_of_scenes", "columns_of", "scenes_of_rows"]
 
 IMAGE = "image"
 OPTIONAL = ("split", "group", "reasons")
@@ -33,6 +33,32 @@ def columns_of(domain: Domain) -> tuple[str, ...]:
     """
     others = (name for name in RESERVED if name not in (IMAGE, CLASS))
     return (IMAGE, CLASS, *domain.features, *others)
+
+
+def cells_of_scenes(
+    named: Sequence[tuple[str, Scene]], domain: Domain
+) -> dict[str, list[str | None]]:
+    """Return column → its cells, one a scene with the name of its picture; None where nobody knows.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> scene = Scene(Path("tower.png"), ("2", "wide", None, None), label="stable", split="test")
+    >>> cells = cells_of_scenes([("tower.png", scene)], load_domain("structure_stability"))
+    >>> cells["class"], cells["lean"], cells["split"]
+    (['stable'], [None], ['test'])
+    """
+    scenes = [scene for _, scene in named]
+    cells: dict[str, list[str | None]] = {
+        IMAGE: [name for name, _ in named],
+        CLASS: [scene.label for scene in scenes],
+    }
+    for position, key in enumerate(domain.features):
+        cells[key] = [scene.vector[position] for scene in scenes]
+    cells["split"] = [scene.split or None for scene in scenes]
+    cells["group"] = [scene.group or None for scene in scenes]
+    cells["reasons"] = [" ".join(scene.reasons) or None for scene in scenes]
+    return cells
 
 
 def scenes_of_rows(

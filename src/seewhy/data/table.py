@@ -128,7 +128,7 @@ def _decoded(file: Path) -> str:
     for beginning, what in _CONTAINERS.items():
         if data.startswith(beginning):
             raise DatasetError(f"{file}: is {what}, no text; save the table as CSV in UTF-8")
-    marked = next((own for own in _MARKS if data.startswith(own[0])), None)
+    marked = next((mark for mark in _MARKS if data.startswith(mark[0])), None)
     encoding, name = (marked[1], marked[2]) if marked is not None else ("utf-8", "UTF-8")
     if marked is None and len(data) > 1 and _every_other_is_nul(data[:2000]):
         raise DatasetError(
@@ -188,7 +188,9 @@ def _separator_of(
     }
     best = max(scores, key=lambda separator: (scores[separator], header.count(separator)))
     if scores[best] and _split_again(header, best, names):
-        others = [own for own in SEPARATORS if own != best and own in header]
+        others = [
+            separator for separator in SEPARATORS if separator != best and separator in header
+        ]
         raise DatasetError(
             f"{file}:{line}: the columns are separated by {SEPARATORS[best]} and by "
             f"{SEPARATORS[others[0]]}; use one of them in the whole table"

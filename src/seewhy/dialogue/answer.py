@@ -149,7 +149,7 @@ def word_answer(
             "reasons": reasons,
             "changes": _say_changes(domain, kind.changes),
             "asked": asked,
-            "class": domain.classes[label].say if label else "undecided",
+            "class": _say_class(domain, kind, label),
             "explanation": reasons,
             "scene": domain.scene.replace("_", " "),
             # "A stop sign is octagonal; the sign is …", "It is a stop sign when it is octagonal …".
@@ -225,6 +225,15 @@ def _say_asked(domain: Domain, question: Question) -> str:
     if len(classes) > _MOST_CLASSES_NAMED:
         classes = [*classes[:2], f"one of {len(classes) - 2} others"]
     return join_words(classes, word="or")
+
+
+def _say_class(domain: Domain, kind: AnswerType, label: str | None) -> str:
+    """The class of the picture, or all that are concluded of it."""
+    if kind.form == "several":
+        return "both " * (len(kind.values) == 2) + join_words(
+            [domain.classes[key].say for key in kind.values]
+        )
+    return domain.classes[label].say if label else "undecided"
 
 
 def _say_required(domain: Domain, alternatives: tuple[Changes, ...], *, subject: str) -> str:

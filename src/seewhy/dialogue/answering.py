@@ -233,7 +233,7 @@ class Answering:
             if question.feature is not None:
                 own = self.reasoned.feature(question, scene.vector)
                 return own.kind, own.justification
-            return AnswerType("undecided"), self.reasoned.undecided(scene.vector)
+            return self.reasoned.undecided_kind(scene.vector), self.reasoned.undecided(scene.vector)
         return self._learned(scene, question, scene.label)
 
     def _learned(

@@ -33,7 +33,15 @@ PROBABLE_FROM = 0.65
 """From here on "probably", below "perhaps": of three such things two are so, or fewer."""
 
 _SAYS_NOTHING_SEEN = frozenset(
-    {"undecided", "unknown", "no_belief", "no_difference", "feature_unknown"}
+    {
+        "undecided",
+        "several",
+        "contradictory",
+        "unknown",
+        "no_belief",
+        "no_difference",
+        "feature_unknown",
+    }
 )
 _ABOUT_A_FEATURE = frozenset({"value", "yes", "no"})
 _RESTS_ON_WHAT_FAILS = frozenset({Basis.ABSENCE, Basis.JOINTLY, Basis.EXCEPTION, Basis.OTHERWISE})

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.inflection import lemma
-from seewhy.dialogue.meaning import Readings
+from seewhy.dialogue.readings import Readings
 
 __all__ = ["completed"]
 

@@ -46,6 +46,8 @@ def lemma(word: str) -> str:
     """
     if word in _AS_THEY_ARE:
         return word
+    if word.endswith(("ered", "ering", "ers")):
+        word = word[: word.rindex("er") + 2]  # "considered" is of "consider"
     stem = str(_STEM(word))
     # "Narrower" compares, which "narrow" does not.
     compares = word.endswith(("er", "est")) and not stem.endswith(("er", "est"))

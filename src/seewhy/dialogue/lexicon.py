@@ -10,7 +10,7 @@ from seewhy.dialogue.inflection import ARTICLES, lemma
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain, Feature
 
-__all__ = ["CATEGORIES", "Entries", "Value", "lexicon_of"]
+__all__ = ["CATEGORIES", "NUMBERS", "Entries", "Value", "lexicon_of", "persons_of", "words_in"]
 
 Value = tuple[str, str]
 """A feature and a value of it."""
@@ -19,9 +19,16 @@ CATEGORIES = (
     "noun", "class", "class_bare", "class_noun", "class_modifier", "does_class", "adjective",
     "possession", "existing", "verb", "word", "feature", "quality", "counted", "counts", "piece",
     "part", "every", "state", "every_state", "change", "person", "group", "belief", "belief_act",
+    "asked_quality", "shared_noun", "kind_noun",
 )  # fmt: skip
 """The phrases of the grammar that a domain's own words fill."""
 
+NUMBERS = (
+    "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
+    "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen",
+    "nineteen", "twenty",
+)  # fmt: skip
+_LEAST_ALIKE = 3
 _BE = {"is", "are"}
 _HAVE = {"has", "have"}
 _TRIVIAL = {"yes", "no", "none", "there", "away", "missing", "absent"}
@@ -34,6 +41,9 @@ class Entries:
     by_first: dict[str, list[tuple[tuple[str, ...], tuple[Binding, ...]]]] = field(
         default_factory=dict
     )
+    other_words: tuple[Binding, ...] = ()
+    """What every other word means, but those of ``means_something``."""
+    means_something: frozenset[str] = frozenset()
 
     def add(self, words: Sequence[str], *bindings: Binding) -> None:
         """Let a row of normalised words mean something."""
@@ -47,10 +57,13 @@ class Entries:
         """Yield the phrases that begin at a position."""
         if position >= len(words):
             return
-        for phrase, bindings in self.by_first.get(words[position], ()):
+        listed = self.by_first.get(words[position], ())
+        for phrase, bindings in listed:
             end = position + len(phrase)
             if tuple(words[position:end]) == phrase:
                 yield Match(end, bindings)
+        if self.other_words and not listed and words[position] not in self.means_something:
+            yield Match(position + 1, self.other_words)
 
 
 Normalise = Callable[[str], tuple[str, ...]]
@@ -71,11 +84,16 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
     found["noun"].add(subject)
     found["noun"].add(normalise(domain.scene))
     for key, scene_class in domain.classes.items():
+        if normalise(scene_class.say)[-len(subject) :] == subject:
+            found["kind_noun"].add(subject)  # its classes are kinds of it
         for word in dict.fromkeys((*scene_class.words, scene_class.say, key.replace("_", " "))):
             words = normalise(word)
             if words[:1] == ("not",):
                 continue  # the grammar denies by itself
             found["class"].add(words, Binding("label", key))
+            for number in _number_words(word, normalise):
+                found["class"].add(number, Binding("label", key))
+                found["class_bare"].add(number, Binding("label", key))
             rest = words[: -len(subject)] if words[-len(subject) :] == subject else ()
             found["class_bare"].add(rest or words, Binding("label", key))
             if len(rest or words) == 2 and words_of(word)[0] in ("a", "an"):
@@ -88,6 +106,7 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
     for feature in domain.features.values():
         _add_feature(feature, found, normalise)
     _add_groups(domain, found, normalise)
+    _add_features_alike(domain, found)
     _add_beliefs(domain, found, normalise)
     return found
 
@@ -100,6 +119,17 @@ def _add_feature(feature: Feature, found: dict[str, Entries], normalise: Normali
         # "The width of the base" is the base width.
         position = nouns[0].index("of")
         nouns.append((*nouns[0][position + 1 :], *nouns[0][:position]))
+        if not yes_or_no and not _number_of(feature.name):
+            # Of "the shape of the head" is asked "what shape is the head?".
+            quality, of_what = nouns[0][:position], nouns[0][position + 1 :]
+            for between in (("is",), ("has",), ("are",), ("have",)):
+                found["asked_quality"].add(
+                    (*quality, *between, *of_what), Binding("feature", feature.key)
+                )
+            for do in ("do", "does"):
+                found["asked_quality"].add(
+                    (*quality, lemma(do), *of_what, "have"), Binding("feature", feature.key)
+                )
     had = [
         set(normalise(part.rest))
         for part in parts.values()
@@ -114,6 +144,7 @@ def _add_feature(feature: Feature, found: dict[str, Entries], normalise: Normali
             found["existing"].add(noun, Binding("fact", (feature.key, "yes")))
         else:
             found["quality"].add(noun, Binding("feature", feature.key))
+    adjectives = [normalise(part.rest) for part in parts.values() if part.verb in _BE]
     for value in feature.values:
         meaning = Binding("fact", (feature.key, value))
         part = parts[value]
@@ -121,6 +152,9 @@ def _add_feature(feature: Feature, found: dict[str, Entries], normalise: Normali
         if part.subject == "{it}":
             if part.verb in _BE:
                 found["adjective"].add(rest, meaning)
+                if len(rest) > 1 and sum(other[-1:] == rest[-1:] for other in adjectives) > 1:
+                    # "Slightly or heavily rusted" names the rust once.
+                    found["shared_noun"].add(rest[:-1], meaning)
             elif part.verb in _HAVE:
                 found["possession"].add(rest, meaning)
             else:
@@ -197,6 +231,8 @@ def _add_words(
         if word in _TRIVIAL:
             continue
         words = normalise(word)
+        for named in _number_words(word, normalise):
+            found["word"].add(named, meaning)
         if number:
             thing = normalise(number)
             found["counted"].add((*words, *thing), meaning)
@@ -210,22 +246,34 @@ def _add_words(
         found["piece"].add(normalise(number))
 
 
+def _number_words(word: str, normalise: Normalise) -> list[tuple[str, ...]]:
+    """What else names a number: "three" and "number three" of "3"."""
+    if not word.isdigit():
+        return []
+    named = [normalise(NUMBERS[int(word)])] if int(word) < len(NUMBERS) else []
+    noun = lemma("number")
+    return [*named, *((noun, *number) for number in (normalise(word), *named))]
+
+
 def _add_groups(domain: Domain, found: dict[str, Entries], normalise: Normalise) -> None:
     """Nouns that several features share, as fingers, and those that are persons."""
     by_head: dict[str, list[str]] = {}
     by_values: dict[tuple[str, ...], list[str]] = {}
-    persons = []
     for key, feature in domain.features.items():
         by_values.setdefault(feature.values, []).append(key)
         name = normalise(feature.name)
         if name:
             by_head.setdefault(name[-1], []).append(key)
-        if feature.name[:1].isupper():
-            persons.append(key)
-            found["person"].add(name, Binding("fact", (key, "yes")))
+    for key in persons_of(domain):
+        found["person"].add(normalise(domain.features[key].name), Binding("fact", (key, "yes")))
     for head, keys in by_head.items():
         if len(keys) < 2:
             continue
+        for key in keys:
+            modifier = normalise(domain.features[key].name)[:-1]
+            if modifier and "yes" in domain.features[key].values:
+                # "A small or a large box" names the box once.
+                found["shared_noun"].add(modifier, Binding("fact", (key, "yes")))
         alike = by_values[domain.features[keys[0]].values]
         # A thumb is a finger, though it is not called one.
         members = alike if set(keys) <= set(alike) and len(keys) * 2 > len(alike) else keys
@@ -233,6 +281,30 @@ def _add_groups(domain: Domain, found: dict[str, Entries], normalise: Normalise)
         if len(members) < 2:
             continue
         found["group"].add((head,), Binding("group", tuple(members)))
+
+
+def _add_features_alike(domain: Domain, found: dict[str, Entries]) -> None:
+    """Of what most features are, another noun may speak: thumb, index and ring are fingers.
+
+    Only where at least three features, and more than half of all, are in the same states: then
+    nothing else can be meant by "which fingers are stretched?".
+    """
+    by_states: dict[tuple[str, ...], list[str]] = {}
+    for key, feature in domain.features.items():
+        clauses = [_taken_apart(clause) for clause in feature.say.values()]
+        if all(clause.rest and clause.subject not in ("{it}", "there") for clause in clauses):
+            by_states.setdefault(tuple(clause.rest for clause in clauses), []).append(key)
+    largest = max(by_states.values(), key=len, default=[])
+    if found["group"].by_first or len(largest) < _LEAST_ALIKE:
+        return
+    if len(largest) * 2 > len(domain.features):
+        found["group"].other_words = (Binding("group", tuple(largest)),)
+        found["group"].means_something = frozenset(words_in(found.values()))
+
+
+def persons_of(domain: Domain) -> list[str]:
+    """Return the features that are named like persons, with a capital letter."""
+    return [key for key, feature in domain.features.items() if feature.name[:1].isupper()]
 
 
 def _same_states(domain: Domain, first: str, other: str) -> bool:

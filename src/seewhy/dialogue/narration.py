@@ -47,7 +47,7 @@ def narrate(domain: Domain, reply: Reply) -> str:
     parts += _steps(justification, _Said(justification, _class_ground(reply)))
     if reply.kind.form == "no_belief":
         parts.append(justification.text)
-    if reply.kind.form == "undecided":
+    if reply.kind.form in ("undecided", "several", "contradictory"):
         parts.append("there were no such scenes to learn from either")
     told = " ".join(sentence(part) for part in parts)
     return filled(

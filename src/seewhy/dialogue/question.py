@@ -9,14 +9,17 @@ from dataclasses import replace
 from seewhy.dialogue.asked import Asks, Query, Question
 from seewhy.dialogue.asking_back import Suggestions
 from seewhy.dialogue.following_up import completed
+from seewhy.dialogue.grammar_file import around_phrases, aside_phrases, grammar_words
 from seewhy.dialogue.inflection import ARTICLES
-from seewhy.dialogue.meaning import Readings, aside_phrases, grammar_words
+from seewhy.dialogue.lexicon import NUMBERS
 from seewhy.dialogue.question_words import CONTRACTIONS, words_of
+from seewhy.dialogue.readings import Readings
 from seewhy.dialogue.saying_questions import say_question
 from seewhy.dialogue.spelling import Spelling
 from seewhy.dialogue.templates import as_what, embedded, expanded
 from seewhy.dialogue.vocabulary import SUBJECTS, Vocabulary
 from seewhy.domain.domain import Domain
+from seewhy.domain.wording import join_words
 from seewhy.errors import QuestionError
 
 __all__ = ["Asks", "Query", "Question", "Questions"]
@@ -103,6 +106,7 @@ class Questions:
         if len(found) != 1:
             nearest = tuple(dict.fromkeys(f"{question.text}?" for question in found.values()))[:3]
             nearest = nearest or self._suggestions.nearest(readings[0])
+            self._refuse_no_class(text, nearest)
             raise QuestionError(
                 f"'{' '.join(text.split())}' is not understood; {_suggest(nearest)}",
                 nearest=nearest,
@@ -122,7 +126,8 @@ class Questions:
         by_template = by_template or self._embedded_in(text)
         if by_template is not None:
             return [by_template]
-        return [self._worded(question) for question in self._readings.read(words)]
+        read = self._readings.read(words) or self._readings.read(self._vocabulary.bare(words))
+        return [self._worded(question) for question in read]
 
     def _embedded_in(self, text: str) -> Question | None:
         """The template behind "tell me" and the like, or one with "what" for "which"."""
@@ -149,7 +154,8 @@ class Questions:
         domain = self.domain
         spelled = set(CONTRACTIONS) | SUBJECTS | ARTICLES | self._vocabulary.spelled
         spelled.update(grammar_words())
-        spelled.update(word for phrase in aside_phrases() for word in words_of(phrase))
+        for group in (aside_phrases(), *around_phrases()):
+            spelled.update(word for phrase in group for word in words_of(phrase))
         for question in self._known.values():
             spelled.update(words_of(question.text))
         for scene_class in domain.classes.values():
@@ -165,6 +171,22 @@ class Questions:
             for phrase in (belief.name, *belief.words.values(), *belief.acts):
                 spelled.update(words_of(phrase))
         return spelled
+
+    def _refuse_no_class(self, text: str, nearest: tuple[str, ...]) -> None:
+        """Raise a QuestionError where a question of numbered classes names a number of none."""
+        classes = [scene_class.say for scene_class in self.domain.classes.values()]
+        numbers = [say for say in classes if say.isdigit()]
+        words = words_of(text)
+        for position, word in enumerate(words if numbers else ()):
+            if not word.isdigit() and word not in NUMBERS:
+                continue
+            instead = " ".join([*words[:position], numbers[0], *words[position + 1 :]])
+            if any(question.label for question in self._read(instead, None)):
+                raise QuestionError(
+                    f"'{' '.join(text.split())}' is not understood: '{word}' is no class; the "
+                    f"classes are {join_words(classes)}",
+                    nearest=nearest,
+                )
 
     def _refuse_what_is_none(self, text: str) -> None:
         """Raise a QuestionError where a text is no question at all."""

@@ -18,7 +18,8 @@ CONTRACTIONS = {
     "arent": "are not", "werent": "were not", "that's": "that is", "thats": "that is",
     "i'm": "i am", "i'd": "i would", "you're": "you are", "they're": "they are",
     "it'd": "it would", "it'll": "it will", "i've": "i have", "you've": "you have",
-    "wheres": "where is", "hows": "how is", "whos": "who is", "howmany": "how many",
+    "let's": "let us", "wheres": "where is", "hows": "how is", "whos": "who is",
+    "howmany": "how many",
 }  # fmt: skip
 
 

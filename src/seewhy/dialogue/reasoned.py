@@ -213,6 +213,20 @@ class ReasonedAnswers:
         chosen = sorted(able, key=lambda label: failed[label] or 0)[:most]
         return tuple(label for label in classes if label in chosen)
 
+    def undecided_kind(self, vector: FeatureVector) -> AnswerType:
+        """Return the answer about a class where none is decided, with the classes concluded."""
+        verdict = self.reasoner.decide(vector).verdict
+        if verdict is Verdict.CONTRADICTION:
+            return AnswerType("contradictory")
+        if verdict is not Verdict.SEVERAL:
+            return AnswerType("undecided")
+        concluded = tuple(
+            key
+            for key, scene_class in self.domain.classes.items()
+            if self._why(vector, scene_class.literal) is not None
+        )
+        return AnswerType("several", values=concluded)
+
     def _undecided(self, vector: FeatureVector) -> Node:
         """Why the knowledge does not decide a scene: of many classes, the nearest are looked at."""
         both = contradiction(self.reasoner, vector, say=self._say)

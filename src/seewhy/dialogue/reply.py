@@ -10,6 +10,7 @@ from seewhy.dialogue.certainty import Certainty, Ground, certainty_of, says_noth
 from seewhy.dialogue.question import Question
 from seewhy.knowledge.justification import Node
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.text.notebook import html_line, html_table
 
 UNCERTAIN = "uncertain"
 """The verdict where a network is less sure than the agent's gate."""
@@ -157,6 +158,18 @@ class Reply:
     def features(self) -> dict[str, FeatureReading]:
         """Feature name → value and probability, of what the answer speaks of."""
         return self.scene.features
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the answer, its reasons, and what was seen."""
+        seen = html_table(
+            ["feature", "value", "probability"],
+            (
+                (name, reading.value, f"{reading.probability:.2f}")
+                for name, reading in self.features.items()
+            ),
+        )
+        lines = (f"{self.question.text}?", self.text, f"by: {self.method}")
+        return "".join(map(html_line, lines)) + self.justification._repr_html_() + seen
 
     def to_dict(self) -> dict[str, Any]:
         """Return the reply as values that JSON can hold."""

@@ -38,6 +38,8 @@ class Spelling:
     >>> spelling = Spelling(["stable", "unstable", "table", "lean"])
     >>> list(spelling.readings(["suitable", "unstabel", "learn", "ustable"]))
     ['suitable unstable learn stable', 'suitable unstable learn unstable']
+    >>> list(spelling.readings(["tabel's"]))
+    ["table's"]
     """
 
     def __init__(self, vocabulary: Iterable[str]) -> None:
@@ -59,6 +61,8 @@ class Spelling:
     def _spellings(self, word: str) -> list[str]:
         if len(word) < 3 or word in self._known or lemma(word) in self._lemmas:
             return [word]
+        if word.endswith("'s"):
+            return [f"{found}'s" for found in self._spellings(word.removesuffix("'s"))]
         if word in english_words() or not word.isalpha():
             return [word]
         if len(word) == 3:

@@ -7,8 +7,8 @@ from functools import lru_cache
 
 import snowballstemmer
 
+from seewhy.dialogue.grammar_file import around_phrases, aside_phrases
 from seewhy.dialogue.inflection import ARTICLES, lemma
-from seewhy.dialogue.meaning import aside_phrases
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
@@ -18,6 +18,10 @@ __all__ = ["SUBJECTS", "Vocabulary"]
 SUBJECTS = frozenset({"it", "this", "that", "these", "those"})
 """Words that stand for what a picture shows."""
 
+_LONGEST_AROUND = 4
+"""Words of a phrase that may stand before or behind a question."""
+_LEAST_BARE = 3
+"""Words of a question that stands by itself: "and blue?" asks what was asked before."""
 _STEM = lru_cache(maxsize=16_384)(snowballstemmer.stemmer("english").stemWord)
 _Pair = tuple[tuple[str, ...], tuple[str, ...]]
 
@@ -61,6 +65,10 @@ class Vocabulary:
             [(_lemmas(other), _lemmas(canonical)) for other, canonical in pairs]
         )
         self._aside = _by_first([(_lemmas(words_of(phrase)), ()) for phrase in aside_phrases()])
+        self._before, self._behind = (
+            frozenset(_lemmas(words_of(phrase)) for phrase in phrases)
+            for phrases in around_phrases()
+        )
         self._fillers = sorted(map(_lemmas, fillers), key=len, reverse=True)
 
     def for_templates(self, text: str) -> tuple[str, ...]:
@@ -81,6 +89,23 @@ class Vocabulary:
         ]
         words = _replaced(list(map(lemma, words)), self._synonyms)
         return self._unfilled(tuple(_replaced(words, self._aside)))
+
+    def bare(self, words: tuple[str, ...]) -> tuple[str, ...]:
+        """Return normalised words without what may stand before and behind any question.
+
+        Examples
+        --------
+        >>> from seewhy.domain.domain import load_domain
+        >>> words = Vocabulary(load_domain("structure_stability"))
+        >>> words.bare(words.for_grammar("Okay, but is it stable too?"))
+        ('is', 'it', 'stabl')
+        """
+        for length in range(min(len(words) - 1, _LONGEST_AROUND), 0, -1):
+            if words[:length] in self._before and len(words) - length >= _LEAST_BARE:
+                return self.bare(words[length:])
+            if words[-length:] in self._behind:
+                return self.bare(words[:-length])
+        return words
 
     def _unfilled(self, words: tuple[str, ...]) -> tuple[str, ...]:
         """Words without the domain's fillers around them; "how do you know" is none inside."""

@@ -122,12 +122,23 @@ class Weighing:
         said = say_features(domain, scene.vector, against, subject="it")
         if said:
             text += f"; it is not {domain.classes[other.label or ''].say}, since {said}"
+        elif (required := self._required(scene.vector, other.label or "")) is not None:
+            text += f"; it is {domain.classes[other.label or ''].say} when {required}"
         elif refused.form == "against" and not refused.mentions:
             text += f"; nothing that is known concludes {domain.classes[other.label or ''].say}"
             learned = tree_says(domain, self.tree, scene.vector, other.label or "")
             if learned is not None:
                 text += f"; {learned.text}"
         return Told(kind, sentence(text), why, least_sure(kind, scene, why))
+
+    def _required(self, vector: FeatureVector, label: str) -> str | None:
+        """What the nearest scene of a class has that this one lacks; None where there is none."""
+        asked = Question(Asks.DIFFERENCE_TO_CLASS, "", (), label=label)
+        differing = self.reasoned.kind(asked, vector, "").changes
+        if not differing:
+            return None
+        change = dict(differing[0])
+        return say_features(self.domain, self.domain.vector(change), list(change), subject="it")
 
     def _contrast_values(self, scene: Classification, first: Statement, other: Statement) -> Told:
         """Why one value of a feature is seen, and not another."""

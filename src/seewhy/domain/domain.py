@@ -146,7 +146,7 @@ class Domain:
         return SceneSchema(
             scene=self.scene,
             features={key: feature.literals for key, feature in self.features.items()},
-            classes={key: own.literal for key, own in self.classes.items()},
+            classes={key: scene_class.literal for key, scene_class in self.classes.items()},
             change_costs={key: feature.change_cost for key, feature in self.features.items()},
         )
 
@@ -184,7 +184,7 @@ def bundled_domains() -> tuple[str, ...]:
     True
     """
     home = Path(__file__).parents[1] / "domains"
-    return tuple(sorted(p.parent.name for p in home.glob("*/domain.toml")))
+    return tuple(sorted(file.parent.name for file in home.glob("*/domain.toml")))
 
 
 def domain_folder(name: str | Path) -> Path:
@@ -238,8 +238,14 @@ def load_domain(name: str | Path) -> Domain:
     place = _Place(path)
     _check_source(table, place)
     _check_scene(table, knowledge, place)
-    features = {k: _feature(k, t, table, knowledge, place) for k, t in table.features.items()}
-    classes = {k: _class(k, t, table, knowledge, place) for k, t in table.classes.items()}
+    features = {
+        key: _feature(key, feature_table, table, knowledge, place)
+        for key, feature_table in table.features.items()
+    }
+    classes = {
+        key: _class(key, class_table, table, knowledge, place)
+        for key, class_table in table.classes.items()
+    }
     _check_classes(classes, place)
     _check_shared_words(classes, features, place)
     domain = Domain(
@@ -292,8 +298,8 @@ def _check_shared_words(
 ) -> None:
     """Refuse a word that stands for two classes, or for two values of one feature."""
     spoken: dict[str, str] = {}
-    for key, own in classes.items():
-        for word in own.words:
+    for key, scene_class in classes.items():
+        for word in scene_class.words:
             if spoken.setdefault(word.casefold(), key) != key:
                 raise DomainError(
                     f"{place.at('classes', key)}: '{word}' stands for '{key}' and for "
@@ -394,9 +400,17 @@ def _feature(
         key=key,
         name=table.name,
         values=tuple(literals),
-        say=MappingProxyType({v: t.say for v, t in tables.items()}),
-        words=MappingProxyType({v: (*t.words, v) for v, t in tables.items()}),
-        change=MappingProxyType({v: t.change for v, t in tables.items() if t.change}),
+        say=MappingProxyType({value: value_table.say for value, value_table in tables.items()}),
+        words=MappingProxyType(
+            {value: (*value_table.words, value) for value, value_table in tables.items()}
+        ),
+        change=MappingProxyType(
+            {
+                value: value_table.change
+                for value, value_table in tables.items()
+                if value_table.change
+            }
+        ),
         threshold=table.threshold,
         channels=table.channels,
         dense=table.dense,
@@ -451,10 +465,13 @@ def _beliefs(file: DomainFile, knowledge: Knowledge, place: _Place) -> dict[str,
             name=name,
             say=table.say or f"the {name} of {{it}} is {{value}}",
             words=MappingProxyType(
-                {v: table.values.get(v, v.strip('"').replace("_", " ")) for v in members}
+                {
+                    value: table.values.get(value, value.strip('"').replace("_", " "))
+                    for value in members
+                }
             ),
             literals=MappingProxyType(
-                {v: Literal(predicate=key, arguments=(scene, v)) for v in members}
+                {value: Literal(predicate=key, arguments=(scene, value)) for value in members}
             ),
             acts=table.acts,
         )
@@ -463,13 +480,13 @@ def _beliefs(file: DomainFile, knowledge: Knowledge, place: _Place) -> dict[str,
 
 def _check_classes(classes: Mapping[str, SceneClass], place: _Place) -> None:
     keys: dict[Literal, str] = {}
-    for key, own in classes.items():
-        first = keys.setdefault(own.literal, key)
+    for key, scene_class in classes.items():
+        first = keys.setdefault(scene_class.literal, key)
         if first != key:
             raise DomainError(
-                f"{place.at('classes', key, 'literal')}: the literal '{own.literal}' stands for "
-                f"the classes '{first}' and '{key}'; no scene could be one of them and not the "
-                "other, give each class a literal of its own"
+                f"{place.at('classes', key, 'literal')}: the literal '{scene_class.literal}' "
+                f"stands for the classes '{first}' and '{key}'; no scene could be one of them and "
+                "not the other, give each class a literal of its own"
             )
 
 

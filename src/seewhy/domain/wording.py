@@ -26,9 +26,9 @@ def say_literal(domain: Domain, literal: Literal) -> str:
     >>> say_literal(domain, domain.features["lean"].literals["yes"])
     'the structure leans to one side'
     """
-    for own in domain.classes.values():
-        if own.literal.predicate == literal.predicate and own.literal == literal:
-            return f"{domain.subject} is {own.say}"
+    for scene_class in domain.classes.values():
+        if scene_class.literal.predicate == literal.predicate and scene_class.literal == literal:
+            return f"{domain.subject} is {scene_class.say}"
     feature = domain.features.get(literal.predicate)
     if feature is not None:
         for value, own_literal in feature.literals.items():
@@ -44,7 +44,8 @@ def say_literal(domain: Domain, literal: Literal) -> str:
         return said if literal.positive else f"it is not so that {said}"
     words = literal.predicate.replace("_", " ")
     about = [
-        domain.subject if a == domain.scene else a.replace("_", " ") for a in literal.arguments
+        domain.subject if argument == domain.scene else argument.replace("_", " ")
+        for argument in literal.arguments
     ]
     said = f"{words} ({', '.join(about)})" if about else words
     return said if literal.positive else f"not: {said}"
@@ -176,19 +177,20 @@ def say_values(domain: Domain, feature: str, values: Sequence[str]) -> str:
     '{it} has a wide or narrow base'
     >>> signs = load_domain("traffic_signs")
     >>> shapes = signs.features["shape"].values
-    >>> say_values(signs, "shape", [own for own in shapes if own not in ("circle", "octagon")])
+    >>> others = [shape for shape in shapes if shape not in ("circle", "octagon")]
+    >>> say_values(signs, "shape", others)
     'the shape of {it} is anything but round or octagonal'
     """
-    own = domain.features[feature]
+    described = domain.features[feature]
     numbers = [int(value) for value in values if value.lstrip("-").isdigit()]
     all_numbers = len(numbers) == len(values) > 2
     if all_numbers and numbers == list(range(numbers[0], numbers[0] + len(numbers))):
-        return say_one_of([own.say[values[0]], own.say[values[-1]]], word="to")
-    others = [value for value in own.values if value not in values]
+        return say_one_of([described.say[values[0]], described.say[values[-1]]], word="to")
+    others = [value for value in described.values if value not in values]
     if len(values) > _MOST_VALUES_LISTED and 0 < len(others) < len(values):
-        excluded = join_words([own.words[value][0] for value in others], word="or")
-        return f"the {own.name} of {{it}} is anything but {excluded}"
-    return say_one_of([own.say[value] for value in values])
+        excluded = join_words([described.words[value][0] for value in others], word="or")
+        return f"the {described.name} of {{it}} is anything but {excluded}"
+    return say_one_of([described.say[value] for value in values])
 
 
 def sentence(text: str) -> str:

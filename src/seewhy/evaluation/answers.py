@@ -43,5 +43,7 @@ def score_answer(
         return some, some and all(change in accepted for change in proposed)
     if kind.form in ("class", "no_class") and not right_class:
         return kind.form == "no_class", False
-    mentioned = all(f in kind.mentions and seen[f] == true[f] for f in gold.mentions)
+    mentioned = all(
+        feature in kind.mentions and seen[feature] == true[feature] for feature in gold.mentions
+    )
     return mentioned, mentioned and set(kind.mentions) == set(gold.mentions)

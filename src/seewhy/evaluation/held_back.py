@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 from seewhy.agent.learning_from_pictures import AnnotatedScenes, Learning, scenes_of
-from seewhy.errors import DatasetError
+from seewhy.agent.training_pictures import require_same_domain
 from seewhy.evaluation.other_knowledge import with_axioms
 from seewhy.evaluation.redeciding import classes_of
 from seewhy.evaluation.share import Share
@@ -158,16 +158,12 @@ def learn_judged(
     DatasetError
         If the dataset is of another domain, or there is one class only.
     """
-    if dataset.domain.name != agent.domain.name:
-        raise DatasetError(
-            f"{dataset.folder}: the dataset is of the domain '{dataset.domain.name}', the agent "
-            f"of '{agent.domain.name}'; load it with the agent's domain"
-        )
+    require_same_domain(dataset, agent.domain)
     train = dataset.of_split("train").with_class()
     kept, held = hold_back(train, seed=seed)
     if on_held_back is not None:
         on_held_back(len(held), len(train))
-    counted = agent.trained_on - agent.without_class
+    counted = agent.training_pictures.counted
     learner = with_axioms(agent, agent.learned, agent.withdrawn)
     learner.experience = _experience_without(agent, held, counted)
     scenes = scenes_of(kept, learner.experience, counted)

@@ -94,7 +94,9 @@ def evaluate(
         explanation_accuracy_strict=_share([exact for _, exact, explains in scored if explains]),
         decided_by_knowledge=_share([method == "knowledge" for method in methods]),
         accuracy_by_method={
-            method: _share([r for r, m in zip(right, methods, strict=True) if m == method])
+            method: _share(
+                [is_right for is_right, used in zip(right, methods, strict=True) if used == method]
+            )
             for method in sorted(set(methods))
         },
         determined=determined_share(scenes.vectors, scenes.classes),
@@ -133,7 +135,9 @@ def _scored_answers(
 ) -> list[tuple[bool, bool, bool]]:
     """For every question drawn: is the answer right, strictly so, and does it explain?"""
     generator = np.random.default_rng(seed)
-    possible = [q for q in agent.questions.one_of_each() if q.asks is not Asks.EXPLAIN]
+    possible = [
+        question for question in agent.questions.one_of_each() if question.asks is not Asks.EXPLAIN
+    ]
     scored: list[tuple[bool, bool, bool]] = []
     known: dict[tuple[object, ...], AnswerType] = {}
     for row, true_class, scene in zip(scenes.scenes, scenes.classes, found, strict=True):

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from copy import copy
 from typing import TYPE_CHECKING
 
-from seewhy.induction.tree import DecisionTree
-
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent
     from seewhy.knowledge.axiom import Axiom
@@ -28,16 +26,8 @@ def with_axioms(agent: Agent, learned: Sequence[Axiom], withdrawn: Sequence[With
     >>> with_axioms(agent, (), ()).domain == agent.domain
     True
     """
-    from seewhy.agent.agent import Agent
-
-    known = Agent(agent.given, minimality=agent.minimality, learned=learned, withdrawn=withdrawn)
-    # A copy has all options of the agent, whatever they are, and of these only the knowledge.
+    # Parts are values: a copy has the same ones until another takes the place of one.
     other = copy(agent)
-    vars(other).update(
-        {name: dict(value) for name, value in vars(agent).items() if isinstance(value, dict)}
-    )
-    other.learned, other.withdrawn = known.learned, known.withdrawn
-    other.domain, other.reasoner = known.domain, known.reasoner
-    other.tree = DecisionTree({key: one.values for key, one in agent.domain.features.items()})
-    other.experience = agent.experience
+    other.known = agent.known.knowing(learned, withdrawn)
+    other.tree = other.known.untrained_tree()
     return other

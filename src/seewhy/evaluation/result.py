@@ -9,6 +9,7 @@ from seewhy.evaluation.axioms import AxiomRecord
 from seewhy.evaluation.recognition import Recognition
 from seewhy.evaluation.redeciding import Redecided
 from seewhy.evaluation.wrong import WrongPicture
+from seewhy.text.notebook import html_line, html_table
 
 if TYPE_CHECKING:
     from seewhy.evaluation.curve import LearningCurve
@@ -127,6 +128,24 @@ class Evaluation:
         from seewhy.evaluation.advice import advice
 
         return advice(self)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: each figure beside chance, and what the figures suggest."""
+        rows = [
+            (
+                name,
+                f"{100 * recognition.confusion.share.value:.1f} %",
+                " to ".join(f"{100 * end:.1f} %" for end in recognition.confusion.share.interval),
+                f"{100 * recognition.confusion.majority_share.value:.1f} %",
+                str(recognition.confusion.share.of),
+            )
+            for name, recognition in (
+                ("class", self.class_recognition),
+                *self.feature_recognition.items(),
+            )
+        ]
+        headings = ["", "right", "95 % interval", "always the most frequent", "pictures"]
+        return html_table(headings, rows) + "".join(map(html_line, self.advice()))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the evaluation as values that JSON can hold."""

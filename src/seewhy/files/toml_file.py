@@ -99,7 +99,7 @@ def line_of(source: str, keys: Sequence[str]) -> int:
                 continue
             path = [*table, *(part.strip("\"'") for part in key.group(1).split("."))]
         length = next(
-            (n for n, (key, own) in enumerate(zip(keys, path, strict=False)) if key != own),
+            (n for n, (key, part) in enumerate(zip(keys, path, strict=False)) if key != part),
             min(len(keys), len(path)),
         )
         if length > best_length:
@@ -159,7 +159,10 @@ def _fields_beside(schema: type[BaseModel], keys: Sequence[str]) -> list[str]:
     current: object = schema
     for key in keys:
         if isinstance(current, type) and issubclass(current, BaseModel):
-            field = next((f for n, f in current.model_fields.items() if key in (n, f.alias)), None)
+            field = next(
+                (field for n, field in current.model_fields.items() if key in (n, field.alias)),
+                None,
+            )
             current = field.annotation if field else None
         else:
             arguments = getattr(current, "__args__", ())
@@ -167,5 +170,5 @@ def _fields_beside(schema: type[BaseModel], keys: Sequence[str]) -> list[str]:
             if current is None and arguments:
                 current = arguments[0]
     if isinstance(current, type) and issubclass(current, BaseModel):
-        return [f.alias or n for n, f in current.model_fields.items()]
+        return [field.alias or n for n, field in current.model_fields.items()]
     return []

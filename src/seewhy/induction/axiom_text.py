@@ -27,7 +27,7 @@ def conjunctions(candidate: Candidate, schema: SceneSchema) -> tuple[Candidate, 
     >>> from seewhy.induction.tree import PathCondition
     >>> schema = load_domain("traffic_signs").schema
     >>> either = Candidate("stop", (PathCondition("shape", ("circle", "octagon")),))
-    >>> [own.conditions[0].values for own in conjunctions(either, schema)]
+    >>> [part.conditions[0].values for part in conjunctions(either, schema)]
     [('circle',), ('octagon',)]
     """
     alternatives = [
@@ -61,8 +61,10 @@ def axiom_statement(candidate: Candidate, schema: SceneSchema) -> str:
         elif _are_numbers(literals):
             parts.append(_compared(condition.values, literals, next(variables), schema))
         else:
-            excluded = (own for value, own in literals.items() if value not in condition.values)
-            parts += [str(_of_scene(own.complement, schema)) for own in excluded]
+            excluded = (
+                literal for value, literal in literals.items() if value not in condition.values
+            )
+            parts += [str(_of_scene(literal.complement, schema)) for literal in excluded]
     return f"{head} if {', '.join(parts or [f'{schema.scene}({SCENE})'])}."
 
 
@@ -74,7 +76,9 @@ def _is_one(condition: PathCondition, schema: SceneSchema) -> bool:
 
 def _of_scene(literal: Literal, schema: SceneSchema) -> Literal:
     """The literal about any scene; other arguments stay what they are."""
-    arguments = tuple(SCENE if own == schema.scene else own for own in literal.arguments)
+    arguments = tuple(
+        SCENE if argument == schema.scene else argument for argument in literal.arguments
+    )
     return Literal(literal.predicate, arguments, literal.positive)
 
 
@@ -91,10 +95,10 @@ def _compared(
     some = literals[values[0]]
     asked = Literal(some.predicate, (*_of_scene(some, schema).arguments[:-1], variable))
     parts = [str(asked)]
-    below = [own for own in everything if own < allowed[0]]
-    above = [own for own in everything if own > allowed[-1]]
+    below = [number for number in everything if number < allowed[0]]
+    above = [number for number in everything if number > allowed[-1]]
     parts += [f"{variable} > {below[-1]}"] if below else []
     parts += [f"{variable} < {above[0]}"] if above else []
-    between = [own for own in everything if allowed[0] < own < allowed[-1]]
-    parts += [f"{variable} != {own}" for own in between if own not in allowed]
+    between = [number for number in everything if allowed[0] < number < allowed[-1]]
+    parts += [f"{variable} != {number}" for number in between if number not in allowed]
     return ", ".join(parts)

@@ -39,10 +39,10 @@ class Candidate:
 
     def covers(self, other: Candidate) -> bool:
         """Whether every scene that ``other`` speaks about is spoken about by this one too."""
-        theirs = {own.feature: frozenset(own.values) for own in other.conditions}
+        theirs = {condition.feature: frozenset(condition.values) for condition in other.conditions}
         return self.label == other.label and all(
-            own.feature in theirs and theirs[own.feature] <= frozenset(own.values)
-            for own in self.conditions
+            condition.feature in theirs and theirs[condition.feature] <= frozenset(condition.values)
+            for condition in self.conditions
         )
 
     @property
@@ -76,8 +76,8 @@ def tally(candidate: Candidate, table: SceneTable, left: NDArray[np.int64] | Non
     or got wrong; without it they are all.
     """
     rows = table.satisfying(candidate.conditions)
-    own = table.of_class(candidate.label)
-    right = int(own[rows].sum())
+    of_class = table.of_class(candidate.label)
+    right = int(of_class[rows].sum())
     wrong = int(table.totals[rows].sum()) - right
     if left is None or candidate.label not in table.classes:
         return Tally(right, wrong, right)
@@ -134,11 +134,11 @@ def explained_otherwise(
     ...                     [("no", "wide"), ("no", "narrow")], ["up", "up"],
     ...                     reasons=[frozenset({"lean"}), None])
     >>> wide = Candidate("up", (PathCondition("base", ("wide",)),))
-    >>> [own.tolist() for own in explained_otherwise(wide, table)]
+    >>> [counts.tolist() for counts in explained_otherwise(wide, table)]
     [[1, 0], [1, 0]]
     """
     said = table.explanations
-    asked = [list(table.features).index(own.feature) for own in candidate.conditions]
+    asked = [list(table.features).index(condition.feature) for condition in candidate.conditions]
     place = table.classes.index(candidate.label) if candidate.label in table.classes else -1
     ours = table.satisfying(candidate.conditions)[said.rows] & (said.classes == place)
     lacking = ours & ~said.named[:, asked].all(axis=1)
@@ -202,5 +202,7 @@ def chance(
     alone = float(at_least(found.right, found.right + found.wrong, share))
     if not searched:
         return alone
-    tried = float(np.prod([len(table.features[own.feature]) for own in candidate.conditions]))
+    tried = float(
+        np.prod([len(table.features[condition.feature]) for condition in candidate.conditions])
+    )
     return min(1.0, alone * tried * comb(len(table.features), candidate.literals))

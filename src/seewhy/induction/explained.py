@@ -64,22 +64,24 @@ def explained_candidates(
         if (
             not left[row, place]
             or speaks_against(table, label, tolerance)[row]
-            or any(table.codes[row, own] == UNKNOWN for own in named)
+            or any(table.codes[row, column] == UNKNOWN for column in named)
         ):
             continue
-        conditions = tuple(PathCondition(features[own], (str(vector[own]),)) for own in named)
+        conditions = tuple(
+            PathCondition(features[column], (str(vector[column]),)) for column in named
+        )
         seeds[Candidate(label, conditions)] += int(said.counts[n])
-    ordered = sorted(seeds, key=lambda own: (own.literals, -seeds[own]))
-    return [(own, _widened(own, table, tolerance)) for own in ordered]
+    ordered = sorted(seeds, key=lambda seed: (seed.literals, -seeds[seed]))
+    return [(seed, _widened(seed, table, tolerance)) for seed in ordered]
 
 
 def _widened(candidate: Candidate, table: SceneTable, tolerance: float) -> Candidate:
     if not is_borne_out(candidate, table, tolerance):
         return candidate
     said = table.explanations
-    asked = {own.feature for own in candidate.conditions}
+    asked = {condition.feature for condition in candidate.conditions}
     alike = (said.classes == table.classes.index(candidate.label)) & (
-        said.named == [own in asked for own in table.features]
+        said.named == [feature in asked for feature in table.features]
     ).all(axis=1)
     for number, condition in enumerate(candidate.conditions):
         values = table.features[condition.feature]
@@ -87,7 +89,7 @@ def _widened(candidate: Candidate, table: SceneTable, tolerance: float) -> Candi
             allowed = candidate.conditions[number].values
             if value in allowed or len(allowed) + 2 > len(values):
                 continue
-            wider = tuple(own for own in values if own in allowed or own == value)
+            wider = tuple(member for member in values if member in allowed or member == value)
             conditions = list(candidate.conditions)
             conditions[number] = PathCondition(condition.feature, wider)
             grown = Candidate(candidate.label, tuple(conditions))

@@ -49,10 +49,10 @@ def specialised(
 def _narrowed(candidate: Candidate, table: SceneTable, left: NDArray[np.int64]) -> Candidate | None:
     """The candidate with the best value demanded alone, or the worst one excluded."""
     spoken = table.satisfying(candidate.conditions)
-    own = table.of_class(candidate.label)
-    wrong = np.where(spoken, table.totals - own, 0) + explained_otherwise(candidate, table)[1]
+    of_class = table.of_class(candidate.label)
+    wrong = np.where(spoken, table.totals - of_class, 0) + explained_otherwise(candidate, table)[1]
     ours = np.where(spoken, left[:, table.classes.index(candidate.label)], 0)
-    conditions = {own.feature: own.values for own in candidate.conditions}
+    conditions = {condition.feature: condition.values for condition in candidate.conditions}
     best: tuple[float, str, tuple[str, ...]] | None = None
     for feature, values in table.features.items():
         allowed = conditions.get(feature, values)
@@ -60,14 +60,14 @@ def _narrowed(candidate: Candidate, table: SceneTable, left: NDArray[np.int64]) 
             continue
         showing = table.showing[feature]
         by_value = {
-            v: (int(ours[showing[n]].sum()), int(wrong[showing[n]].sum()))
-            for n, v in enumerate(values)
-            if v in allowed
+            value: (int(ours[showing[n]].sum()), int(wrong[showing[n]].sum()))
+            for n, value in enumerate(values)
+            if value in allowed
         }
         all_ours = sum(count for count, _ in by_value.values())
         all_wrong = sum(count for _, count in by_value.values())
         for value, (some, against) in by_value.items():
-            others = tuple(v for v in allowed if v != value)
+            others = tuple(other for other in allowed if other != value)
             for kept, right, rest in (
                 ((value,), some, against),
                 (others, all_ours - some, all_wrong - against),
@@ -110,19 +110,23 @@ def most_general(candidates: Sequence[Candidate]) -> list[Candidate]:
     [Candidate(label='down', conditions=(PathCondition(feature='lean', values=('yes',)),))]
     """
     once = list(dict.fromkeys(candidates))
-    return [own for own in once if not any(o is not own and o.covers(own) for o in once)]
+    return [
+        candidate
+        for candidate in once
+        if not any(other is not candidate and other.covers(candidate) for other in once)
+    ]
 
 
 def _with(
     candidate: Candidate, table: SceneTable, feature: str, values: tuple[str, ...]
 ) -> Candidate:
     """The candidate with these values of a feature allowed; with all of them, it is not asked."""
-    conditions = {own.feature: own.values for own in candidate.conditions}
+    conditions = {condition.feature: condition.values for condition in candidate.conditions}
     conditions[feature] = values
     return Candidate(
         candidate.label,
         tuple(
-            PathCondition(name, tuple(v for v in all_values if v in conditions[name]))
+            PathCondition(name, tuple(value for value in all_values if value in conditions[name]))
             for name, all_values in table.features.items()
             if name in conditions and len(conditions[name]) < len(all_values)
         ),
@@ -135,13 +139,18 @@ def _dropped(candidate: Candidate, table: SceneTable, tolerance: float) -> Candi
         return _dropped_one_by_one(candidate, table, tolerance)
     for size in range(len(conditions)):
         fitting = [
-            own
+            shorter
             for chosen in combinations(conditions, size)
-            if is_borne_out(own := Candidate(candidate.label, chosen), table, tolerance)
+            if is_borne_out(shorter := Candidate(candidate.label, chosen), table, tolerance)
         ]
         if fitting:
-            return max(fitting, key=lambda own: tally(own, table).right)
+            return _most_borne_out(fitting, table)
     return candidate
+
+
+def _most_borne_out(candidates: Sequence[Candidate], table: SceneTable) -> Candidate:
+    """The candidate that most scenes speak for, the first of equals."""
+    return max(candidates, key=lambda candidate: tally(candidate, table).right)
 
 
 def _dropped_one_by_one(candidate: Candidate, table: SceneTable, tolerance: float) -> Candidate:
@@ -150,16 +159,16 @@ def _dropped_one_by_one(candidate: Candidate, table: SceneTable, tolerance: floa
             Candidate(candidate.label, candidate.conditions[:n] + candidate.conditions[n + 1 :])
             for n in range(candidate.literals)
         ]
-        fitting = [own for own in shorter if is_borne_out(own, table, tolerance)]
+        fitting = [variant for variant in shorter if is_borne_out(variant, table, tolerance)]
         if not fitting:
             return candidate
-        candidate = max(fitting, key=lambda own: tally(own, table).right)
+        candidate = _most_borne_out(fitting, table)
 
 
 def _widened(candidate: Candidate, table: SceneTable, tolerance: float) -> Candidate:
     for condition in candidate.conditions:
         for value in table.features[condition.feature]:
-            allowed = {own.feature: own.values for own in candidate.conditions}.get(
+            allowed = {current.feature: current.values for current in candidate.conditions}.get(
                 condition.feature
             )
             if allowed is None or value in allowed:

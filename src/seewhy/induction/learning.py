@@ -135,17 +135,17 @@ def decide_by_candidates(features: Mapping[str, Sequence[str]]) -> Decide:
     --------
     >>> from seewhy.induction.tree import PathCondition
     >>> decide = decide_by_candidates({"lean": ("yes", "no")})
-    >>> [own.label for own in decide([Candidate("down", (PathCondition("lean", ("yes",)),))],
-    ...                              [("yes",), ("no",)])]
+    >>> leaning = Candidate("down", (PathCondition("lean", ("yes",)),))
+    >>> [decision.label for decision in decide([leaning], [("yes",), ("no",)])]
     ['down', None]
     """
 
     def decide(candidates: Sequence[Candidate], vectors: Sequence[FeatureVector]) -> list[Decision]:
         table = scene_table(features, vectors, ["?"] * len(vectors))
         classes: list[set[str]] = [set() for _ in table.vectors]
-        for own in candidates:
-            for row in np.flatnonzero(table.satisfying(own.conditions)):
-                classes[row].add(own.label)
+        for candidate in candidates:
+            for row in np.flatnonzero(table.satisfying(candidate.conditions)):
+                classes[row].add(candidate.label)
         found = {}
         for vector, own_classes in zip(table.vectors, classes, strict=True):
             if len(own_classes) == 1:
@@ -202,10 +202,10 @@ def learn_axioms(
     >>> vectors = [("wide", "no"), ("wide", "yes"), ("narrow", "no"), ("narrow", "yes")] * 10
     >>> learned = learn_axioms(features, vectors, ["up", "down", "up", "down"] * 10,
     ...                        decide=decide_by_candidates(features))
-    >>> for own in learned.accepted:
-    ...     print(own.candidate.label, own.candidate.conditions, own.tally.right)
-    up (PathCondition(feature='lean', values=('no',)),) 20
-    down (PathCondition(feature='lean', values=('yes',)),) 20
+    >>> for judgement in learned.accepted:
+    ...     print(judgement.candidate, judgement.tally.right)
+    Candidate(label='up', conditions=(PathCondition(feature='lean', values=('no',)),)) 20
+    Candidate(label='down', conditions=(PathCondition(feature='lean', values=('yes',)),)) 20
     """
     table = scene_table(features, vectors, labels, reasons=reasons)
     rng = np.random.default_rng(options.seed)
@@ -214,7 +214,7 @@ def learn_axioms(
     first: tuple[DecisionTree, list[Candidate | None]] | None = None
     for _ in range(_MOST_ROUNDS):
         found = len(accepted)
-        known = [own.candidate for own in accepted]
+        known = [judgement.candidate for judgement in accepted]
         decisions = decide(known, table.vectors)
         left = _left(table, decisions)
         left *= settled(table, options.tolerance)[:, None]
@@ -222,28 +222,28 @@ def learn_axioms(
         tree = _grown(table, unexplained, options)
         paths = _paths(tree, table, unexplained)
         first = first or (tree, paths)
-        for own in (
+        for judgement in (
             *_explained(table, left, options),
             *_proposed(paths, table, left, options),
         ):
-            if own.candidate in judged:
+            if judgement.candidate in judged:
                 continue
-            if own.fate is Fate.ACCEPTED:
-                known = [a.candidate for a in accepted]
-                own = _validated(own, table, left, known, decide, options, rng)
-            judged[own.candidate] = own
-            if own.fate is Fate.ACCEPTED:
-                accepted.append(own)
+            if judgement.fate is Fate.ACCEPTED:
+                known = [earlier.candidate for earlier in accepted]
+                judgement = _validated(judgement, table, left, known, decide, options, rng)
+            judged[judgement.candidate] = judgement
+            if judgement.fate is Fate.ACCEPTED:
+                accepted.append(judgement)
         if len(accepted) == found:
             break
-    kept = set(most_general([own.candidate for own in accepted]))
-    final = tuple(own for own in accepted if own.candidate in kept)
+    kept = set(most_general([judgement.candidate for judgement in accepted]))
+    final = tuple(judgement for judgement in accepted if judgement.candidate in kept)
     tree, paths = first or (DecisionTree(table.features), [])
-    proposals = {own.path for own in final}
+    proposals = {judgement.path for judgement in final}
     leaves = frozenset(
         n
         for n, path in enumerate(paths)
-        if path in proposals or (path and any(own.covers(path) for own in kept))
+        if path in proposals or (path and any(candidate.covers(path) for candidate in kept))
     )
     return Learned(final, tuple(judged.values()), tree, leaves)
 
@@ -278,8 +278,8 @@ def _paths(
     """
     found: list[Candidate | None] = []
     for path in tree.paths():
-        asked = {own.feature: own for own in path.conditions if own.values}
-        conditions = tuple(asked[f] for f in table.features if f in asked)
+        asked = {condition.feature: condition for condition in path.conditions if condition.values}
+        conditions = tuple(asked[feature] for feature in table.features if feature in asked)
         counts = left[table.satisfying(conditions)].sum(axis=0)
         label = table.classes[int(counts.argmax())] if counts.any() else None
         found.append(None if label is None else Candidate(label, conditions))
@@ -295,20 +295,20 @@ def _explained(
         if candidate in seen:
             continue
         seen.add(candidate)
-        own = tally(candidate, table, left)
-        explained, otherwise = (int(own.sum()) for own in explained_otherwise(candidate, table))
+        tallied = tally(candidate, table, left)
+        explained, otherwise = (int(n.sum()) for n in explained_otherwise(candidate, table))
         fate, reason = Fate.ACCEPTED, ""
         if not is_borne_out(candidate, table, options.tolerance):
             fate = Fate.REJECTED
-            against = [f"{own.wrong} scenes speak against it"] if own.wrong else []
+            against = [f"{tallied.wrong} scenes speak against it"] if tallied.wrong else []
             if otherwise:
                 against.append(f"{otherwise} of {explained} are explained by other reasons")
             reason = " and ".join(against)
-        elif (own.wrong or explained - otherwise < ENOUGH_EXPLAINED) and chance(
-            candidate, table, own, searched=False
+        elif (tallied.wrong or explained - otherwise < ENOUGH_EXPLAINED) and chance(
+            candidate, table, tallied, searched=False
         ) > BY_CHANCE:
             fate, reason = Fate.DROPPED, "so few scenes could be alike by chance"
-        yield Judgement(path, candidate, own, fate, reason)
+        yield Judgement(path, candidate, tallied, fate, reason)
 
 
 def _proposed(
@@ -336,17 +336,18 @@ def _proposed(
         candidate = generalised(narrow, table, tolerance=options.tolerance)
         if candidate in proposed:
             continue
-        own = tally(candidate, table, left)
+        tallied = tally(candidate, table, left)
         needed = ceil(options.support * min(total, 2 * of_class[candidate.label]))
         fate, reason = Fate.ACCEPTED, ""
-        if own.left < needed:
+        if tallied.left < needed:
             fate = Fate.DROPPED
-            reason = f"{own.left} scenes that are left open bear it out, {needed} are needed"
-        elif chance(candidate, table, own) > BY_CHANCE:
+            reason = f"{tallied.left} scenes that are left open bear it out, {needed} are needed"
+        elif chance(candidate, table, tallied) > BY_CHANCE:
             fate, reason = Fate.DROPPED, "so few scenes could be alike by chance"
-        proposed[candidate] = Judgement(path, candidate, own, fate, reason)
-    general = set(most_general([j.candidate for j in proposed.values() if not j.reason]))
-    for judgement in sorted(proposed.values(), key=lambda j: -j.tally.left):
+        proposed[candidate] = Judgement(path, candidate, tallied, fate, reason)
+    accepted = [judgement.candidate for judgement in proposed.values() if not judgement.reason]
+    general = set(most_general(accepted))
+    for judgement in sorted(proposed.values(), key=lambda judgement: -judgement.tally.left):
         if not judgement.reason and judgement.candidate not in general:
             yield _with(judgement, Fate.MERGED, "a more general one says the same")
         else:
@@ -354,7 +355,7 @@ def _proposed(
 
 
 def _validated(
-    own: Judgement,
+    judgement: Judgement,
     table: SceneTable,
     left: NDArray[np.int64],
     known: Sequence[Candidate],
@@ -363,17 +364,17 @@ def _validated(
     rng: np.random.Generator,
 ) -> Judgement:
     """Try a candidate with the knowledge: on scenes that it speaks about, and on all others."""
-    if any(other.covers(own.candidate) for other in known):
-        return _with(own, Fate.MERGED, "a more general one says the same")
+    if any(other.covers(judgement.candidate) for other in known):
+        return _with(judgement, Fate.MERGED, "a more general one says the same")
     before = decide(known, table.vectors)
     labels = np.array([decision.label or "" for decision in before])
-    ours = table.satisfying(own.candidate.conditions) & (
-        left[:, table.classes.index(own.candidate.label)] > 0
+    ours = table.satisfying(judgement.candidate.conditions) & (
+        left[:, table.classes.index(judgement.candidate.label)] > 0
     )
-    if (labels[ours] == own.candidate.label).all():
-        return _with(own, Fate.MERGED, "others say the same of all these scenes")
-    after = decide([*known, own.candidate], table.vectors)
-    spoken = np.flatnonzero(table.satisfying(own.candidate.conditions))
+    if (labels[ours] == judgement.candidate.label).all():
+        return _with(judgement, Fate.MERGED, "others say the same of all these scenes")
+    after = decide([*known, judgement.candidate], table.vectors)
+    spoken = np.flatnonzero(table.satisfying(judgement.candidate.conditions))
     scenes = np.repeat(spoken, table.totals[spoken])
     drawn = min(len(scenes), ceil(options.validation * table.totals.sum()))
     chosen = rng.permutation(len(scenes))[:drawn]
@@ -383,15 +384,15 @@ def _validated(
         share = table.of_class(right)[row] / table.totals[row] if right else 0.0
         wrong += int(rng.random() >= share)
     if wrong and at_least(wrong, drawn, options.tolerance) < BY_CHANCE:
-        return _with(own, Fate.REJECTED, f"{wrong} of {drawn} scenes drawn are misclassified")
+        return _with(judgement, Fate.REJECTED, f"{wrong} of {drawn} scenes drawn are misclassified")
     for row, (first, then) in enumerate(zip(before, after, strict=True)):
         if first.label is not None and then.label != first.label:
             vector = ", ".join(str(value) for value in table.vectors[row])
             return _with(
-                own, Fate.REJECTED, f"it contradicts what is known of the scenes ({vector})"
+                judgement, Fate.REJECTED, f"it contradicts what is known of the scenes ({vector})"
             )
-    return own
+    return judgement
 
 
-def _with(own: Judgement, fate: Fate, reason: str) -> Judgement:
-    return Judgement(own.path, own.candidate, own.tally, fate, reason)
+def _with(judgement: Judgement, fate: Fate, reason: str) -> Judgement:
+    return Judgement(judgement.path, judgement.candidate, judgement.tally, fate, reason)

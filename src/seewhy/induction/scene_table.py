@@ -93,7 +93,7 @@ class SceneTable:
 
     def _allows(self, condition: PathCondition) -> Rows:
         values = self.features[condition.feature]
-        chosen = [values.index(own) for own in condition.values]
+        chosen = [values.index(value) for value in condition.values]
         return np.asarray(self.showing[condition.feature][chosen].any(axis=0))
 
     @cached_property
@@ -108,8 +108,8 @@ class SceneTable:
         """Return how many scenes of a class each row stands for."""
         if label not in self.classes:
             return np.zeros(len(self.vectors), dtype=np.int64)
-        own: NDArray[np.int64] = self.counts[:, self.classes.index(label)]
-        return own
+        counts: NDArray[np.int64] = self.counts[:, self.classes.index(label)]
+        return counts
 
     @cached_property
     def explained(self) -> NDArray[np.int64]:
@@ -145,8 +145,8 @@ def scene_table(
     >>> table.explained.tolist(), table.explanations.named.tolist()
     ([[1]], [[True, False]])
     """
-    values = {name: tuple(own) for name, own in features.items()}
-    places = [{value: n for n, value in enumerate(own)} for own in values.values()]
+    values = {name: tuple(possible) for name, possible in features.items()}
+    places = [{value: n for n, value in enumerate(possible)} for possible in values.values()]
     classes = tuple(sorted(set(labels)))
     numbers = {label: n for n, label in enumerate(classes)}
     found: dict[FeatureVector, list[int]] = {}
@@ -162,7 +162,7 @@ def scene_table(
         np.add.at(counts[row], [numbers[labels[n]] for n in positions], 1)
     said: Counter[tuple[int, int, Reasons]] = Counter()
     for row, positions in enumerate(found.values()) if any(reasons) else ():
-        said.update((row, numbers[labels[n]], own) for n in positions if (own := reasons[n]))
+        said.update((row, numbers[labels[n]], reason) for n in positions if (reason := reasons[n]))
     return SceneTable(
         values,
         classes,
@@ -173,9 +173,9 @@ def scene_table(
         Explanations(
             np.array([row for row, _, _ in said], dtype=np.int64),
             np.array([place for _, place, _ in said], dtype=np.int64),
-            np.array([[f in own for f in values] for _, _, own in said], dtype=bool).reshape(
-                len(said), len(values)
-            ),
+            np.array(
+                [[feature in reason for feature in values] for _, _, reason in said], dtype=bool
+            ).reshape(len(said), len(values)),
             np.array(list(said.values()), dtype=np.int64),
         ),
     )

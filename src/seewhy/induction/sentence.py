@@ -48,10 +48,10 @@ def say_rule(domain: Domain, conditions: Sequence[PathCondition], label: str) ->
     'if the structure leans to one side, then it is unstable'
     """
     clauses = [
-        say_values(domain, c.feature, c.values)
-        if c.values
-        else f"the {domain.features[c.feature].name} is not known"
-        for c in conditions
+        say_values(domain, condition.feature, condition.values)
+        if condition.values
+        else f"the {domain.features[condition.feature].name} is not known"
+        for condition in conditions
     ]
     if not clauses:
         return f"{domain.subject} is {domain.classes[label].say}"

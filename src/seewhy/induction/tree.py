@@ -21,8 +21,11 @@ from seewhy.induction.tree_nodes import TreeNodes, TreeTable
 from seewhy.knowledge.scene import FeatureVector
 
 if TYPE_CHECKING:
+    import pandas as pd
     from sklearn.model_selection import GridSearchCV
     from sklearn.tree import DecisionTreeClassifier
+
+    from seewhy.domain.domain import Domain
 
 
 TREE = "tree.json"
@@ -214,10 +217,25 @@ class DecisionTree:
                     node_at(nodes.right[node], [*steps, (node, False)]),
                 )
             asked = self.columns[nodes.column[steps[-1][0]]][0] if steps else None
-            allowed = next((c.values for c in path.conditions if c.feature == asked), ())
+            allowed = next(
+                (condition.values for condition in path.conditions if condition.feature == asked),
+                (),
+            )
             return TreeNode(feature, allowed, path.label, path.support, path.precision, branches)
 
         return node_at(0, [])
+
+    def get_rules(self, domain: Domain | None = None) -> pd.DataFrame:
+        """Return the paths as a data frame; see :func:`seewhy.induction.rule_table.rules_of_tree`.
+
+        Raises
+        ------
+        SeeWhyError
+            If pandas is not installed.
+        """
+        from seewhy.induction.rule_table import rules_of_tree
+
+        return rules_of_tree(self, domain)
 
     def _path(self, steps: Sequence[tuple[int, bool]], leaf: int) -> TreePath:
         nodes = self._fitted()
@@ -227,16 +245,16 @@ class DecisionTree:
             values = allowed.get(feature, self.features[feature])
             if value is None:
                 limit = nodes.threshold[node]
-                kept = tuple(v for v in values if (int(v) <= limit) == left)
+                kept = tuple(known for known in values if (int(known) <= limit) == left)
             else:
-                kept = tuple(v for v in values if (v != value) == left)
+                kept = tuple(known for known in values if (known != value) == left)
             allowed[feature] = kept
         shares = nodes.shares[leaf]
         label, *equals = (
-            name for name, own in zip(nodes.classes, shares, strict=True) if own == max(shares)
+            name for name, share in zip(nodes.classes, shares, strict=True) if share == max(shares)
         )
         return TreePath(
-            conditions=tuple(PathCondition(f, values) for f, values in allowed.items()),
+            conditions=tuple(PathCondition(feature, values) for feature, values in allowed.items()),
             label=label,
             equals=tuple(equals),
             support=nodes.support[leaf],
@@ -250,12 +268,13 @@ class DecisionTree:
         for column, (feature, value) in enumerate(self.columns):
             position = names.index(feature)
             if value is None:
-                middle = float(median_low([int(v) for v in self.features[feature]]))
+                middle = float(median_low([int(number) for number in self.features[feature]]))
                 table[:, column] = [
-                    middle if v[position] is None else float(v[position] or 0) for v in vectors
+                    middle if vector[position] is None else float(vector[position] or 0)
+                    for vector in vectors
                 ]
             else:
-                table[:, column] = [v[position] == value for v in vectors]
+                table[:, column] = [vector[position] == value for vector in vectors]
         return table
 
     def _fitted(self) -> TreeNodes:
@@ -348,6 +367,6 @@ def _largest_alpha(search: GridSearchCV, tree: DecisionTreeClassifier) -> Decisi
     best = int(results["rank_test_score"].argmin())
     folds = search.n_splits_
     least = results["mean_test_score"][best] - results["std_test_score"][best] / np.sqrt(folds)
-    alphas = np.asarray([p["ccp_alpha"] for p in results["params"]])
+    alphas = np.asarray([parameters["ccp_alpha"] for parameters in results["params"]])
     enough = results["mean_test_score"] >= least
     return tree.set_params(ccp_alpha=float(alphas[enough].max()))

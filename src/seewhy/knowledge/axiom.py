@@ -49,20 +49,48 @@ def predicates_in(text: str) -> frozenset[str]:
     >>> sorted(predicates_in("#count { X : on(X, Y), not loose(X) } > 2"))
     ['loose', 'on']
     """
+    return frozenset(name for name, _ in _named_in(text))
+
+
+@lru_cache(maxsize=4096)
+def denied_in(text: str) -> frozenset[str]:
+    """Return the predicates that stand behind a ``not`` in a condition, or in what it denies.
+
+    Examples
+    --------
+    >>> sorted(denied_in("#count { X : on(X, Y), not loose(X) } > 2"))
+    ['loose']
+    >>> sorted(denied_in("not #count { X : on(X, Y), not loose(X) } > 2"))
+    ['loose', 'on']
+    """
+    return frozenset(name for name, is_denied in _named_in(text) if is_denied)
+
+
+def _named_in(text: str) -> set[tuple[str, bool]]:
+    """The predicates of a condition, each with whether a ``not`` stands before it."""
     found: list[ast.AST] = []
     ast.parse_string(f":- {text}.", found.append)
-    names: set[str] = set()
+    named: set[tuple[str, bool]] = set()
 
     class Collect(ast.Transformer):
+        is_denied = False
+
+        def visit_Literal(self, literal: ast.AST) -> ast.AST:  # noqa: N802
+            outside = self.is_denied
+            self.is_denied = outside or literal.sign != ast.Sign.NoSign
+            self.visit_children(literal)
+            self.is_denied = outside
+            return literal
+
         def visit_SymbolicAtom(self, atom: ast.AST) -> ast.AST:  # noqa: N802
             symbol = atom.symbol
             while symbol.ast_type is ast.ASTType.UnaryOperation:
                 symbol = symbol.argument
-            names.add(symbol.name)
+            named.add((symbol.name, self.is_denied))
             return atom
 
     Collect().visit(found[1])
-    return frozenset(names)
+    return named
 
 
 @dataclass(frozen=True)

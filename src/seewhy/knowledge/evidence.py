@@ -56,6 +56,7 @@ class Evidence:
         self.believed = frozenset(map(str, shared))
         self.others = others
         self._foundations: dict[Belief, Foundation] = {}
+        self._conditions_said: dict[tuple[str, bool], str] = {}
         self._needs: dict[tuple[str, tuple[str, ...]], list[tuple[int, Need, bool]]] = {}
 
     @cached_property
@@ -164,7 +165,10 @@ class Evidence:
 
     def say_condition(self, text: str, *, holds: bool) -> str:
         """Say in words that a condition of several literals holds, or what is so instead."""
-        return say_condition(text, self.signature, self.say, holds=holds)
+        if (text, holds) not in self._conditions_said:
+            said = say_condition(text, self.signature, self.say, holds=holds)
+            self._conditions_said[text, holds] = said
+        return self._conditions_said[text, holds]
 
     def worth(self, key: str) -> int:
         """How readily a literal is told, believed or not, where others would do as well.

@@ -26,6 +26,7 @@ from seewhy.knowledge.foundation import Foundation, Need, opposite
 from seewhy.knowledge.ground import literal_of
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.possible import Belief, Instance
+from seewhy.knowledge.settling import JointCondition
 
 _MOST_AXIOMS = 16
 """Of more instances that all fail, so many are told, and those that name further features."""
@@ -187,24 +188,42 @@ class _Explanation:
         if isinstance(need, Belief):
             if need in place.waits and need not in apart:
                 return self.absence(need.key, place.above, place.chain)
-            if need not in apart:
-                return self._bare(need)
             if need.holds:
                 return self.belief(need.key, place.apart)
             return self.absence(need.key, place.apart, _NOTHING)
         joint, holds = need
-        founded = apart if self.foundation.is_founded(need, apart) else {*apart, *place.waits}
-        settled = joint.settled_by(self.foundation.known(joint, founded), holds) or {}
-        children = [self._need(Belief(*pair), None, place) for pair in settled.items()]
+        children = [
+            self._need(belief, None, place)
+            if belief in apart or belief in place.waits
+            else self._supposed(belief)
+            for belief in self._settling(joint, holds, place)
+        ]
         return joint_node(self.evidence, condition, need, children)
 
-    def _bare(self, need: Belief) -> Node:
-        """The node of what is so, and is not founded."""
-        literal = literal_of(need.key)
+    def _settling(self, joint: JointCondition, holds: bool, place: _Place) -> list[Belief]:
+        """Beliefs and absences that settle a condition: founded ones where they are enough."""
+        apart = self.foundation.stages(place.apart)
+        for waits in (_NOTHING, place.waits):
+            known = self.foundation.known(joint, apart, waits)
+            if (settled := joint.settled_by(known, holds)) is not None:
+                return [Belief(*pair) for pair in settled.items()]
+        # It is assumed. Of what settles it, that stands first which is not founded.
+        everything = sorted(self.foundation.literals(joint), key=lambda belief: belief in apart)
+        settled = joint.settled_by(dict(everything), holds)
+        return [Belief(*pair) for pair in (settled or {}).items()]
+
+    def _supposed(self, belief: Belief) -> Node:
+        """The node of what is neither founded nor waited for, and an answer set supposes."""
+        literal = literal_of(belief.key)
         said = self.evidence.say(literal)
-        if need.holds:
-            return Node(str(literal), said, Basis.FACT)
-        return Node(f"not {literal}", f"nothing says that {said}", Basis.ABSENCE)
+        if belief.holds:
+            return Node(str(literal), f"supposing that {said}", Basis.ASSUMED)
+        return Node(
+            f"not {literal}",
+            f"supposing that nothing says that {said}",
+            Basis.ASSUMED,
+            feature=self.evidence.schema.feature_of(literal),
+        )
 
     def absence(self, key: str, above: frozenset[Belief], chain: frozenset[Belief]) -> Node:
         own = Belief(key, holds=False)
@@ -241,7 +260,7 @@ class _Explanation:
             waits = frozenset(
                 other
                 for other, stage in together.items()
-                if not other.holds and stage <= together[own]
+                if isinstance(other, Belief) and not other.holds and stage <= together[own]
             )
             children = tuple(self._failing(own.key, _Place(above, chain | {own}, waits)))
         return Node(
@@ -250,13 +269,13 @@ class _Explanation:
 
     def _failing(self, key: str, place: _Place) -> Iterator[Node]:
         """A node for every axiom that could conclude a literal; its children are ways it fails."""
-        founded = {*self.foundation.stages(place.apart), *place.waits}
+        apart = self.foundation.stages(place.apart)
         groups: dict[frozenset[object], tuple[Instance, list[tuple[int, Need]]]] = {}
         for instance in self.evidence.concluding(key):
             ways = [
                 (number, need)
                 for number, need, holds in self.evidence.needs(instance)
-                if not holds and self.foundation.is_founded(need, founded)
+                if not holds and self.foundation.is_founded(need, apart, place.waits)
             ]
             decided = (decided_by(self.evidence, need) for _, need in ways)
             groups.setdefault(frozenset((instance.axiom.identifier, *decided)), (instance, ways))

@@ -4,10 +4,13 @@ A belief is founded where an axiom fires whose conditions are founded, or where 
 up because of a contradiction that rests on what is founded; an absence is founded where
 the opposite is, or where every axiom that could conclude it fails by something founded. Absences
 that only wait for each other are founded together: they are an unfounded set (Van Gelder, Ross and
-Schlipf, "The well-founded semantics for general logic programs", JACM 1991). What is left is
+Schlipf, "The well-founded semantics for general logic programs", JACM 1991). They wait only where
+an axiom asks for the literal itself: with ``q if not not q`` an answer set chooses. What is left is
 settled by no fact: an answer set chooses it, and absences have to be assumed (the assumptions of
 off-line justifications: Pontelli, Son and Elkhatib, "Justifications for logic programs under answer
-set semantics", TPLP 2009).
+set semantics", TPLP 2009). Where absences do not found it, what was chosen is that a condition of
+several literals holds, as with ``q if not not q``; then the condition is assumed. With all absences
+and conditions of an answer set it is founded whole: they are all that its reduct takes for granted.
 """
 
 from __future__ import annotations
@@ -25,6 +28,8 @@ _TRIED = 32
 Need = Belief | tuple[JointCondition, bool]
 """What has to be founded: a belief or an absence, or that a condition holds or does not."""
 
+Founded = Collection[Need]
+"""What is founded, and the conditions that are assumed."""
 
 Forced = Callable[[Instance], Sequence[frozenset[Belief]]]
 """The contradictions that force an exception, each as the beliefs that it rests on."""
@@ -81,20 +86,23 @@ class Foundation:
 
     Attributes
     ----------
-    assumed : frozenset of Belief
-        The absences that have to be assumed so that the root is founded; none can be left out.
+    assumed : frozenset of Need
+        The absences, and the conditions that hold, which have to be assumed so that the root is
+        founded; none can be left out.
     """
 
     def __init__(self, beliefs: Beliefs, root: Belief, forced: Forced) -> None:
         self.beliefs = beliefs
         self.root = root
         self.forced = forced
-        self.assumed: frozenset[Belief] = frozenset()
-        self._stages: dict[frozenset[Belief], dict[Belief, int]] = {}
+        self.assumed: frozenset[Need] = frozenset()
+        self._stages: dict[frozenset[Belief], dict[Need, int]] = {}
+        self._literals: dict[JointCondition, list[Belief]] = {}
+        self._rests_on: dict[Belief, list[list[Need]]] = {}
         if root not in self.stages(frozenset()):
             self.assumed = self._assumptions()
 
-    def stages(self, without: frozenset[Belief]) -> Mapping[Belief, int]:
+    def stages(self, without: frozenset[Belief]) -> Mapping[Need, int]:
         """Return what is founded without some beliefs and absences, each with its stage.
 
         What has a stage rests on what has a lower one, or, with absences, on absences of the
@@ -109,14 +117,18 @@ class Foundation:
         """Those without which something else may not be founded that is founded with them."""
         return beliefs & self._in_circles
 
-    def is_founded(self, need: Need, founded: Collection[Belief]) -> bool:
-        """Whether something follows from what is founded."""
+    def is_founded(
+        self, need: Need, founded: Founded, waits: Collection[Belief] = frozenset()
+    ) -> bool:
+        """Whether something follows from what is founded or assumed, and absences waited for."""
+        if need in founded:
+            return True
         if isinstance(need, Belief):
-            return need in founded
+            return need in waits
         condition, holds = need
-        return condition.settled_by(self.known(condition, founded), holds) is not None
+        return condition.settled_by(self.known(condition, founded, waits), holds) is not None
 
-    def is_forced(self, exception: Instance, founded: Collection[Belief]) -> bool:
+    def is_forced(self, exception: Instance, founded: Founded) -> bool:
         """Whether what is founded forces a default to be given up, and its conditions hold."""
         conditions = (need for _, need, holds in self.beliefs.needs(exception) if holds)
         if not all(self.is_founded(need, founded) for need in conditions):
@@ -124,15 +136,30 @@ class Foundation:
         forced = self.forced(exception)
         return not forced or any(all(belief in founded for belief in beliefs) for beliefs in forced)
 
-    def known(self, condition: JointCondition, founded: Collection[Belief]) -> dict[str, bool]:
-        """What is founded of a condition's literals; what had best be left out stands first."""
-        holds = self.beliefs.holds
-        known = {
-            key: key in holds for key in condition.keys if Belief(key, key in holds) in founded
-        }
-        return dict(sorted(known.items(), key=lambda item: self.beliefs.worth(item[0])))
+    def known(
+        self,
+        condition: JointCondition,
+        founded: Founded,
+        waits: Collection[Belief] = frozenset(),
+    ) -> dict[str, bool]:
+        """What is founded of a condition's literals; what had best be left out stands first.
 
-    def _founded(self, without: frozenset[Belief], assumed: frozenset[Belief]) -> dict[Belief, int]:
+        An absence that is waited for counts where the condition does not deny the literal.
+        """
+        return {
+            belief.key: belief.holds
+            for belief in self.literals(condition)
+            if belief in founded or (belief in waits and belief.key not in condition.denied)
+        }
+
+    def literals(self, condition: JointCondition) -> Sequence[Belief]:
+        """What is so with a condition's literals; what had best be left out stands first."""
+        if condition not in self._literals:
+            keys = sorted(condition.keys, key=self.beliefs.worth)
+            self._literals[condition] = [Belief(key, key in self.beliefs.holds) for key in keys]
+        return self._literals[condition]
+
+    def _founded(self, without: frozenset[Belief], assumed: frozenset[Need]) -> dict[Need, int]:
         founded = dict.fromkeys(assumed - without, 0)
         believed = [belief for belief in self._cone if belief.holds and belief not in without]
         absent = [belief for belief in self._cone if not belief.holds and belief not in without]
@@ -158,12 +185,12 @@ class Foundation:
             if len(founded) == before:
                 return founded
 
-    def _has_support(self, belief: Belief, founded: Collection[Belief]) -> bool:
+    def _has_support(self, belief: Belief, founded: Founded) -> bool:
         return (
             self.beliefs.is_seen(belief.key)
             or any(
-                all(self.is_founded(need, founded) for _, need, _ in self.beliefs.needs(instance))
-                for instance in self.beliefs.firing(belief.key)
+                all(self.is_founded(need, founded) for need in needs)
+                for needs in self._instances(belief)
             )
             or any(
                 self.is_forced(instance, founded)
@@ -171,18 +198,23 @@ class Foundation:
             )
         )
 
-    def _fails(self, absence: Belief, founded: dict[Belief, int], together: set[Belief]) -> bool:
+    def _fails(self, absence: Belief, founded: Founded, together: set[Belief]) -> bool:
         if Belief(opposite(absence.key)) in founded:
             return True
-        either = _Either(founded, together)
         return all(
-            any(
-                self.is_founded(need, either)
-                for _, need, holds in self.beliefs.needs(instance)
-                if not holds
-            )
-            for instance in self.beliefs.concluding(absence.key)
+            any(self.is_founded(need, founded, together) for need in needs)
+            for needs in self._instances(absence)
         )
+
+    def _instances(self, belief: Belief) -> Sequence[Sequence[Need]]:
+        """What each instance rests on that concludes a belief, or fails by, of an absence."""
+        if belief not in self._rests_on:
+            conclude = self.beliefs.firing if belief.holds else self.beliefs.concluding
+            self._rests_on[belief] = [
+                [need for _, need, holds in self.beliefs.needs(instance) if holds is belief.holds]
+                for instance in conclude(belief.key)
+            ]
+        return self._rests_on[belief]
 
     @cached_property
     def _cone(self) -> dict[Belief, tuple[Belief, ...]]:
@@ -198,27 +230,24 @@ class Foundation:
 
     def _next(self, belief: Belief) -> Iterator[Belief]:
         if belief.holds:
-            exceptions = self.beliefs.exceptions(belief.key)
-            for exception in exceptions:
+            for exception in self.beliefs.exceptions(belief.key):
                 for beliefs in self.forced(exception):
-                    yield from sorted(beliefs, key=lambda own: own.key)
-            instances = [*self.beliefs.firing(belief.key), *exceptions]
+                    yield from sorted(beliefs)
+                for _, need, holds in self.beliefs.needs(exception):
+                    if holds:
+                        yield from self._literals_of(need)
         else:
             against = opposite(belief.key)
             if against in self.beliefs.holds:
                 yield Belief(against)
                 if self.beliefs.is_seen(against):
                     return
-            instances = self.beliefs.concluding(belief.key)
-        for instance in instances:
-            for _, need, holds in self.beliefs.needs(instance):
-                if holds is not belief.holds:
-                    continue
-                if isinstance(need, Belief):
-                    yield need
-                else:
-                    for key in need[0].keys:
-                        yield Belief(key, key in self.beliefs.holds)
+        for needs in self._instances(belief):
+            for need in needs:
+                yield from self._literals_of(need)
+
+    def _literals_of(self, need: Need) -> Sequence[Belief]:
+        return (need,) if isinstance(need, Belief) else self.literals(need[0])
 
     @cached_property
     def _in_circles(self) -> frozenset[Belief]:
@@ -230,34 +259,41 @@ class Foundation:
                 backward[other].add(belief)
         return frozenset(_peeled(forward, backward) & _peeled(backward, forward))
 
-    def _assumptions(self) -> frozenset[Belief]:
+    def _assumptions(self) -> frozenset[Need]:
         founded = self._founded(frozenset(), frozenset())
-        assumed = [belief for belief in self._cone if not belief.holds and belief not in founded]
-        if self.root not in self._founded(frozenset(), frozenset(assumed)):
+        absences = [belief for belief in self._cone if not belief.holds and belief not in founded]
+        assumed: list[Need] = [*absences]
+        if not self._found_root(assumed):
+            assumed = [*self._conditions(), *absences]
+        if not self._found_root(assumed):
             return frozenset()
-        for absence in assumed[:_TRIED]:
-            fewer = [belief for belief in assumed if belief != absence]
-            if self.root in self._founded(frozenset(), frozenset(fewer)):
+        for left_out in assumed[:_TRIED]:
+            fewer = [need for need in assumed if need != left_out]
+            if self._found_root(fewer):
                 assumed = fewer
         self._stages.clear()
         return frozenset(assumed)
 
+    def _found_root(self, assumed: Collection[Need]) -> bool:
+        """Whether the root is founded where some absences and conditions are assumed."""
+        return self.root in self._founded(frozenset(), frozenset(assumed))
 
-class _Either(Collection[Belief]):
-    """The members of two collections."""
-
-    def __init__(self, first: Collection[Belief], second: Collection[Belief]) -> None:
-        self.first, self.second = first, second
-
-    def __contains__(self, own: object) -> bool:
-        return own in self.first or own in self.second
-
-    def __iter__(self) -> Iterator[Belief]:
-        yield from self.first
-        yield from self.second
-
-    def __len__(self) -> int:
-        return len(self.first) + len(self.second)
+    def _conditions(self) -> list[Need]:
+        """The conditions of several literals that hold, of what fired for all that is believed."""
+        fired = (
+            instance
+            for belief in self._cone
+            if belief.holds
+            for instances in (self.beliefs.firing, self.beliefs.exceptions)
+            for instance in instances(belief.key)
+        )
+        conditions = (
+            need
+            for instance in fired
+            for _, need, holds in self.beliefs.needs(instance)
+            if holds and not isinstance(need, Belief)
+        )
+        return list(dict.fromkeys(conditions))
 
 
 def _peeled(

@@ -25,6 +25,7 @@ def key_of(literal: Literal) -> str:
     return f"{sign}{literal.predicate}({arguments})" if arguments else f"{sign}{literal.predicate}"
 
 
+@lru_cache(maxsize=4096)
 def literal_of(key: str) -> Literal:
     """The literal that :func:`key_of` names."""
     symbol = clingo.parse_term(key)

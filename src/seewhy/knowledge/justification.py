@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from html import escape
 from typing import Any
 
 from seewhy.knowledge.axiom import Axiom
@@ -20,7 +21,7 @@ class Basis(StrEnum):
     ABSENCE = "absence"
     COMPARISON = "comparison"
     JOINTLY = "several literals"
-    ASSUMED = "assumed absence"
+    ASSUMED = "assumed"
     CASES = "several answer sets"
     OTHERWISE = "without the exception"
     CONSISTENCY = "nothing else is consistent"
@@ -159,6 +160,15 @@ class Node:
     def to_text(self) -> str:
         """Return the tree as indented lines."""
         return "\n".join(_lines(self, "", ""))
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the tree, whose steps fold."""
+        line = escape(self.label())
+        if not self.children:
+            return f"<div>{line}</div>"
+        below = "".join(child._repr_html_() for child in self.children)
+        inside = f'<div style="margin-left: 1.5em">{below}</div>'
+        return f"<details open><summary>{line}</summary>{inside}</details>"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the tree as values that JSON can hold."""

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import clingo
 
@@ -28,8 +29,7 @@ from seewhy.knowledge.settling import JointCondition
 _CONSTANT = re.compile(r"_*[a-z][A-Za-z0-9_']*|-?[0-9]+")
 
 
-@dataclass(frozen=True)
-class Belief:
+class Belief(NamedTuple):
     """That a literal is believed, or that it is not.
 
     Attributes

@@ -11,7 +11,7 @@ from functools import cached_property
 
 import clingo
 
-from seewhy.knowledge.axiom import predicates_in
+from seewhy.knowledge.axiom import denied_in, predicates_in
 from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.grounding_size import GroundingSize
 from seewhy.knowledge.program import held, sort_facts
@@ -98,6 +98,12 @@ class JointCondition:
     def keys(self) -> tuple[str, ...]:
         """The literals that it may depend on, as clingo prints them."""
         return tuple(self._literals)
+
+    @cached_property
+    def denied(self) -> frozenset[str]:
+        """The literals of predicates that stand behind a ``not`` in it."""
+        names = denied_in(self.text)
+        return frozenset(str(symbol) for name in names for symbol in self._possible.get(name, ()))
 
     def holds(self, believed: Collection[str]) -> bool:
         """Whether the condition holds where these literals are believed and no others."""

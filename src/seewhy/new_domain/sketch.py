@@ -151,4 +151,4 @@ def _distinct_words(words: Mapping[str, str]) -> dict[str, str]:
 
 def _worded(said: str, name: str) -> str:
     """Words that have a letter or digit in them, or else the name."""
-    return said if any(c.isalnum() for c in said) else plain_words(name)
+    return said if any(character.isalnum() for character in said) else plain_words(name)

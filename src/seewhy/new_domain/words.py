@@ -25,7 +25,9 @@ def plain_words(text: str) -> str:
         words = words.replace("-", " ")
     words = re.sub(r"(?<=[a-z0-9])(?=[A-Z][a-z])", " ", words)
     words = words.translate(str.maketrans("{}[]", "()()"))
-    return " ".join("".join(c if c.isprintable() else " " for c in words).split())
+    return " ".join(
+        "".join(character if character.isprintable() else " " for character in words).split()
+    )
 
 
 def in_a_sentence(text: str) -> str:

@@ -36,7 +36,9 @@ def fitted_temperature(*heldout: tuple[torch.Tensor, torch.Tensor]) -> float:
 
     def loss(logarithm: float) -> float:
         scale = math.exp(logarithm)
-        return sum(float(functional.cross_entropy(own / scale, soft)) for own, soft in networks)
+        return sum(
+            float(functional.cross_entropy(logits / scale, soft)) for logits, soft in networks
+        )
 
     found = minimize_scalar(loss, bounds=(math.log(0.1), math.log(20.0)), method="bounded")
     return math.exp(float(found.x))

@@ -10,19 +10,19 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 import numpy as np
-import numpy.typing as npt
 import torch
 from pydantic import TypeAdapter
 from safetensors import SafetensorError, safe_open
 from safetensors.torch import save_file
 
 from seewhy.files.whole_files import whole_file
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
@@ -64,28 +64,24 @@ def checkpoint_file(folder: Path | str, feature: str) -> Path:
 
 
 def fingerprint(
-    pictures: npt.NDArray[np.uint8],
-    labels: Sequence[str | None],
-    *,
+    shown: LabelledPictures,
     feature: str,
-    values: Sequence[str],
+    *,
     options: TrainingOptions,
-    groups: Sequence[object] | None,
-    validation: npt.NDArray[np.int64] | None,
     start_from: GrowingNetwork | None,
     rehearsal: Rehearsal | None,
 ) -> str:
-    """What must agree for a checkpoint to be gone on with."""
-    digest = hashlib.sha256(np.ascontiguousarray(pictures).data)
+    """What must agree for a checkpoint of a feature to be gone on with."""
+    digest = hashlib.sha256(np.ascontiguousarray(shown.pixels).data)
     described = [
         FORMAT,
-        pictures.shape,
-        list(labels),
+        shown.pixels.shape,
+        list(shown.labels[feature]),
         feature,
-        list(values),
+        list(shown.values[feature]),
         asdict(options),
-        None if groups is None else [repr(group) for group in groups],
-        None if validation is None else [int(index) for index in validation],
+        None if shown.groups is None else [repr(group) for group in shown.groups],
+        None if shown.validation is None else [int(index) for index in shown.validation],
     ]
     digest.update(json.dumps(described, sort_keys=True).encode())
     if start_from is not None:

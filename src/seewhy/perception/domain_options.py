@@ -114,10 +114,12 @@ def class_options(domain: Domain, *, seed: int = 0) -> TrainingOptions:
     0.98
     """
     options = training_options(domain, seed=seed).values()
-    largest = max(options, key=lambda own: (sum(own.channels), own.dense))
+    largest = max(
+        options, key=lambda feature_options: (sum(feature_options.channels), feature_options.dense)
+    )
     wider = 1 if len(domain.classes) == 2 else 2
     return replace(
         largest,
-        threshold=max(own.threshold for own in options),
+        threshold=max(feature_options.threshold for feature_options in options),
         dense=wider * largest.dense,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import nullcontext
 from copy import deepcopy
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
@@ -17,8 +17,10 @@ from pydantic import Field
 from seewhy.domain.tables import Channels
 from seewhy.errors import DatasetError, ModelError
 from seewhy.files.json_file import Strict
-from seewhy.perception.events import FeatureRecord, Progress
+from seewhy.perception.course import QUIETLY, Course
+from seewhy.perception.events import FeatureRecord
 from seewhy.perception.joint_training import train_jointly
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.labels import labelled
 from seewhy.perception.network import GrowingNetwork, Standard, deepest
 from seewhy.perception.one_thread import one_thread
@@ -59,8 +61,8 @@ class Seen(NamedTuple):
     def of(self, pictures: npt.NDArray[np.int64]) -> Seen:
         """What they make of the pictures at some positions."""
         return Seen(
-            {name: own[pictures] for name, own in self.probabilities.items()},
-            {name: own[pictures] for name, own in self.embeddings.items()},
+            {name: table[pictures] for name, table in self.probabilities.items()},
+            {name: table[pictures] for name, table in self.embeddings.items()},
         )
 
 
@@ -153,8 +155,8 @@ class FeatureExtractor:
                     network.see(torch.from_numpy(batch[i : i + 256]))
                     for i in range(0, max(1, len(batch)), 256)
                 ]
-                seen.probabilities[name] = torch.cat([own[0] for own in parts]).double().numpy()
-                seen.embeddings[name] = torch.cat([own[1] for own in parts]).numpy()
+                seen.probabilities[name] = torch.cat([part[0] for part in parts]).double().numpy()
+                seen.embeddings[name] = torch.cat([part[1] for part in parts]).numpy()
                 if not np.isfinite(seen.probabilities[name]).all():
                     raise ModelError(f"the network of '{name}' gives no number: {REMEDY}")
         return seen
@@ -249,39 +251,22 @@ class FeatureExtractor:
 
 
 def fit_extractor(
-    pictures: Pictures,
-    labels: Mapping[str, Sequence[str | None]],
+    shown: LabelledPictures,
     *,
-    values: Mapping[str, Sequence[str]],
     options: TrainingOptions | Mapping[str, TrainingOptions] | None = None,
-    groups: Sequence[object] | None = None,
-    validation: npt.NDArray[np.int64] | None = None,
-    checkpoints: Path | None = None,
     start_from: FeatureExtractor | None = None,
     rehearsal: Rehearsal | None = None,
     together: Collection[str] = (),
-    workers: int = -1,
-    on_progress: Progress | None = None,
+    course: Course = QUIETLY,
 ) -> FeatureExtractor:
     """Train one network for each feature.
 
     Parameters
     ----------
-    pictures : ndarray of uint8, shape (n, size, size, 3)
-        As :func:`seewhy.perception.picture.as_picture` makes them.
-    labels : mapping of str to sequence of str or None, length n
-        Each feature's value in each picture; None where it is unknown.
-    values : mapping of str to sequence of str
-        All values that each feature can have.
+    shown : LabelledPictures
+        The pictures, with what is to be seen in them.
     options : TrainingOptions or mapping of str to TrainingOptions, optional
         For all features, or for each (the defaults for those without).
-    groups : sequence, length n, optional
-        Pictures of one group are never divided between training and validation.
-    validation : ndarray of int64, optional
-        Indices of the pictures to validate every feature on; without it each draws its own.
-    checkpoints : Path, optional
-        A folder in which interrupted training finds where it was. Remove it when the extractor
-        is saved.
     start_from : FeatureExtractor, optional
         Earlier networks to train on instead of growing new ones. Features that it lacks, or whose
         values are as many others there, grow.
@@ -291,11 +276,9 @@ def fit_extractor(
         The features whose networks are trained together, to tell annotated feature vectors apart;
         see :func:`seewhy.perception.joint_training.train_jointly`. Those that have to grow are
         trained by themselves before.
-    workers : int, default -1
-        Features trained at the same time, each in a process of its own; -1: one a core. The
-        weights do not depend on it.
-    on_progress : callable, optional
-        Called with a :class:`seewhy.perception.events.TrainingEvent` after every epoch.
+    course : Course
+        How the training is run. ``on_progress`` is called with a
+        :class:`seewhy.perception.events.TrainingEvent` after every epoch.
 
     Returns
     -------
@@ -316,30 +299,15 @@ def fit_extractor(
     --------
     >>> pictures = np.zeros((40, 16, 16, 3), dtype=np.uint8)
     >>> pictures[::2] = 200
-    >>> extractor = fit_extractor(
-    ...     pictures, {"light": ["on", "off"] * 20}, values={"light": ["on", "off"]}
+    >>> shown = LabelledPictures(
+    ...     pictures, {"light": ["on", "off"] * 20}, {"light": ["on", "off"]}
     ... )
+    >>> extractor = fit_extractor(shown)
     >>> bool(extractor.probabilities(pictures[:1])["light"][0, 0] > 0.8)
     True
     """
-    batch = _checked(pictures)
-    if not len(batch):
-        raise DatasetError("there is no picture to learn from: add labelled pictures")
-    if not labels:
-        raise DatasetError("there is no feature to learn: name at least one in the domain")
-    for name, column in labels.items():
-        if name not in values:
-            raise DatasetError(f"the values of {name} are not given: list them in the domain")
-        if len(column) != len(batch):
-            raise DatasetError(
-                f"{name} must have one label a picture ({len(batch)}), got {len(column)}"
-            )
-        labelled(column, feature=name, values=values[name])  # or hours of training are lost
-    if groups is not None and len(groups) != len(batch):
-        raise DatasetError(
-            f"groups must have one entry a picture ({len(batch)}), got {len(groups)}"
-        )
-
+    shown = _learnable(shown)
+    labels, values = shown.labels, shown.values
     chosen = {
         name: options
         if isinstance(options, TrainingOptions)
@@ -347,37 +315,25 @@ def fit_extractor(
         for name in labels
     }
     earlier = {} if start_from is None else _fitting(start_from, values)
-    shared = {name: column for name, column in labels.items() if name in together}
-    ready = _ready(shared, values, chosen, earlier, size=batch.shape[1])
+    shared = shown.of_features(together)
+    ready = _ready(shared, chosen, earlier)
     trained = train_networks(
-        batch,
-        {name: column for name, column in labels.items() if name not in ready},
-        values=values,
+        shown.of_features(labels.keys() - ready.keys()),
         options=chosen,
-        groups=groups,
-        validation=validation,
-        checkpoints=checkpoints,
         start_from=earlier,
         rehearsal=rehearsal,
-        workers=workers,
-        on_progress=on_progress,
+        course=course,
     )
-    grown = {name: trained[name][0] for name in shared if name in trained}
-    joint = ready | {name: own for name, own in grown.items() if trained[name][1].epochs}
+    grown = {name: trained[name][0] for name in shared.labels if name in trained}
+    joint = ready | {name: network for name, network in grown.items() if trained[name][1].epochs}
     if joint:
         trained |= train_jointly(
-            {name: joint[name] for name in shared if name in joint},
-            batch,
+            {name: joint[name] for name in shared.labels if name in joint},
             shared,
-            values=values,
             options=chosen,
             fine_tune=joint != ready or bool(earlier),
-            groups=groups,
-            validation=validation,
-            checkpoints=checkpoints,
             rehearsal=rehearsal,
-            workers=workers,
-            on_progress=on_progress,
+            course=course,
         )
     trained = {name: trained[name] for name in labels}
     return FeatureExtractor(
@@ -400,18 +356,16 @@ def _fitting(
 
 
 def _ready(
-    labels: Mapping[str, Sequence[str | None]],
-    values: Mapping[str, Sequence[str]],
+    shown: LabelledPictures,
     options: Mapping[str, TrainingOptions],
     earlier: Mapping[str, GrowingNetwork],
-    *,
-    size: int,
 ) -> dict[str, GrowingNetwork]:
     """Networks that need no training of their own before they are trained together.
 
     Those that are trained already; and new ones, where all features start as deep as can be. A
     feature that shows one value only has nothing to learn.
     """
+    labels, values, size = shown.labels, shown.values, shown.pixels.shape[1]
     if earlier:
         return {
             name: deepcopy(network)
@@ -421,12 +375,36 @@ def _ready(
     if any(options[name].depth < deepest(size) for name in labels):
         return {}
     found = {}
-    for name in labels:
-        own = options[name]
-        if len({value for value in labels[name] if value is not None}) > 1:
-            with seeded(torch.device("cpu"), own.seed, name, "first"):
-                found[name] = new_network(size, len(values[name]), own)
+    for name, column in labels.items():
+        if len({value for value in column if value is not None}) > 1:
+            with seeded(torch.device("cpu"), options[name].seed, name, "first"):
+                found[name] = new_network(size, len(values[name]), options[name])
     return found
+
+
+def _learnable(shown: LabelledPictures) -> LabelledPictures:
+    """The pictures, if there is something to learn from them, and all fits together.
+
+    It is checked before, or hours of training are lost.
+    """
+    pixels = _checked(shown.pixels)
+    if not len(pixels):
+        raise DatasetError("there is no picture to learn from: add labelled pictures")
+    if not shown.labels:
+        raise DatasetError("there is no feature to learn: name at least one in the domain")
+    for name, column in shown.labels.items():
+        if name not in shown.values:
+            raise DatasetError(f"the values of {name} are not given: list them in the domain")
+        if len(column) != len(pixels):
+            raise DatasetError(
+                f"{name} must have one label a picture ({len(pixels)}), got {len(column)}"
+            )
+        labelled(column, feature=name, values=shown.values[name])
+    if shown.groups is not None and len(shown.groups) != len(pixels):
+        raise DatasetError(
+            f"groups must have one entry a picture ({len(pixels)}), got {len(shown.groups)}"
+        )
+    return replace(shown, pixels=pixels)
 
 
 class _Feature(Strict):

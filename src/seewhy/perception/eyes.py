@@ -311,7 +311,7 @@ def _expected(
     }
     for name, row in values.items():
         sides |= {f"heads/{name}/weight": (len(row), count), f"heads/{name}/bias": (len(row),)}
-    expected = {name: torch.empty(own, device="meta") for name, own in sides.items()}
+    expected = {name: torch.empty(lengths, device="meta") for name, lengths in sides.items()}
     if tail is not None:
         expected |= {f"tail/{name}": weight for name, weight in tail.state_dict().items()}
     return expected
@@ -341,6 +341,6 @@ class _Description(Described):
 
     @model_validator(mode="after")
     def _tuned_where_it_counts(self) -> _Description:
-        if not self.tuned and any(own.weights.get(TUNED) for own in self.features.values()):
+        if not self.tuned and any(feature.weights.get(TUNED) for feature in self.features.values()):
             raise ValueError("layers count that were not tuned")
         return self

@@ -209,9 +209,11 @@ class Familiarity:
         -------
         ndarray of float, shape (n,)
         """
-        own = [known.likeness(embeddings[key], values[key]) for key, known in self.known.items()]
+        likenesses = [
+            known.likeness(embeddings[key], values[key]) for key, known in self.known.items()
+        ]
         weights = [known.weight for known in self.known.values()]
-        mean: npt.NDArray[np.float64] = np.average(own, axis=0, weights=weights)
+        mean: npt.NDArray[np.float64] = np.average(likenesses, axis=0, weights=weights)
         return mean
 
     def save(self, folder: Path | str) -> None:
@@ -320,11 +322,11 @@ def fit_familiarity(
         known[name] = Known(
             _directions(embeddings[name][rows]).astype(np.float16),
             tuple(order),
-            tuple(len(by_value[own]) for own in order),
+            tuple(len(by_value[value]) for value in order),
             tuple(pictures[n] for n in rows) if pictures else (),
         )
     # A network with nothing to tell apart has learned to see nothing.
-    told = {name: own for name, own in known.items() if len(own.values) > 1}
+    told = {name: of_feature for name, of_feature in known.items() if len(of_feature.values) > 1}
     return Familiarity(told or known)
 
 

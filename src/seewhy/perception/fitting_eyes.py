@@ -12,6 +12,7 @@ import numpy.typing as npt
 import torch
 
 from seewhy.perception.backbones.backbone import Backbone, Embedded
+from seewhy.perception.course import QUIETLY, Course
 from seewhy.perception.embedding import embed_pictures, embed_variations
 from seewhy.perception.embedding_cache import EmbeddingCache
 from seewhy.perception.events import EyesEvent
@@ -92,9 +93,8 @@ def fit_eyes(
     tune: bool = True,
     start_from: Eyes | None = None,
     cache: EmbeddingCache | None = None,
-    checkpoints: Path | None = None,
     seed: int = 0,
-    on_progress: Told | None = None,
+    course: Course = QUIETLY,
 ) -> FittedEyes:
     """Teach eyes to see features in pictures.
 
@@ -117,12 +117,10 @@ def fit_eyes(
         pictures, none is new to them, and probabilities come out too sure.
     cache : EmbeddingCache, optional
         None keeps nothing.
-    checkpoints : Path, optional
-        A folder in which an interrupted call finds where it was.
     seed : int, default 0
         Two runs with the same seed and data agree on processors with the same instruction set.
-    on_progress : callable, optional
-        Called with an :class:`~seewhy.perception.events.EyesEvent`.
+    course : Course
+        How the training is run: with checkpoints, an interrupted one goes on where it was.
 
     Raises
     ------
@@ -130,7 +128,7 @@ def fit_eyes(
         There is no picture or no feature, or a feature has no label at all.
     """
     targets = lesson.targets()
-    told = on_progress or (lambda _: None)
+    told: Told = course.on_progress or (lambda _: None)
     kept = cache or EmbeddingCache(None)
     count = len(lesson)
     embedded = embed_pictures(
@@ -159,7 +157,7 @@ def fit_eyes(
             on_picture=lambda done: told(EyesEvent("varying pictures", done, count)),
         )
         maps = VariedMaps(embedded.middle, varied, targets)
-        tuning = _Tuning(backbone, maps, sizes, start_from, checkpoints, seed, told)
+        tuning = _Tuning(backbone, maps, sizes, start_from, course.checkpoints, seed, told)
     held = _held_out(lesson, seed=seed)
     everything = np.arange(count)
     seen: dict[str, list[dict[str, Table]]] = {HEADS: [], **({TUNED: []} if tuning else {})}

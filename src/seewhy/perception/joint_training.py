@@ -6,7 +6,6 @@ import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -19,7 +18,9 @@ from seewhy.perception import checkpoint
 from seewhy.perception.augmentation import augment
 from seewhy.perception.calibration import fitted_temperature
 from seewhy.perception.checkpoint import Position, Weights
-from seewhy.perception.events import FeatureRecord, Kind, Progress, TrainingEvent
+from seewhy.perception.course import QUIETLY, Course
+from seewhy.perception.events import FeatureRecord, Kind, TrainingEvent
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.labels import labelled, value_weights
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.optimisation import (
@@ -47,18 +48,12 @@ _Result = TypeVar("_Result")
 
 def train_jointly(
     networks: Mapping[str, GrowingNetwork],
-    pictures: Pictures,
-    labels: Mapping[str, Column],
+    shown: LabelledPictures,
     *,
-    values: Mapping[str, Sequence[str]],
     options: Mapping[str, TrainingOptions],
     fine_tune: bool,
-    groups: Sequence[object] | None = None,
-    validation: npt.NDArray[np.int64] | None = None,
-    checkpoints: Path | None = None,
     rehearsal: Rehearsal | None = None,
-    workers: int = -1,
-    on_progress: Progress | None = None,
+    course: Course = QUIETLY,
 ) -> dict[str, tuple[GrowingNetwork, FeatureRecord]]:
     """Train one network a feature so that together they tell annotated feature vectors apart.
 
@@ -75,13 +70,16 @@ def train_jointly(
     networks : mapping of str to GrowingNetwork
         What to start from: untrained networks of their final depth, or trained ones. They are
         trained in place.
-    pictures, labels, values, groups, validation, checkpoints, rehearsal, workers, on_progress
-        As for :func:`~seewhy.perception.extractor.fit_extractor`; ``workers`` are threads here.
-        The weights do not depend on their number.
+    shown : LabelledPictures
+        With the labels of these networks' features.
     options : mapping of str to TrainingOptions
         Pictures are varied, and batches made, as the first feature's say.
     fine_tune : bool
         Whether the networks are trained already: half the epochs, a third of the learning rate.
+    rehearsal : Rehearsal, optional
+        As for :func:`~seewhy.perception.extractor.fit_extractor`.
+    course : Course
+        Its ``workers`` are threads here.
 
     Returns
     -------
@@ -94,39 +92,22 @@ def train_jointly(
     Manhaeve et al. (2018), "DeepProbLog", who train networks through what is reasoned from them.
     """
     training = _JointTraining(
-        networks,
-        pictures,
-        labels,
-        values=values,
-        options=options,
-        fine_tune=fine_tune,
-        groups=groups,
-        validation=validation,
-        rehearsal=rehearsal,
+        networks, shown, options=options, fine_tune=fine_tune, rehearsal=rehearsal
     )
-    file, own = None, ""
-    if checkpoints is not None:
-        file = checkpoint.checkpoint_file(checkpoints, TOGETHER)
-        own = _fingerprint(
-            networks,
-            pictures,
-            labels,
-            values=values,
-            options=options,
-            groups=groups,
-            validation=validation,
-            rehearsal=rehearsal,
-        )
-        found = checkpoint.read(file, own, Position)
+    file, digest = None, ""
+    if course.checkpoints is not None:
+        file = checkpoint.checkpoint_file(course.checkpoints, TOGETHER)
+        digest = _fingerprint(networks, shown, options=options, rehearsal=rehearsal)
+        found = checkpoint.read(file, digest, Position)
         if found is not None:
             training.resume(*found)
-    with _Threads(workers, training.device) as threads:
+    with _Threads(course.workers, training.device) as threads:
         while training.position.stage != "finished":
             event = training.train_epoch(threads) if training.epochs_are_left else training.finish()
             if file is not None:
-                checkpoint.write(file, own, training.position, training.tensors())
-            if on_progress is not None:
-                on_progress(event)
+                checkpoint.write(file, digest, training.position, training.tensors())
+            if course.on_progress is not None:
+                course.on_progress(event)
     return {
         name: (network.to("cpu").eval(), training.record(name))
         for name, network in training.networks.items()
@@ -174,43 +155,40 @@ class _JointTraining:
     def __init__(
         self,
         networks: Mapping[str, GrowingNetwork],
-        pictures: Pictures,
-        labels: Mapping[str, Column],
+        shown: LabelledPictures,
         *,
-        values: Mapping[str, Sequence[str]],
         options: Mapping[str, TrainingOptions],
         fine_tune: bool,
-        groups: Sequence[object] | None,
-        validation: npt.NDArray[np.int64] | None,
         rehearsal: Rehearsal | None,
     ) -> None:
+        values = shown.values
         self.options = dict(options)
         self.shared = next(iter(options.values()))
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
         # The largest first: the threads then end at about the same time.
         order = sorted(networks, key=lambda name: -networks[name].parameters_count)
         self.networks = {name: networks[name].to(self.device) for name in order}
-        codes = _codes(labels, values, order)
+        codes = _codes(shown.labels, values, order)
         again = None if rehearsal is None else _codes(rehearsal.labels, values, order)
         annotated = codes if again is None else np.concatenate([codes, again])
         self.rows = np.unique(annotated[(annotated != UNKNOWN).all(axis=1)], axis=0)
         self.columns = torch.from_numpy(self.rows).to(self.device)
-        self.shown = self._on_device(pictures, codes)
+        self.shown = self._on_device(shown.pixels, codes)
         self.again = (
             None
             if rehearsal is None or again is None
             else self._on_device(rehearsal.pictures, again)
         )
-        if validation is None:
+        if shown.validation is None:
             self.train, self.validation = split(
-                [tuple(own) for own in codes.tolist()],
+                [tuple(vector) for vector in codes.tolist()],
                 share=self.shared.validation_share,
                 seed=seed_of(self.shared.seed, TOGETHER, "split"),
-                groups=groups,
+                groups=shown.groups,
             )
         else:
-            self.train = np.setdiff1d(np.arange(len(codes)), validation)
-            self.validation = validation
+            self.train = np.setdiff1d(np.arange(len(codes)), shown.validation)
+            self.validation = shown.validation
         judged = self.validation if len(self.validation) else self.train
         self.judged = torch.from_numpy(judged).to(self.device)
         self.weights = {
@@ -224,7 +202,7 @@ class _JointTraining:
             network.is_shown(known[known != UNKNOWN])
         if not fine_tune:
             for network in self.networks.values():
-                network.standardise_by(pictures[self.train])
+                network.standardise_by(shown.pixels[self.train])
         self.planned = planned_epochs(
             self.shared.max_epochs, pictures=len(self.train), fine_tune=fine_tune
         )
@@ -242,8 +220,8 @@ class _JointTraining:
 
     def _on_device(self, pictures: Pictures, codes: npt.NDArray[np.int64]) -> _Shown:
         fitting = np.ones((len(codes), len(self.rows)), dtype=bool)
-        for own, column in zip(codes.T, self.rows.T, strict=True):
-            fitting &= (own[:, None] == column[None]) | (own[:, None] == UNKNOWN)
+        for known, column in zip(codes.T, self.rows.T, strict=True):
+            fitting &= (known[:, None] == column[None]) | (known[:, None] == UNKNOWN)
         return _Shown(
             torch.from_numpy(np.ascontiguousarray(pictures)).to(self.device),
             torch.from_numpy(codes).to(self.device),
@@ -309,7 +287,7 @@ class _JointTraining:
         names = list(self.networks)
         # Threads draw no random numbers: dropout comes after, in this one.
         seen = threads.map(lambda name: self.networks[name].embeddings(x), names)
-        leaves = [own.detach().requires_grad_() for own in seen]
+        leaves = [embedding.detach().requires_grad_() for embedding in seen]
         for optimizer in self.optimizers.values():
             optimizer.zero_grad(set_to_none=True)
             for group in optimizer.param_groups:
@@ -333,8 +311,10 @@ class _JointTraining:
         vectors = torch.logsumexp(joint[some], dim=1) - torch.logsumexp(fitting, dim=1)
         together = vectors.sum() / len(shown.x)
         alone = sum(
-            functional.cross_entropy(own, codes, weight=weight, ignore_index=UNKNOWN)
-            for own, codes, weight in zip(logits, shown.codes.T, self.weights.values(), strict=True)
+            functional.cross_entropy(of_feature, codes, weight=weight, ignore_index=UNKNOWN)
+            for of_feature, codes, weight in zip(
+                logits, shown.codes.T, self.weights.values(), strict=True
+            )
             if (codes != UNKNOWN).any()
         )
         return VECTOR_SHARE * together + (1.0 - VECTOR_SHARE) * alone
@@ -342,8 +322,8 @@ class _JointTraining:
     def _joint(self, logits: Sequence[torch.Tensor]) -> torch.Tensor:
         """The logits of all annotated vectors, shape (pictures, vectors)."""
         joint = torch.zeros((len(logits[0]), len(self.rows)), device=self.device)
-        for own, column in zip(logits, self.columns.T, strict=True):
-            joint = joint + own[:, column]
+        for of_feature, column in zip(logits, self.columns.T, strict=True):
+            joint = joint + of_feature[:, column]
         return joint
 
     def judged_logits(self) -> list[torch.Tensor]:
@@ -353,7 +333,7 @@ class _JointTraining:
             network.eval()
             with torch.inference_mode():
                 parts = torch.split(self.judged, _AT_ONCE)
-                found.append(torch.cat([network(self.shown.x[own]) for own in parts]))
+                found.append(torch.cat([network(self.shown.x[part]) for part in parts]))
         return found
 
     def score(self) -> list[float]:
@@ -363,9 +343,9 @@ class _JointTraining:
         """
         logits = self.judged_logits()
         judged = self.shown.of(self.judged)
-        for name, own, codes in zip(self.networks, logits, judged.codes.T, strict=True):
+        for name, of_feature, codes in zip(self.networks, logits, judged.codes.T, strict=True):
             known = codes != UNKNOWN
-            right = own.argmax(dim=1)[known] == codes[known]
+            right = of_feature.argmax(dim=1)[known] == codes[known]
             self.accuracy[name] = float(right.double().mean()) if len(right) else 1.0
         loss = float(self._loss(logits, judged))
         if not len(self.rows):
@@ -384,10 +364,12 @@ class _JointTraining:
         else:
             self.position.best = last
         pairs = []
-        for own, codes in zip(self.judged_logits(), self.shown.codes[self.judged].T, strict=True):
+        for of_feature, codes in zip(
+            self.judged_logits(), self.shown.codes[self.judged].T, strict=True
+        ):
             known = codes != UNKNOWN
-            if own.shape[1] > 1 and known.any():
-                pairs.append((own[known].cpu(), codes[known].cpu()))
+            if of_feature.shape[1] > 1 and known.any():
+                pairs.append((of_feature[known].cpu(), codes[known].cpu()))
         if pairs:
             temperature = fitted_temperature(*pairs)
             for network in self.networks.values():
@@ -441,28 +423,16 @@ def _codes(
 
 def _fingerprint(
     networks: Mapping[str, GrowingNetwork],
-    pictures: Pictures,
-    labels: Mapping[str, Column],
+    shown: LabelledPictures,
     *,
-    values: Mapping[str, Sequence[str]],
     options: Mapping[str, TrainingOptions],
-    groups: Sequence[object] | None,
-    validation: npt.NDArray[np.int64] | None,
     rehearsal: Rehearsal | None,
 ) -> str:
     digest = hashlib.sha256(TOGETHER.encode())
     for name, network in networks.items():
         digest.update(
             checkpoint.fingerprint(
-                pictures,
-                labels[name],
-                feature=name,
-                values=values[name],
-                options=options[name],
-                groups=groups,
-                validation=validation,
-                start_from=network,
-                rehearsal=rehearsal,
+                shown, name, options=options[name], start_from=network, rehearsal=rehearsal
             ).encode()
         )
     return digest.hexdigest()

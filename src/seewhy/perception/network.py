@@ -231,7 +231,9 @@ class GrowingNetwork(nn.Module):
         """Parameters that weight decay shrinks (matrices) and those it leaves alone (vectors)."""
 
         def of(matrices: bool) -> Iterator[nn.Parameter]:
-            return (p for p in self.parameters() if (p.ndim > 1) == matrices)
+            return (
+                parameter for parameter in self.parameters() if (parameter.ndim > 1) == matrices
+            )
 
         return list(of(True)), list(of(False))
 

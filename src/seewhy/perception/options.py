@@ -139,7 +139,7 @@ class TrainingOptions:
             value = getattr(self, name)
             if not low <= value <= high:
                 raise DomainError(f"{name} must be {low:g} to {high:g}, got {value!r}")
-        if not self.channels or not all(1 <= own <= 4096 for own in self.channels):
+        if not self.channels or not all(1 <= filters <= 4096 for filters in self.channels):
             raise DomainError(
                 f"channels must be one or more numbers from 1 to 4096, got {list(self.channels)}"
             )

@@ -6,25 +6,25 @@ import json
 import os
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from concurrent.futures import Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
 import torch
 
 from seewhy.errors import SeeWhyError
 from seewhy.files.folders import scratch_folder
+from seewhy.perception.course import QUIETLY, Course
 from seewhy.perception.events import FeatureRecord, Progress, TrainingEvent
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.one_thread import one_thread
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
-from seewhy.perception.training import Pictures, train_network
+from seewhy.perception.training import train_network
 
 __all__ = ["Trained", "train_networks"]
 
@@ -33,18 +33,12 @@ _POLL = 0.2  # seconds between looks at how far the processes are
 
 
 def train_networks(
-    pictures: Pictures,
-    labels: Mapping[str, Sequence[str | None]],
+    shown: LabelledPictures,
     *,
-    values: Mapping[str, Sequence[str]],
     options: Mapping[str, TrainingOptions],
-    groups: Sequence[object] | None = None,
-    validation: npt.NDArray[np.int64] | None = None,
-    checkpoints: Path | None = None,
     start_from: Mapping[str, GrowingNetwork] | None = None,
     rehearsal: Rehearsal | None = None,
-    workers: int = -1,
-    on_progress: Progress | None = None,
+    course: Course = QUIETLY,
 ) -> dict[str, Trained]:
     """Train one network a feature; see :func:`~seewhy.perception.training.train_network`.
 
@@ -65,38 +59,33 @@ def train_networks(
     earlier = start_from or {}
     arguments: dict[str, dict[str, Any]] = {
         name: {
-            "labels": column,
             "feature": name,
-            "values": values[name],
             "options": options[name],
-            "groups": groups,
-            "validation": validation,
-            "checkpoints": checkpoints,
             "start_from": earlier.get(name),
             "rehearsal": rehearsal if name in earlier else None,
         }
-        for name, column in labels.items()
+        for name in shown.labels
     }
     if not arguments:
         return {}
-    at_once = min(len(labels), cpu_count() if workers < 1 else workers)
+    at_once = min(len(arguments), cpu_count() if course.workers < 1 else course.workers)
     if at_once < 2 or torch.cuda.is_available():
-        return {name: _on_one_thread(pictures, own, on_progress) for name, own in arguments.items()}
-    return _in_processes(pictures, arguments, at_once, on_progress)
+        return {name: _on_one_thread(shown, of_one, course) for name, of_one in arguments.items()}
+    return _in_processes(shown, arguments, at_once, course)
 
 
 def _on_one_thread(
-    pictures: Pictures, arguments: Mapping[str, Any], on_progress: Progress | None
+    shown: LabelledPictures, arguments: Mapping[str, Any], course: Course
 ) -> Trained:
     with one_thread():
-        return train_network(pictures, on_progress=on_progress, **arguments)
+        return train_network(shown, course=course, **arguments)
 
 
 def _in_processes(
-    pictures: Pictures,
+    shown: LabelledPictures,
     arguments: Mapping[str, Mapping[str, Any]],
     at_once: int,
-    on_progress: Progress | None,
+    course: Course,
 ) -> dict[str, Trained]:
     from loky import ProcessPoolExecutor
 
@@ -109,15 +98,21 @@ def _in_processes(
         finished = False
         try:
             running: dict[str, Future[Trained]] = {
-                name: executor.submit(_train_and_tell, pictures, own, events[name])
-                for name, own in arguments.items()
+                name: executor.submit(
+                    _train_and_tell,
+                    shown.of_features([name]),
+                    arguments_of_one,
+                    course.checkpoints,
+                    events[name],
+                )
+                for name, arguments_of_one in arguments.items()
             }
             read = dict.fromkeys(events, 0)
             open_futures = set(running.values())
             while open_futures:
                 done, open_futures = wait(open_futures, timeout=_POLL)
                 for name, file in events.items():
-                    read[name] = _tell_new(file, read[name], on_progress)
+                    read[name] = _tell_new(file, read[name], course.on_progress)
                 for future in done:
                     future.result()  # an error of one ends all
             finished = True
@@ -145,11 +140,15 @@ def _end_with(parent: int) -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-def _train_and_tell(pictures: Pictures, arguments: Mapping[str, Any], events: Path) -> Trained:
+def _train_and_tell(
+    shown: LabelledPictures, arguments: Mapping[str, Any], checkpoints: Path | None, events: Path
+) -> Trained:
     with events.open("a", encoding="utf-8", buffering=1) as stream:
-        return _on_one_thread(
-            pictures, arguments, lambda event: print(json.dumps(asdict(event)), file=stream)
+        course = Course(
+            checkpoints=checkpoints,
+            on_progress=lambda event: print(json.dumps(asdict(event)), file=stream),
         )
+        return _on_one_thread(shown, arguments, course)
 
 
 def _tell_new(file: Path, read: int, on_progress: Progress | None) -> int:

@@ -273,7 +273,7 @@ def _reduction(image: Image.Image, size: int) -> int:
 
 def _decoded(image: Image.Image, factor: int) -> Image.Image:
     """The whole picture in red, green and blue, on white, its sides divided by a number."""
-    deep_colour = image.mode not in ("I", "F") and any(";16" in str(t) for t in _tiles(image))
+    deep_colour = image.mode not in ("I", "F") and any(";16" in str(tile) for tile in _tiles(image))
     image.load()
     white = _white_of(image) if image.mode.startswith(("I", "F")) else 0.0
     if deep_colour and not white:

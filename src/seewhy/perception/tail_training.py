@@ -149,7 +149,7 @@ def train_tail(
             progress = (position.step + 0.5) / total
             for group, rate in zip(optimizer.param_groups, largest, strict=True):
                 group["lr"] = rate * one_cycle(progress, rising=schedule.rising, least=0.0)
-            _step(tail, optimizer, shown, {name: own[batch] for name, own in answers.items()})
+            _step(tail, optimizer, shown, {name: column[batch] for name, column in answers.items()})
             position.step += 1
             last = position.step == total
             if kept is not None and (last or time.monotonic() - saved >= SAVED_EVERY):

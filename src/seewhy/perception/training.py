@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +16,9 @@ from seewhy.perception import checkpoint
 from seewhy.perception.augmentation import augment
 from seewhy.perception.calibration import fitted_temperature
 from seewhy.perception.checkpoint import Position, Weights
-from seewhy.perception.events import FeatureRecord, Kind, Progress, TrainingEvent
+from seewhy.perception.course import QUIETLY, Course
+from seewhy.perception.events import FeatureRecord, Kind, TrainingEvent
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.labels import labelled, value_weights
 from seewhy.perception.network import GrowingNetwork, deepest
 from seewhy.perception.optimisation import (
@@ -64,18 +65,13 @@ def _more_for(pictures: int) -> float:
 
 
 def train_network(
-    pictures: Pictures,
-    labels: Sequence[str | None],
-    *,
+    shown: LabelledPictures,
     feature: str,
-    values: Sequence[str],
+    *,
     options: TrainingOptions,
-    groups: Sequence[object] | None = None,
-    validation: Indices | None = None,
-    checkpoints: Path | None = None,
     start_from: GrowingNetwork | None = None,
     rehearsal: Rehearsal | None = None,
-    on_progress: Progress | None = None,
+    course: Course = QUIETLY,
 ) -> tuple[GrowingNetwork, FeatureRecord]:
     """Grow and train the network of one feature.
 
@@ -86,34 +82,23 @@ def train_network(
 
     Parameters
     ----------
-    pictures : ndarray of uint8, shape (n, size, size, 3)
-        The pictures.
-    labels : sequence of str or None, length n
-        The feature's value in each picture; pictures with None are left out.
+    shown : LabelledPictures
+        Those without a label of the feature are left out. Where they do not say on which ones to
+        validate, ``options.validation_share`` of them are drawn, some of every value.
     feature : str
-        Its name, for messages, checkpoints and seeds.
-    values : sequence of str
-        All values that the feature can have; the order of the logits.
+        Its name, for messages, checkpoints and seeds as well.
     options : TrainingOptions
         See there.
-    groups : sequence, length n, optional
-        Pictures of one group (of one scene, say) are never divided between training and
-        validation.
-    validation : ndarray of int64, optional
-        Indices of the pictures to validate on; without it ``options.validation_share`` of them
-        are drawn, some of every value.
-    checkpoints : Path, optional
-        A folder. After every epoch the state is written to one file in it, and a call with the
-        same data and options goes on from there and ends with the same weights as a call that
-        was never interrupted. A file of other data or options, or a damaged one, is written
-        over.
     start_from : GrowingNetwork, optional
         Its convolutions (and its head, where values and size agree) are trained on with half the
         epochs and a third of the learning rate; nothing grows.
     rehearsal : Rehearsal, optional
         Pictures that ``start_from`` was trained on, to go over again.
-    on_progress : callable, optional
-        Called with a :class:`TrainingEvent` after the checkpoint of each epoch is written.
+    course : Course
+        With checkpoints, the state is written to one file after every epoch, and a call with the
+        same data and options goes on from there and ends with the same weights as a call that was
+        never interrupted. A file of other data or options, or a damaged one, is written over.
+        ``on_progress`` is called after the checkpoint of each epoch is written.
 
     Returns
     -------
@@ -137,49 +122,29 @@ def train_network(
     --------
     >>> pictures = np.zeros((20, 16, 16, 3), dtype=np.uint8)
     >>> pictures[::2] = 200
-    >>> network, record = train_network(
-    ...     pictures,
-    ...     ["on", "off"] * 10,
-    ...     feature="light",
-    ...     values=["on", "off"],
-    ...     options=TrainingOptions(max_epochs=2, growing_epochs=1),
+    >>> shown = LabelledPictures(
+    ...     pictures, {"light": ["on", "off"] * 10}, {"light": ["on", "off"]}
     ... )
+    >>> options = TrainingOptions(max_epochs=2, growing_epochs=1)
+    >>> network, record = train_network(shown, "light", options=options)
     >>> record.layers
     'conv 3→8, pool, dense 64, dropout 0.5, logits 2'
     """
-    chosen, targets = labelled(labels, feature=feature, values=values)
+    on_progress = course.on_progress
+    _, targets = _labelled(shown, feature)
     if len(np.unique(targets)) == 1 and start_from is None:
-        return _constant(pictures[chosen], targets, feature, values, options, on_progress)
+        return _constant(shown, feature, options, on_progress)
 
     training = _Training(
-        pictures[chosen],
-        targets,
-        feature=feature,
-        values=len(values),
-        options=options,
-        groups=None if groups is None else [groups[i] for i in chosen],
-        validation=None if validation is None else np.flatnonzero(np.isin(chosen, validation)),
-        start_from=start_from,
-        rehearsed=None if rehearsal is None else rehearsal.pictures,
-        rehearsed_targets=None
-        if rehearsal is None
-        else labelled(rehearsal.labels[feature], feature=feature, values=values)[1],
+        shown, feature, options=options, start_from=start_from, rehearsal=rehearsal
     )
-    file, found, own = None, None, ""
-    if checkpoints is not None:
-        file = checkpoint.checkpoint_file(checkpoints, feature)
-        own = checkpoint.fingerprint(
-            pictures,
-            labels,
-            feature=feature,
-            values=values,
-            options=options,
-            groups=groups,
-            validation=validation,
-            start_from=start_from,
-            rehearsal=rehearsal,
+    file, found, digest = None, None, ""
+    if course.checkpoints is not None:
+        file = checkpoint.checkpoint_file(course.checkpoints, feature)
+        digest = checkpoint.fingerprint(
+            shown, feature, options=options, start_from=start_from, rehearsal=rehearsal
         )
-        found = checkpoint.read(file, own, Position)
+        found = checkpoint.read(file, digest, Position)
     if found is None:
         training.begin()
     else:
@@ -195,7 +160,7 @@ def train_network(
         else:
             event = training.finish()
         if file is not None:
-            checkpoint.write(file, own, training.position, training.tensors())
+            checkpoint.write(file, digest, training.position, training.tensors())
         if on_progress is not None:
             on_progress(event)
 
@@ -218,17 +183,12 @@ class _Training:
 
     def __init__(
         self,
-        pictures: Pictures,
-        targets: Indices,
-        *,
+        shown: LabelledPictures,
         feature: str,
-        values: int,
+        *,
         options: TrainingOptions,
-        groups: Sequence[object] | None,
-        validation: Indices | None,
         start_from: GrowingNetwork | None,
-        rehearsed: Pictures | None,
-        rehearsed_targets: Indices | None,
+        rehearsal: Rehearsal | None,
     ) -> None:
         if start_from is not None:
             options = replace(
@@ -238,28 +198,33 @@ class _Training:
                 standard=start_from.standard,
             )
         self.feature, self.options, self.start_from = feature, options, start_from
-        if validation is None:
+        chosen, targets = _labelled(shown, feature)
+        pictures, values = shown.pixels[chosen], len(shown.values[feature])
+        if shown.validation is None:
             self.train, self.validation = split(
                 targets.tolist(),
                 share=options.validation_share,
                 seed=seed_of(options.seed, feature, "split"),
-                groups=groups,
+                groups=None if shown.groups is None else [shown.groups[i] for i in chosen],
             )
         else:
-            self.train = np.setdiff1d(np.arange(len(targets)), validation)
-            self.validation = validation
+            self.validation = np.flatnonzero(np.isin(chosen, shown.validation))
+            self.train = np.setdiff1d(np.arange(len(targets)), self.validation)
         self.device = torch.device("cuda" if torch.cuda.is_available() else "cpu")
         self.x = torch.from_numpy(np.ascontiguousarray(pictures)).to(self.device)
         self.y = torch.from_numpy(targets).to(self.device)
         self.rehearsed: tuple[torch.Tensor, torch.Tensor] | None = None
-        if rehearsed is not None and rehearsed_targets is not None:
-            self.rehearsed = (
-                torch.from_numpy(np.ascontiguousarray(rehearsed)).to(self.device),
-                torch.from_numpy(rehearsed_targets).to(self.device),
+        trained_targets = targets[self.train]
+        if rehearsal is not None:
+            _, again = labelled(
+                rehearsal.labels[feature], feature=feature, values=shown.values[feature]
             )
-        self.trained_values = np.concatenate(
-            [targets[self.train], [] if rehearsed_targets is None else rehearsed_targets]
-        ).astype(np.int64)
+            self.rehearsed = (
+                torch.from_numpy(np.ascontiguousarray(rehearsal.pictures)).to(self.device),
+                torch.from_numpy(again).to(self.device),
+            )
+            trained_targets = np.concatenate([trained_targets, again])
+        self.trained_values = trained_targets.astype(np.int64)
         # With too few pictures to spare any, those of training must do.
         judged = self.validation if len(self.validation) else self.train
         self.judged = torch.from_numpy(judged).to(self.device)
@@ -460,15 +425,20 @@ def new_network(size: int, values: int, options: TrainingOptions) -> GrowingNetw
     )
 
 
+def _labelled(shown: LabelledPictures, feature: str) -> tuple[Indices, Indices]:
+    """The pictures with a label of the feature, and the index of each one's value."""
+    return labelled(shown.labels[feature], feature=feature, values=shown.values[feature])
+
+
 def _constant(
-    pictures: Pictures,
-    targets: Indices,
+    shown: LabelledPictures,
     feature: str,
-    values: Sequence[str],
     options: TrainingOptions,
-    on_progress: Progress | None,
+    on_progress: Callable[[TrainingEvent], None] | None,
 ) -> tuple[GrowingNetwork, FeatureRecord]:
     """Where only one value occurs nothing can be learned from the pictures: answer it always."""
+    chosen, targets = _labelled(shown, feature)
+    pictures, values = shown.pixels[chosen], shown.values[feature]
     with seeded(torch.device("cpu"), options.seed, feature, "first"):
         network = new_network(pictures.shape[1], len(values), options)
     network.standardise_by(pictures)

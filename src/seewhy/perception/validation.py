@@ -52,8 +52,8 @@ def split(
     # A group stands for its most frequent label (the first of equals).
     by_label: dict[object, list[list[int]]] = {}
     for indices in members.values():
-        own = [labels[i] for i in indices]
-        by_label.setdefault(max(own, key=own.count), []).append(indices)
+        group_labels = [labels[i] for i in indices]
+        by_label.setdefault(max(group_labels, key=group_labels.count), []).append(indices)
 
     rng = np.random.default_rng(seed)
     validation: list[int] = []

@@ -21,6 +21,7 @@ from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.history import History, read_history_file
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.signature import PredicateKind
+from seewhy.planning.actors import actor_places
 from seewhy.planning.execution.sensing import Sensing, SensingError, read_sensing
 from seewhy.planning.tables import MapTable, PlanningFile, SimulationTable
 from seewhy.planning.words import PlanningWords
@@ -85,15 +86,15 @@ class PlanningDomain:
     @property
     def sensors_err(self) -> bool:
         """Whether what is sensed may be wrong."""
-        return self.seen_by_networks or any(own.error for own in self.sensing)
+        return self.seen_by_networks or any(sensing.error for sensing in self.sensing)
 
     def statics(self, predicate: str) -> list[clingo.Symbol]:
         """The literals about a static that follow from the knowledge, sorted."""
         control = BoundedControl(
             "\n".join(fixed_rules(self.knowledge)), size=grounding_size(self.knowledge)
         )
-        literals = (own.symbol.arguments[0] for own in control.by_signature("holds", 1))
-        return sorted(own for own in literals if own.name == predicate)
+        literals = (atom.symbol.arguments[0] for atom in control.by_signature("holds", 1))
+        return sorted(literal for literal in literals if literal.name == predicate)
 
     def knowing(self, axioms: Iterable[Axiom]) -> PlanningDomain:
         """Return the domain with further axioms in its knowledge: what a robot has learned.
@@ -126,11 +127,11 @@ class PlanningDomain:
         """
         known = self.knowledge
         wanted = " ".join(statement.split()).rstrip(".")
-        kept = tuple(own for own in known.axioms if str(own).rstrip(".") != wanted)
+        kept = tuple(axiom for axiom in known.axioms if str(axiom).rstrip(".") != wanted)
         if len(kept) == len(known.axioms):
-            statements = [str(own).rstrip(".") for own in known.axioms]
+            statements = [str(axiom).rstrip(".") for axiom in known.axioms]
             head = wanted.split(" if ")[0]
-            alike = [own for own in statements if own.split(" if ")[0] == head]
+            alike = [candidate for candidate in statements if candidate.split(" if ")[0] == head]
             close = nearest(wanted, alike or statements, at_least=0.0 if alike else 60.0)
             remedy = f"did you mean '{close}'?" if close else f"see {known.file}"
             raise PlanningError(f"the knowledge has no axiom '{wanted}'; {remedy}")
@@ -146,7 +147,7 @@ def bundled_planning_domains() -> tuple[str, ...]:
     True
     """
     home = Path(__file__).parents[1] / "domains"
-    return tuple(sorted(own.parent.name for own in home.glob(f"*/{FILE}")))
+    return tuple(sorted(file.parent.name for file in home.glob(f"*/{FILE}")))
 
 
 def plans(name: str | Path) -> bool:
@@ -205,9 +206,9 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
     for keys, problem in (*_problems(table, knowledge), *_picture_problems(table, features)):
         raise DomainError(f"{path}:{line_of(source, keys)}: {problem}")
     sensing = []
-    for number, own in enumerate(table.sensing):
+    for number, entry in enumerate(table.sensing):
         try:
-            sensing.append(read_sensing(own.literal, own.where, knowledge, error=own.error))
+            sensing.append(read_sensing(entry.literal, entry.where, knowledge, error=entry.error))
         except SensingError as problem:
             line = line_of(source, ("sensing", str(number), problem.part))
             raise DomainError(f"{path}:{line}: {problem}") from None
@@ -232,6 +233,12 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
             table.planning.robot,
             possessives=table.possessives,
             statics=table.statics,
+            actors=actor_places(knowledge.signature, table.actions, robot=table.planning.robot),
+            fixed=frozenset(
+                name
+                for name, predicate in knowledge.signature.predicates.items()
+                if predicate.kind is PredicateKind.STATIC
+            ),
         ),
         robot=table.planning.robot,
         horizon=table.planning.horizon,
@@ -264,7 +271,7 @@ def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple
         n: len(p.sorts) for n, p in signature.predicates.items() if p.kind is PredicateKind.STATIC
     }
     actions = {n: len(p.sorts) for n, p in signature.predicates.items() if p.kind.is_action}
-    members = {own for sort in signature.sorts.values() for own in sort.members or ()}
+    members = {member for sort in signature.sorts.values() for member in sort.members or ()}
     for sort in signature.sorts.values():
         if sort.members is None:
             yield ("planning",), f"the sort '{sort.name}' has no members ({sort.location})"
@@ -353,9 +360,9 @@ def _map_problems(table: MapTable, knowledge: Knowledge) -> Iterator[tuple[tuple
         if name not in known:
             yield ("map", key), f"'{name}' is no {kind}; {did_you_mean(name, known)}"
             continue
-        own = signature.predicates[name].sorts
-        if len(own) != len(sorts) or any(
-            b not in (None, a) for a, b in zip(own, sorts, strict=True)
+        declared = signature.predicates[name].sorts
+        if len(declared) != len(sorts) or any(
+            b not in (None, a) for a, b in zip(declared, sorts, strict=True)
         ):
             shown = ", ".join(sort or "thing" for sort in sorts)
             yield (
@@ -366,6 +373,6 @@ def _map_problems(table: MapTable, knowledge: Knowledge) -> Iterator[tuple[tuple
 
 def _said(tables: Mapping[str, object]) -> dict[str, dict[str, str]]:
     return {
-        name: {key: text for key, text in vars(own).items() if text is not None}
-        for name, own in tables.items()
+        name: {key: text for key, text in vars(table).items() if text is not None}
+        for name, table in tables.items()
     }

@@ -102,8 +102,8 @@ def example_fluent(knowledge: Knowledge) -> str:
     'closed(hall)'
     """
     signature = knowledge.signature
-    for own in signature.predicates.values():
-        if own.kind.is_fluent:
-            arguments = [next(iter(signature.members(sort)), sort) for sort in own.sorts]
-            return f"{own.name}({', '.join(arguments)})" if arguments else own.name
+    for predicate in signature.predicates.values():
+        if predicate.kind.is_fluent:
+            arguments = [next(iter(signature.members(sort)), sort) for sort in predicate.sorts]
+            return f"{predicate.name}({', '.join(arguments)})" if arguments else predicate.name
     return "fluent(argument)"

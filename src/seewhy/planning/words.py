@@ -10,6 +10,7 @@ import clingo
 
 from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis.diagnosis import Surprise, SurpriseKind
+from seewhy.planning.predicate_words import named_clause, past_clause, past_form
 from seewhy.planning.tables import ActionTable, FluentTable
 
 _SLOT = re.compile(r"\{(\d+)\}")
@@ -18,6 +19,9 @@ _SLOT = re.compile(r"\{(\d+)\}")
 @dataclass(frozen=True)
 class PlanningWords:
     """The words of planning.toml; what it leaves out is said by its name.
+
+    ``fixed`` names the statics, whether or not there are words for them; ``actors`` says which
+    argument of an action is whoever does it.
 
     Examples
     --------
@@ -34,25 +38,60 @@ class PlanningWords:
     robot: str | None = None
     possessives: Mapping[str, str] = field(default_factory=dict)
     statics: Mapping[str, FluentTable] = field(default_factory=dict)
+    fixed: frozenset[str] = frozenset()
+    actors: Mapping[str, int] = field(default_factory=dict)
 
     def name(self, term: clingo.Symbol | str) -> str:
         """How a thing is called."""
         key = str(term)
         return self.things.get(key, key.strip('"').replace("_", " "))
 
-    def say(self, literal: clingo.Symbol) -> str:
-        """A literal about a fluent as a clause."""
-        table = self.fluents.get(literal.name)
+    def clauses(self, predicate: str, arity: int) -> tuple[str, str]:
+        """The clauses, with slots, that say that a fluent or static holds, and that it does not.
+
+        Examples
+        --------
+        >>> PlanningWords({}, {}, {}).clauses("next_to", 2)
+        ('{0} is next to {1}', '{0} is not next to {1}')
+        """
+        table = self.fluents.get(predicate) or self.statics.get(predicate)
         if table is None:
-            return _plain(literal, self)
-        if literal.positive:
-            return self._filled(table.say, literal.arguments)
-        if table.deny is not None:
-            return self._filled(table.deny, literal.arguments)
-        return f"it is not so that {self._filled(table.say, literal.arguments)}"
+            return named_clause(predicate, arity)
+        return table.say, table.deny or f"it is not so that {table.say}"
+
+    def say(self, literal: clingo.Symbol) -> str:
+        """A literal about a fluent or static as a clause."""
+        holds, denied = self.clauses(literal.name, len(literal.arguments))
+        return self._filled(holds if literal.positive else denied, literal.arguments)
+
+    def said(self, literal: clingo.Symbol) -> str:
+        """A literal as a clause in the past tense; what never changes is said in the present.
+
+        Examples
+        --------
+        >>> words = PlanningWords({}, {"has": FluentTable(say="{0} holds {1}")}, {})
+        >>> words.said(clingo.parse_term("has(bob,key)"))
+        'bob held key'
+        """
+        holds, denied = self.clauses(literal.name, len(literal.arguments))
+        clause = holds if literal.positive else denied
+        clause = clause if literal.name in self.fixed else past_clause(clause)
+        return self._filled(clause, literal.arguments)
+
+    def actor(self, action: clingo.Symbol) -> str | None:
+        """Whoever does an action, where it is another than the robot that speaks."""
+        place = self.actors.get(action.name)
+        if place is None or str(action.arguments[place]) == self.robot:
+            return None
+        return str(action.arguments[place])
 
     def do(self, action: clingo.Symbol) -> str:
-        """An action as what is to be done: "move to the kitchen"."""
+        """An action as what is to be done: "move to the kitchen", "let the other robot move"."""
+        actor, act = self.actor(action), self.act(action)
+        return act if actor is None else f"let {self.name(actor)} {act}"
+
+    def act(self, action: clingo.Symbol) -> str:
+        """An action as what whoever does it is to do: "move to the kitchen"."""
         table = self.actions.get(action.name)
         if table is None:
             return _plain(action, self)
@@ -61,14 +100,18 @@ class PlanningWords:
     def did(self, action: clingo.Symbol) -> str:
         """An action as what was done, "moved to the kitchen", or what happened as a clause."""
         table = self.actions.get(action.name)
-        return _plain(action, self) if table is None else self._filled(table.did, action.arguments)
+        if table is None:
+            verb, *rest = _plain(action, self).split(" ")
+            return " ".join([past_form(verb), *rest])
+        return self._filled(table.did, action.arguments)
 
     def happened(self, action: clingo.Symbol) -> str:
         """What was done or happened as a clause: "the robot moved to the kitchen"."""
         table = self.actions.get(action.name)
         if table is None or table.do is None:
             return self.did(action)
-        return f"{self.name(self.robot) if self.robot else 'the robot'} {self.did(action)}"
+        actor = self.actor(action) or self.robot
+        return f"{self.name(actor) if actor else 'the robot'} {self.did(action)}"
 
     def surprise(self, surprise: Surprise) -> str:
         """What a diagnosis assumes, as a clause: "Sally was not in the kitchen at first"."""
@@ -87,10 +130,10 @@ class PlanningWords:
         return _SLOT.sub(lambda slot: self.name(arguments[int(slot.group(1))]), text)
 
 
-def _plain(literal: clingo.Symbol, words: PlanningWords) -> str:
-    about = ", ".join(map(words.name, literal.arguments))
-    said = literal.name.replace("_", " ") + (f" ({about})" if about else "")
-    return said if literal.positive else f"not: {said}"
+def _plain(action: clingo.Symbol, words: PlanningWords) -> str:
+    about = ", ".join(map(words.name, action.arguments))
+    about = f"({about})" if len(action.arguments) > 1 else about
+    return " ".join(filter(None, [action.name.replace("_", " "), about]))
 
 
 def in_sequence(parts: Iterable[str]) -> str:

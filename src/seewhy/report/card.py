@@ -81,10 +81,12 @@ def draw_card(
 
 def _seen(reply: Reply) -> Iterator[str]:
     """A line for every feature, and for the class where a network saw it."""
-    for name, own in reply.features.items():
-        text = f"{name.replace('_', ' ')}: {own.value} (p = {own.probability:.2f})"
-        if own.overruled is not None:
-            text += f"; the network alone saw {own.overruled[0]} (p = {own.overruled[1]:.2f})"
+    for name, reading in reply.features.items():
+        text = f"{name.replace('_', ' ')}: {reading.value} (p = {reading.probability:.2f})"
+        if reading.overruled is not None:
+            text += (
+                f"; the network alone saw {reading.overruled[0]} (p = {reading.overruled[1]:.2f})"
+            )
         yield text
     if reply.classification.class_seen is not None:
         label, probability = reply.classification.class_seen

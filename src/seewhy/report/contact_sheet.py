@@ -42,7 +42,7 @@ def draw_contact_sheet(
         lines = [scene.label or "no class", *values]
         for number_of_line, line in enumerate(lines):
             fill = "#111111" if number_of_line == 0 else "#555555"
-            text = _fitted(line, lambda own: draw.textlength(own, font=font) <= size)
+            text = _fitted(line, lambda shortened: draw.textlength(shortened, font=font) <= size)
             draw.text((x, y + size + 2 + number_of_line * _LINE), text, fill=fill, font=font)
     return sheet
 

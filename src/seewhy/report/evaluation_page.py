@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
+from seewhy import __version__
 from seewhy.domain.tables import CLASS
 from seewhy.report.card import embedded
 from seewhy.report.html import rendered
@@ -70,7 +70,7 @@ def evaluation_page(
         wrong_classes=sum(picture.wrong_class for picture in evaluation.wrong),
         curve=evaluation.curve,
         curve_figure=draw_curve(evaluation.curve).svg if evaluation.curve else "",
-        version=version("seewhy"),
+        version=__version__,
         command=command,
     )
 

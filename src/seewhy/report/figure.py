@@ -59,9 +59,11 @@ class Figure:
 def text_lines(text: str, x: float, y: float, *, width: int, **attributes: str) -> tuple[str, int]:
     """Return wrapped text as SVG and the number of its lines; ``width`` in characters."""
     lines = wrap(text, width) or [""]
-    own = " ".join(f"{name.replace('_', '-')}='{value}'" for name, value in attributes.items())
+    attribute_text = " ".join(
+        f"{name.replace('_', '-')}='{value}'" for name, value in attributes.items()
+    )
     spans = "".join(
         f"<tspan x='{x:g}' y='{y + number * 15:g}'>{escape(line)}</tspan>"
         for number, line in enumerate(lines)
     )
-    return f"<text {own}>{spans}</text>", len(lines)
+    return f"<text {attribute_text}>{spans}</text>", len(lines)

@@ -108,16 +108,16 @@ def draw_floor_plan(
 
 def _occupants(x: float, y: float, inside: Sequence[Occupant]) -> list[str]:
     parts = []
-    for number, own in enumerate(inside):
+    for number, occupant in enumerate(inside):
         across = x + 30 * (number - (len(inside) - 1) / 2)
         down = y + 8
-        colour = "#d2691e" if own.is_robot else "#2e7d4f"
-        fill = colour if own.believed and own.true else "white"
-        dash = " stroke-dasharray='3 2'" if own.true and not own.believed else ""
+        colour = "#d2691e" if occupant.is_robot else "#2e7d4f"
+        fill = colour if occupant.believed and occupant.true else "white"
+        dash = " stroke-dasharray='3 2'" if occupant.true and not occupant.believed else ""
         parts.append(
             f"<circle cx='{across:.0f}' cy='{down - 4:.0f}' r='6' fill='{fill}' "
             f"stroke='{colour}' stroke-width='1.5'{dash}/>"
             f"<text x='{across:.0f}' y='{down + 16:.0f}' text-anchor='middle' font-size='10' "
-            f"fill='{colour}'>{escape(own.name)}</text>"
+            f"fill='{colour}'>{escape(occupant.name)}</text>"
         )
     return parts

@@ -85,22 +85,23 @@ def draw_lines(lines: Sequence[Line], labels: Sequence[str], *, across: str, up:
     parts.append(f"<g transform='translate(12 {_TOP + tall / 2:.1f}) rotate(-90)'>{named}</g>")
     for number, line in enumerate(lines):
         colour = COLOURS[number % len(COLOURS)]
-        own = [point for point in line.points if point.label in place]
-        band = [f"{place[p.label]:.1f},{y(p.high):.1f}" for p in own]
-        band += [f"{place[p.label]:.1f},{y(p.low):.1f}" for p in reversed(own)]
+        points = [point for point in line.points if point.label in place]
+        band = [f"{place[point.label]:.1f},{y(point.high):.1f}" for point in points]
+        band += [f"{place[point.label]:.1f},{y(point.low):.1f}" for point in reversed(points)]
         covers = any(line.points == other.points for other in lines[:number])
         dashes = " stroke-dasharray='8 8'" if covers else ""  # or the other's line is not seen
-        path = " ".join(f"{place[p.label]:.1f},{y(p.value):.1f}" for p in own)
+        path = " ".join(f"{place[point.label]:.1f},{y(point.value):.1f}" for point in points)
         parts.append(
             f"<polygon points='{' '.join(band)}' fill='{colour}' fill-opacity='0.15'/>"
             f"<polyline points='{path}' fill='none' stroke='{colour}' stroke-width='2'"
             f"{dashes}/>"
         )
         parts += [
-            f"<circle cx='{place[p.label]:.1f}' cy='{y(p.value):.1f}' r='3' fill='{colour}'>"
-            f"<title>{escape(line.name)}, {escape(p.label)}: {100 * p.value:.1f} % "
-            f"({100 * p.low:.1f} to {100 * p.high:.1f} %)</title></circle>"
-            for p in own
+            f"<circle cx='{place[point.label]:.1f}' cy='{y(point.value):.1f}' r='3' "
+            f"fill='{colour}'><title>{escape(line.name)}, {escape(point.label)}: "
+            f"{100 * point.value:.1f} % ({100 * point.low:.1f} to {100 * point.high:.1f} %)"
+            "</title></circle>"
+            for point in points
         ]
         base = _HEIGHT + 18 * number + 8
         parts.append(
@@ -112,9 +113,11 @@ def draw_lines(lines: Sequence[Line], labels: Sequence[str], *, across: str, up:
 
 def _scale(lines: Sequence[Line]) -> tuple[float, float, float]:
     """Least and greatest value of the axis and the distance of its ticks: round shares."""
-    values = [own for line in lines for point in line.points for own in (point.low, point.high)]
+    values = [share for line in lines for point in line.points for share in (point.low, point.high)]
     least, most = (min(values), max(values)) if values else (0.0, 1.0)
-    step = next((own for own in (0.01, 0.02, 0.05, 0.1) if (most - least) / own <= 7.0), 0.2)
+    step = next(
+        (distance for distance in (0.01, 0.02, 0.05, 0.1) if (most - least) / distance <= 7.0), 0.2
+    )
     low = max(0.0, step * int(least / step + 1e-9))
     high = min(1.0, step * math.ceil(most / step - 1e-9))
     if high - low < step:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
+from seewhy import __version__
 from seewhy.data.dataset import Scene
 from seewhy.dialogue.question import Asks
 from seewhy.evaluation import Evaluation
@@ -62,7 +62,7 @@ def report_page(
             }
             for key in domain.features
         ],
-        version=version("seewhy"),
+        version=__version__,
         command=command,
     )
 
@@ -80,15 +80,15 @@ def _headline(evaluation: Evaluation) -> list[tuple[str, float, str]]:
 
 def _scene(agent: Agent, scene: Scene, replies: Sequence[Reply]) -> dict[str, Any]:
     domain = agent.domain
-    own = replies[0].classification
+    classification = replies[0].classification
     true = domain.named(scene.vector)
     return {
         "picture": embedded(scene.picture, size=240),
-        "said": domain.classes[own.label].say if own.label else "undecided",
+        "said": domain.classes[classification.label].say if classification.label else "undecided",
         "truth": domain.classes[scene.label].say if scene.label else "not annotated",
-        "right": scene.label in (own.label, None),
-        "method": own.method,
-        "class_seen": own.class_seen,
+        "right": scene.label in (classification.label, None),
+        "method": classification.method,
+        "class_seen": classification.class_seen,
         "features": [
             {
                 "name": domain.features[key].name,
@@ -98,14 +98,15 @@ def _scene(agent: Agent, scene: Scene, replies: Sequence[Reply]) -> dict[str, An
                 "truth": true[key],
                 "wrong": true[key] is not None and true[key] != reading.value,
             }
-            for key, reading in own.features.items()
+            for key, reading in classification.features.items()
         ],
         "replies": [
             {
                 "question": f"{reply.question.text}?",
                 "text": reply.text,
                 "figure": draw_justification(reply.justification).svg,
-                "open": reply.question.asks is Asks.WHY_CLASS and reply.question.label == own.label,
+                "open": reply.question.asks is Asks.WHY_CLASS
+                and reply.question.label == classification.label,
             }
             for reply in replies
         ],

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from importlib.metadata import version
 from typing import Any
 
 import clingo
 
+from seewhy import __version__
 from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.domain import PlanningDomain
@@ -42,7 +42,7 @@ def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) ->
                 "said": narrate_step(words, step),
                 "plan": list(map(words.do, step.plan)),
                 "unseen": unseen,
-                "wrong": [words.say(own) for own in _wrong(step.believed, world)],
+                "wrong": [words.say(literal) for literal in _wrong(step.believed, world)],
                 "map": drawn.svg(number) if drawn else "",
                 "picture": _picture(words, simulation, number),
             }
@@ -55,7 +55,7 @@ def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) ->
         ended=narrate_end(run),
         achieved=simulation.achieved,
         has_map=drawn is not None,
-        version=version("seewhy"),
+        version=__version__,
         command=command,
     )
 
@@ -65,26 +65,30 @@ def _picture(words: PlanningWords, simulation: Simulation, number: int) -> dict[
     if not simulation.looks:
         return None
     look = simulation.looks[number]
-    as_read = {own: own if holds else complement_of(own) for own, holds in look.read.items()}
+    as_read = {
+        fluent: fluent if holds else complement_of(fluent) for fluent, holds in look.read.items()
+    }
     return {
         "data": embedded(look.picture, size=_PICTURE),
-        "read": [words.say(as_read[own]) for own, holds in look.read.items() if holds],
-        "misread": [words.say(as_read[own]) for own in look.misread],
+        "read": [words.say(as_read[fluent]) for fluent, holds in look.read.items() if holds],
+        "misread": [words.say(as_read[fluent]) for fluent in look.misread],
     }
 
 
 def _wrong(believed: State, world: World) -> list[clingo.Symbol]:
     """What is believed and not so; of what is denied, only where nothing affirms the opposite."""
     return sorted(
-        own for own in believed.holds if own not in world and (own.positive or _rest(own, believed))
+        literal
+        for literal in believed.holds
+        if literal not in world and (literal.positive or _rest(literal, believed))
     )
 
 
 def _rest(denied: clingo.Symbol, believed: State) -> bool:
     same = denied.arguments[:-1]
     return not any(
-        own.positive and own.name == denied.name and own.arguments[:-1] == same
-        for own in believed.holds
+        literal.positive and literal.name == denied.name and literal.arguments[:-1] == same
+        for literal in believed.holds
     )
 
 
@@ -98,7 +102,7 @@ class _Map:
         self.places = list(domain.knowledge.signature.members(table.places))
         statics = domain.statics(table.links)
         self.links = sorted(
-            {tuple(sorted(map(str, own.arguments))) for own in statics if own.positive}
+            {tuple(sorted(map(str, link.arguments))) for link in statics if link.positive}
         )
         self.at = layout(self.places, self.links)  # type: ignore[arg-type]
 
@@ -107,24 +111,24 @@ class _Map:
         step, world = self.simulation.run.steps[number], self.simulation.worlds[number]
         robot, where = self.domain.robot, self.table.where
         occupants: dict[str, list[Occupant]] = {}
-        for own in sorted({*step.believed.positive(where), *_of(where, world)}):
-            thing, place = map(str, own.arguments)
+        for literal in sorted({*step.believed.positive(where), *_of(where, world)}):
+            thing, place = map(str, literal.arguments)
             occupants.setdefault(place, []).append(
                 Occupant(
                     name=self.domain.words.name(thing).removeprefix("the "),
-                    believed=own in step.believed.holds,
-                    true=own in world,
+                    believed=literal in step.believed.holds,
+                    true=literal in world,
                     is_robot=thing == robot,
                 )
             )
         path = [
-            str(own.arguments[1])
+            str(literal.arguments[1])
             for past in self.simulation.worlds[: number + 1]
-            for own in _of(where, past)
-            if str(own.arguments[0]) == robot
+            for literal in _of(where, past)
+            if str(literal.arguments[0]) == robot
         ]
         closed = self.table.closed
-        shaded = [str(own.arguments[0]) for own in _of(closed, world)] if closed else []
+        shaded = [str(literal.arguments[0]) for literal in _of(closed, world)] if closed else []
         names = {place: self.domain.words.name(place) for place in self.places}
         return draw_floor_plan(
             self.at,
@@ -137,4 +141,4 @@ class _Map:
 
 
 def _of(predicate: str, world: World) -> list[clingo.Symbol]:
-    return sorted(own for own in world if own.positive and own.name == predicate)
+    return sorted(literal for literal in world if literal.positive and literal.name == predicate)

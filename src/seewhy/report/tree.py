@@ -56,8 +56,8 @@ def _place(node: TreeNode, depth: int, leaves: list[_Placed], accepted: Collecti
         leaves.append(leaf)
         return leaf
     below = tuple(_place(branch, depth + 1, leaves, accepted) for branch in node.branches)
-    x = sum(own.x for own in below) / len(below)
-    return _Placed(node, x, depth, below, marked=any(own.marked for own in below))
+    x = sum(branch.x for branch in below) / len(below)
+    return _Placed(node, x, depth, below, marked=any(branch.marked for branch in below))
 
 
 def _draw(domain: Domain, placed: _Placed, parts: list[str]) -> None:
@@ -68,11 +68,11 @@ def _draw(domain: Domain, placed: _Placed, parts: list[str]) -> None:
             f"<path d='M{x:g},{y + _BOX} L{below.x:g},{top}' "
             f"{_line(below, '#999999')} fill='none'/>"
         )
-        own = domain.features[node.feature or ""]
+        feature = domain.features[node.feature or ""]
         allowed = below.node.allowed
-        said = say_values(domain, own.key, allowed) if allowed else "not known"
+        said = say_values(domain, feature.key, allowed) if allowed else "not known"
         said = (
-            said.replace(f"the {own.name} of {{it}} is ", "")
+            said.replace(f"the {feature.name} of {{it}} is ", "")
             .replace("{it} is ", "")
             .replace("{it} has ", "")
             .replace("{it} ", "")

@@ -53,10 +53,10 @@ def read_classes(domain: Domain) -> dict[int, SignClass]:
                     raise DomainError(f"{path}:1: the column '{column}' is missing; add it")
             for row in reader:
                 here = f"{path}:{reader.line_num}"
-                class_id, own = _read_row(row, domain, here)
+                class_id, sign_class = _read_row(row, domain, here)
                 if class_id in classes:
                     raise DomainError(f"{here}: the class_id {class_id} stands twice; remove one")
-                classes[class_id] = own
+                classes[class_id] = sign_class
         except (UnicodeDecodeError, csv.Error) as problem:
             raise DomainError(f"{path}: is no table ({problem}); save it as CSV in UTF-8") from None
     if not classes:

@@ -102,7 +102,7 @@ class ImportedDataset:
 @dataclass(frozen=True)
 class _Scene:
     image: str
-    own: SignClass
+    sign_class: SignClass
     split: str
     group: str
     region: tuple[int, int, int, int] | None
@@ -196,18 +196,20 @@ def _account(
     left_out: Iterable[LeftOut],
     classes: Mapping[int, SignClass],
 ) -> ImportedHalf:
-    counts = Counter(scene.own.key for scene in scenes)
+    counts = Counter(scene.sign_class.key for scene in scenes)
     return ImportedHalf(
         source=str(half.container.path / half.folder),
         photographs=len(scenes),
         official=PHOTOGRAPHS[half.split],
-        classes={own.key: counts[own.key] for own in classes.values()},
+        classes={sign_class.key: counts[sign_class.key] for sign_class in classes.values()},
         groups=len({scene.group or scene.image for scene in scenes}),
         repeated_rows=half.repeated_rows,
         left_out=tuple(left_out),
         rows_without_file=half.rows_without_file,
         files_without_row=half.files_without_row,
-        without_pole=tuple(p.name for p in half.photographs if not p.group),
+        without_pole=tuple(
+            photograph.name for photograph in half.photographs if not photograph.group
+        ),
     )
 
 
@@ -228,7 +230,7 @@ def _write_picture(
     region = photograph.region
     return _Scene(
         image=name,
-        own=classes[photograph.class_id],
+        sign_class=classes[photograph.class_id],
         split=half.split,
         group=photograph.group,
         region=region.within(*picture.size) if region is not None else None,
@@ -281,14 +283,20 @@ def _is_written(path: Path, origin: str) -> bool:
 
 def _scenes(scenes: Sequence[_Scene], domain: Domain) -> str:
     rows = (
-        (s.image, s.own.key, *(s.own.features[key] for key in domain.features), s.split, s.group)
-        for s in scenes
+        (
+            scene.image,
+            scene.sign_class.key,
+            *(scene.sign_class.features[key] for key in domain.features),
+            scene.split,
+            scene.group,
+        )
+        for scene in scenes
     )
     return _csv(("image", "class", *domain.features, "split", "group"), rows)
 
 
 def _regions(scenes: Sequence[_Scene]) -> str:
-    rows = ((s.image, *s.region) for s in scenes if s.region is not None)
+    rows = ((scene.image, *scene.region) for scene in scenes if scene.region is not None)
     return _csv(("image", "left", "top", "right", "bottom"), rows)
 
 

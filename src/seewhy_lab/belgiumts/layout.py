@@ -55,15 +55,15 @@ class Region:
         True
         """
         swapped = Region(self.height, self.width, self.top, self.left, self.bottom, self.right)
-        for own in (swapped, self):
-            scale = max(width, height) / max(own.width, own.height)
+        for region in (swapped, self):
+            scale = max(width, height) / max(region.width, region.height)
             # One pixel of leeway: whoever rescaled the picture rounded its sides.
-            if abs(own.width * scale - width) <= 1 and abs(own.height * scale - height) <= 1:
+            if abs(region.width * scale - width) <= 1 and abs(region.height * scale - height) <= 1:
                 return (
-                    max(0, round(own.left * scale)),
-                    max(0, round(own.top * scale)),
-                    min(width, round(own.right * scale)),
-                    min(height, round(own.bottom * scale)),
+                    max(0, round(region.left * scale)),
+                    max(0, round(region.top * scale)),
+                    min(width, round(region.right * scale)),
+                    min(height, round(region.bottom * scale)),
                 )
         return None
 
@@ -155,7 +155,11 @@ def open_halves(paths: Sequence[Path], *, class_ids: Collection[int]) -> Iterato
     """
     with ExitStack() as stack:
         found: dict[str, tuple[Container, str, list[str]]] = {}
-        containers = {own.resolve(): own for path in paths for own in _containers(path)}
+        containers = {
+            container_path.resolve(): container_path
+            for path in paths
+            for container_path in _containers(path)
+        }
         for path in containers.values():
             container = stack.enter_context(open_container(path))
             for split, folders in _half_folders(container).items():
@@ -174,7 +178,9 @@ def open_halves(paths: Sequence[Path], *, class_ids: Collection[int]) -> Iterato
 
 def _containers(path: Path) -> list[Path]:
     """The path itself, and the archives in it that are named after a half."""
-    named = sorted(own for own in path.glob("*.zip") if _split_of(own.stem) and own.is_file())
+    named = sorted(
+        archive for archive in path.glob("*.zip") if _split_of(archive.stem) and archive.is_file()
+    )
     return [path, *named]
 
 
@@ -233,14 +239,14 @@ def _read_half(
     for name in names:
         by_class.setdefault(PurePosixPath(name).parent.name, []).append(name)
     all_found = _Found()
-    for class_folder, own in sorted(by_class.items()):
+    for class_folder, members in sorted(by_class.items()):
         place = container.path / folder / class_folder
         if not _CLASS_FOLDER.fullmatch(class_folder) or int(class_folder) not in class_ids:
             raise DatasetError(
                 f"{place}: is the folder of no known class (they are named 00000 to "
                 f"{max(class_ids):05d}); remove it, or add its class to classes.csv"
             )
-        _read_class(container, class_folder, own, all_found)
+        _read_class(container, class_folder, members, all_found)
     return Half(
         split=split,
         container=container,

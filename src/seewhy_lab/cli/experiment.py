@@ -158,12 +158,12 @@ def experiment(
             {
                 "page": str(page),
                 "summary": summary(findings),
-                "findings": [own.to_dict() for own in findings],
+                "findings": [finding.to_dict() for finding in findings],
             }
         )
         return
-    for own in findings:
-        say(own.text)
+    for finding in findings:
+        say(finding.text)
     say(summary(findings))
     say(f"page: {page}")
 
@@ -211,7 +211,7 @@ def _planning(
     _remark_unfinished(rows, run.trials)
     found = summary(rows)
     if json:
-        print_json({"page": str(page), "ratios": [own.to_dict() for own in found]})
+        print_json({"page": str(page), "ratios": [ratio.to_dict() for ratio in found]})
         return
     for sentence in conclusions(found):
         say(sentence)

@@ -36,7 +36,7 @@ DOMAIN = "robot_assistant"
 def questions(domain: PlanningDomain, person: str, last: Simulation) -> dict[str, str]:
     """The three questions of a trial, by kind."""
     name = domain.words.name(person)
-    own = next(
+    place = next(
         str(literal.arguments[1])
         for literal in last.worlds[-1]
         if literal.positive and literal.name == "loc" and str(literal.arguments[0]) == "rob1"
@@ -44,7 +44,7 @@ def questions(domain: PlanningDomain, person: str, last: Simulation) -> dict[str
     return {
         "where": f"where is {name}?",
         "cluttered": f"is {name}'s location cluttered?",
-        "contents": f"what is in {domain.words.name(own)}?",
+        "contents": f"what is in {domain.words.name(place)}?",
     }
 
 
@@ -80,10 +80,10 @@ def trial(model: Path, out: Path, seed: int) -> dict[str, Any]:
         "seed": seed,
         "goal": goal,
         "pictures": len(seeing.looks),
-        "fluents": sum(len(own.shown) for own in seeing.looks),
-        "misread": sum(len(own.misread) for own in seeing.looks),
-        "actions": [list(map(str, own.run.actions)) for own in (seeing, told)],
-        "achieved": [own.achieved for own in (seeing, told)],
+        "fluents": sum(len(look.shown) for look in seeing.looks),
+        "misread": sum(len(look.misread) for look in seeing.looks),
+        "actions": [list(map(str, simulation.run.actions)) for simulation in (seeing, told)],
+        "achieved": [simulation.achieved for simulation in (seeing, told)],
         "answers": {
             kind: [text, replied(domain, seeing, text), replied(domain, told, text)]
             for kind, text in asked.items()
@@ -97,8 +97,8 @@ def report(rows: list[dict[str, Any]]) -> str:
     """The table over all trials."""
     right: Counter[str] = Counter()
     for row in rows:
-        for kind, (_, own, true) in row["answers"].items():
-            right[kind] += own == true
+        for kind, (_, seen, true) in row["answers"].items():
+            right[kind] += seen == true
     pictures, fluents = (sum(row[key] for row in rows) for key in ("pictures", "fluents"))
     misread = sum(row["misread"] for row in rows)
     total = sum(right.values()) / (3 * len(rows))

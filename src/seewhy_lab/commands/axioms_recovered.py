@@ -34,7 +34,7 @@ def concluded(domain: Domain, axiom: Axiom, space: list[FeatureVector]) -> dict[
     """The feature vectors that an axiom alone decides, with their class."""
     alone = Reasoner(replace(domain.knowledge, axioms=(axiom,)), domain.schema)
     decisions = zip(space, alone.decide_all(space), strict=True)
-    return {vector: own.label for vector, own in decisions if own.label is not None}
+    return {vector: decision.label for vector, decision in decisions if decision.label is not None}
 
 
 def main() -> None:
@@ -46,7 +46,9 @@ def main() -> None:
     options = parser.parse_args()
     domain = load_domain(DOMAIN)
     given = domain.knowledge.axioms
-    space: list[FeatureVector] = list(product(*(f.values for f in domain.features.values())))
+    space: list[FeatureVector] = list(
+        product(*(feature.values for feature in domain.features.values()))
+    )
     full = Reasoner(domain.knowledge, domain.schema)
     truth = {vector: full.decide(vector).label for vector in space}
     spoken = [concluded(domain, axiom, space) for axiom in given]
@@ -59,13 +61,13 @@ def main() -> None:
         for gone in combinations(range(len(given)), REMOVED):
             vectors = [space[n] for n in rng.integers(len(space), size=size)]
             classes = list(domain.classes)
-            labels = [truth[v] or classes[rng.integers(2)] for v in vectors]
+            labels = [truth[vector] or classes[rng.integers(2)] for vector in vectors]
             wrong = rng.random(size) < options.noise
             labels = [
-                classes[1 - classes.index(own)] if flip else own
-                for own, flip in zip(labels, wrong, strict=True)
+                classes[1 - classes.index(label)] if flip else label
+                for label, flip in zip(labels, wrong, strict=True)
             ]
-            kept = tuple(own for n, own in enumerate(given) if n not in gone)
+            kept = tuple(axiom for n, axiom in enumerate(given) if n not in gone)
             less = replace(domain, knowledge=replace(domain.knowledge, axioms=kept))
             began = time.perf_counter()
             learned = learn_for_domain(
@@ -74,22 +76,29 @@ def main() -> None:
                 options=LearningOptions(tolerance=options.noise),
             )
             spent += time.perf_counter() - began
-            candidates = [own.candidate for own in learned.accepted]
+            candidates = [judgement.candidate for judgement in learned.accepted]
             more = Reasoner(
                 with_candidates(less.knowledge, candidates, domain.schema), domain.schema
             )
-            settled = [v for v in dict.fromkeys(vectors) if truth[v] is not None]
-            now = {v: own.label for v, own in zip(space, more.decide_all(space), strict=True)}
+            settled = [vector for vector in dict.fromkeys(vectors) if truth[vector] is not None]
+            now = {
+                vector: decision.label
+                for vector, decision in zip(space, more.decide_all(space), strict=True)
+            }
             without = Reasoner(less.knowledge, domain.schema).decide_all(space)
             old = dict(zip(space, without, strict=True))
-            agrees.append(np.mean([now[v] == truth[v] for v in settled]))
-            before.append(np.mean([old[v].label == truth[v] for v in settled]))
-            literals += [own.literals for own in candidates]
+            agrees.append(np.mean([now[vector] == truth[vector] for vector in settled]))
+            before.append(np.mean([old[vector].label == truth[vector] for vector in settled]))
+            literals += [candidate.literals for candidate in candidates]
             for number in gone:
-                own = [v for v in spoken[number] if truth[v] is not None and old[v].label is None]
-                if sum(v in own for v in vectors) >= ENOUGH:
-                    decided = [v for v in own if v in set(vectors)]
-                    recovered.append(all(now[v] == truth[v] for v in decided))
+                lost = [
+                    vector
+                    for vector in spoken[number]
+                    if truth[vector] is not None and old[vector].label is None
+                ]
+                if sum(vector in lost for vector in vectors) >= ENOUGH:
+                    decided = [vector for vector in lost if vector in set(vectors)]
+                    recovered.append(all(now[vector] == truth[vector] for vector in decided))
         print(
             f"| {size} | {100 * np.mean(agrees):.2f} % | {100 * min(agrees):.1f} % "
             f"| {100 * np.mean(before):.1f} % | {100 * np.mean(recovered):.1f} % of "

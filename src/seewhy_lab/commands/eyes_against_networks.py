@@ -19,6 +19,7 @@ from pathlib import Path
 
 from seewhy.agent.agent import Agent
 from seewhy.agent.pretraining import Pretrained, pretrained
+from seewhy.agent.settings import Settings
 from seewhy.data.dataset import Dataset
 from seewhy.data.making import make_dataset
 from seewhy.domain.domain import Domain, load_domain
@@ -49,7 +50,10 @@ def main() -> None:
         train = scenes.take([number for number, kept in enumerate(judged) if not kept])
         test = scenes.take([number for number, kept in enumerate(judged) if kept])
         for eyes in (NONE, EMBEDDED):
-            first = pretrained(domain, eyes=eyes, count=options.drawn) if options.drawn else None
+            first = None
+            if options.drawn:
+                settings = Settings(eyes=eyes, reading="argmax")
+                first = pretrained(domain, count=options.drawn, settings=settings)
             for count in map(int, options.counts.split(",")):
                 compare(train, test, count, eyes=eyes, first=first, seed=options.seed)
 

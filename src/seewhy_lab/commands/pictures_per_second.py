@@ -31,7 +31,9 @@ def main() -> None:
     pixels = scenes.pictures(agent.domain.pictures.size)
     loaded = len(pixels) / (time.perf_counter() - began)
     pixels = pixels[np.random.default_rng(0).permutation(len(pixels))[: options.count]]
-    questions = [q for q in agent.questions.one_of_each() if q.asks is not Asks.EXPLAIN]
+    questions = [
+        question for question in agent.questions.one_of_each() if question.asks is not Asks.EXPLAIN
+    ]
     rng = np.random.default_rng(1)
     asked = [rng.choice(len(questions), QUESTIONS, replace=False) for _ in pixels]
     assert agent.extractor is not None
@@ -43,8 +45,8 @@ def main() -> None:
     classified = time.perf_counter()
     agent.answer_all(
         [
-            (own, questions[int(n)])
-            for own, numbers in zip(found, asked, strict=True)
+            (classification, questions[int(n)])
+            for classification, numbers in zip(found, asked, strict=True)
             for n in numbers
         ]
     )

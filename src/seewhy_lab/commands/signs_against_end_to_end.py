@@ -29,8 +29,10 @@ from seewhy.domain.domain import load_domain
 from seewhy.domain.tables import ReadingRule
 from seewhy.evaluation import evaluate
 from seewhy.files.whole_files import write_whole
+from seewhy.perception.course import Course
 from seewhy.perception.domain_options import training_options
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.validation import split
 
@@ -51,9 +53,9 @@ def in_fold(scenes: Dataset, fold: int) -> np.ndarray[Any, Any]:
     rng = np.random.default_rng(0)
     tested: set[str] = set()
     for label in sorted(poles):
-        own = [str(pole) for pole in rng.permutation(list(poles[label]))]
+        shuffled = [str(pole) for pole in rng.permutation(list(poles[label]))]
         first = int(rng.integers(FOLDS))  # or rare classes would all fall into the first folds
-        tested |= {pole for n, pole in enumerate(own) if (n + first) % FOLDS == fold}
+        tested |= {pole for n, pole in enumerate(shuffled) if (n + first) % FOLDS == fold}
     return np.array([scene.group in tested for scene in scenes.scenes])
 
 
@@ -77,15 +79,17 @@ def end_to_end(scenes: Dataset, *, seed: int, first: Pretrained | None = None) -
     options = training_options(domain, seed=seed)["primary_symbol"]
     _, validation = split(scenes.classes, share=0.15, seed=seed, groups=scenes.groups)
     return fit_extractor(
-        scenes.pictures(domain.pictures.size),
-        {"sign": scenes.classes},
-        values={"sign": tuple(domain.classes)},
+        LabelledPictures(
+            scenes.pictures(domain.pictures.size),
+            {"sign": scenes.classes},
+            {"sign": tuple(domain.classes)},
+            groups=scenes.groups,
+            validation=validation,
+        ),
         options=replace(options, channels=CHANNELS, dense=DENSE),
-        groups=scenes.groups,
-        validation=validation,
         start_from=_networks(first.extractor) if first else None,
         rehearsal=first.rehearsal if first else None,
-        workers=1,
+        course=Course(workers=1),
     )
 
 
@@ -145,7 +149,7 @@ def pretrain(out: Path, *, drawn: int) -> tuple[Pretrained, Pretrained]:
     folder = out / f"drawn-{drawn}"
     domain = load_domain(DOMAIN)
     if not (folder / "features").is_dir():
-        first = pretrained(domain, count=drawn, checkpoints=folder)
+        first = pretrained(domain, count=drawn, course=Course(checkpoints=folder))
         (folder / "features").mkdir()
         first.extractor.save(folder / "features")
     scenes = Dataset.load(folder / "drawn", domain)
@@ -186,19 +190,23 @@ def report(out: Path) -> str:
             "|---|---|---|---|---|---|",
         ]
         for size in SIZES:
-            own = [r for r in rows if r["drawn"] == drawn and r["asked"] == (size or "all")]
-            if not own:
+            of_size = [
+                row for row in rows if row["drawn"] == drawn and row["asked"] == (size or "all")
+            ]
+            if not of_size:
                 continue
-            better = [100 * (r["consistent"] - r["end_to_end"]) for r in own]
+            better = [100 * (row["consistent"] - row["end_to_end"]) for row in of_size]
             means = [
-                f"{100 * np.mean([r[key] for r in own]):.2f} %"
+                f"{100 * np.mean([row[key] for row in of_size]):.2f} %"
                 for key in ("consistent", "argmax", "end_to_end")
             ]
             spread, p = f"{np.mean(better):+.2f}", "–"
-            if len(own) > 1:
+            if len(of_size) > 1:
                 spread += f" ± {np.std(better, ddof=1):.2f}"
                 p = f"{ttest_1samp(better, 0).pvalue:.2f}"
-            lines.append(f"| {size or 'all'} ({len(own)}) | {' | '.join(means)} | {spread} | {p} |")
+            lines.append(
+                f"| {size or 'all'} ({len(of_size)}) | {' | '.join(means)} | {spread} | {p} |"
+            )
     return "\n".join(lines)
 
 
@@ -236,7 +244,7 @@ def main() -> None:
 
         out.mkdir(parents=True, exist_ok=True)
         trials = [(seed, size) for size in options.sizes for seed in range(options.seeds)]
-        Parallel(n_jobs=options.jobs)(delayed(run)(*own) for own in trials)
+        Parallel(n_jobs=options.jobs)(delayed(run)(*arguments) for arguments in trials)
     print(report(out))
 
 

@@ -54,59 +54,61 @@ def photographs(agent: Agent, scenes: Dataset) -> dict[str, Dataset]:
     tested = in_fold(scenes, agent.seed % FOLDS)
 
     def those(wanted: Sequence[bool]) -> Dataset:
-        chosen = (scene for scene, own in zip(scenes.scenes, wanted, strict=True) if own)
+        chosen = (
+            scene for scene, is_wanted in zip(scenes.scenes, wanted, strict=True) if is_wanted
+        )
         return replace(scenes, scenes=tuple(chosen))
 
     labels = scenes.classes
     found = {
         "classes trained on": those(
-            [out and own not in withheld for own, out in zip(labels, tested, strict=True)]
+            [out and label not in withheld for label, out in zip(labels, tested, strict=True)]
         ),
-        "classes withheld, decided": those([own in withheld & decided for own in labels]),
-        "classes withheld, left open": those([own in withheld - decided for own in labels]),
+        "classes withheld, decided": those([label in withheld & decided for label in labels]),
+        "classes withheld, left open": those([label in withheld - decided for label in labels]),
     }
     trained = sum(
-        digest in agent.trained_on for own in found.values() for digest in own.picture_digests()
+        digest in agent.trained_on for group in found.values() for digest in group.picture_digests()
     )
     if trained:
         sys.exit(
             f"the model was trained on {trained} of the photographs to test on: train it with "
             "this script, or give another seed"
         )
-    return {name: own for name, own in found.items() if len(own)}
+    return {name: group for name, group in found.items() if len(group)}
 
 
 def non_signs(domain: Domain, *, count: int, seed: int) -> np.ndarray:
     """Drawings that show no known sign, as photographs of the domain are made."""
     shown = domain.pictures
     drawn = (draw_non_sign(seed=seed, index=n, size=2 * shown.size) for n in range(count))
-    return np.stack([as_picture(own, size=shown.size, fit=shown.fit) for own in drawn])
+    return np.stack([as_picture(drawing, size=shown.size, fit=shown.fit) for drawing in drawn])
 
 
 def unfamiliarity(genuine: Sequence[float], others: Sequence[float]) -> float:
     """AUROC: how often a picture to be refused has a lower score than one to be answered."""
     truth = [0] * len(genuine) + [1] * len(others)
-    return float(roc_auc_score(truth, [-own for own in (*genuine, *others)]))
+    return float(roc_auc_score(truth, [-score for score in (*genuine, *others)]))
 
 
 def reliability(found: Sequence[Classification], labels: Sequence[str]) -> list[str]:
     """A table of how often a class is right that is given with some probability."""
     answered = [
-        (own.probability, own.label == label)
-        for own, label in zip(found, labels, strict=True)
-        if own.probability is not None
+        (classification.probability, classification.label == label)
+        for classification, label in zip(found, labels, strict=True)
+        if classification.probability is not None
     ]
-    said, right = (np.array(own, dtype=float) for own in zip(*answered, strict=True))
+    said, right = (np.array(column, dtype=float) for column in zip(*answered, strict=True))
     bins = np.clip(np.digitize(said, BINS) - 1, 0, len(BINS) - 2)
     lines = ["| probability said | photographs | mean said | right |", "|---|---|---|---|"]
     error = 0.0
     for number in range(len(BINS) - 1):
-        own = bins == number
-        if own.any():
-            error += own.mean() * abs(said[own].mean() - right[own].mean())
+        in_bin = bins == number
+        if in_bin.any():
+            error += in_bin.mean() * abs(said[in_bin].mean() - right[in_bin].mean())
             lines.append(
-                f"| {BINS[number]:g} to {BINS[number + 1]:g} | {own.sum()} | "
-                f"{said[own].mean():.3f} | {right[own].mean():.3f} |"
+                f"| {BINS[number]:g} to {BINS[number + 1]:g} | {in_bin.sum()} | "
+                f"{said[in_bin].mean():.3f} | {right[in_bin].mean():.3f} |"
             )
     return [*lines, f"expected calibration error: {error:.4f}"]
 
@@ -128,21 +130,30 @@ def main() -> None:
     agent = Agent.load(options.model)
     groups = photographs(agent, scenes)
     size = agent.domain.pictures.size
-    pixels = {name: own.pictures(size) for name, own in groups.items()}
+    pixels = {name: group.pictures(size) for name, group in groups.items()}
     pixels["drawn, no sign"] = non_signs(agent.domain, count=options.non_signs, seed=agent.seed)
-    found = {name: agent.classify_all(own) for name, own in pixels.items()}
-    scores = {name: [own.score or 0.0 for own in each] for name, each in found.items()}
-    before = {name: [own.score for own in agent.read(each)] for name, each in pixels.items()}
+    found = {name: agent.classify_all(pictures) for name, pictures in pixels.items()}
+    scores = {
+        name: [classification.score or 0.0 for classification in classifications]
+        for name, classifications in found.items()
+    }
+    before = {
+        name: [reading.score for reading in agent.read(pictures)]
+        for name, pictures in pixels.items()
+    }
     first = next(iter(groups))
     print(f"threshold for {agent.known_share:.1%}: {agent.unknown_below}")
     print("| pictures | number | answered | right | not known | AUROC | of log-probability |")
     print("|---|---|---|---|---|---|---|")
-    for name, each in found.items():
-        unknown = np.array([own.verdict == UNKNOWN for own in each])
+    for name, classifications in found.items():
+        unknown = np.array(
+            [classification.verdict == UNKNOWN for classification in classifications]
+        )
         right = "–"
         if name in groups:
             labels = groups[name].classes
-            right = f"{np.mean([a.label == b for a, b in zip(each, labels, strict=True)]):.1%}"
+            pairs = zip(classifications, labels, strict=True)
+            right = f"{np.mean([given.label == label for given, label in pairs]):.1%}"
         separated = (
             "– | –"
             if name == first
@@ -150,8 +161,8 @@ def main() -> None:
             f"{unfamiliarity(before[first], before[name]):.3f}"
         )
         print(
-            f"| {name} | {len(each)} | {1 - unknown.mean():.1%} | {right} | {unknown.mean():.1%} "
-            f"| {separated} |"
+            f"| {name} | {len(classifications)} | {1 - unknown.mean():.1%} | {right} "
+            f"| {unknown.mean():.1%} | {separated} |"
         )
     print("\n".join(["", *reliability(found[first], groups[first].classes)]))
 

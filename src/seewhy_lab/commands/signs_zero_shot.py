@@ -33,8 +33,10 @@ COLUMNS = ("SeeWhy", "not known", "SeeWhy, all answered", "end to end")
 def decided_vectors(domain: Domain, scenes: Dataset) -> dict[str, FeatureVector]:
     """The feature vector of every class that the knowledge decides."""
     reasoner = Agent(domain).reasoner
-    own = dict(zip(scenes.classes, scenes.vectors, strict=True))
-    return {label: own[label] for label in domain.classes if reasoner.decide(own[label]).label}
+    by_class = dict(zip(scenes.classes, scenes.vectors, strict=True))
+    return {
+        label: by_class[label] for label in domain.classes if reasoner.decide(by_class[label]).label
+    }
 
 
 def turns(decided: dict[str, FeatureVector]) -> list[list[str]]:
@@ -51,7 +53,7 @@ def turns(decided: dict[str, FeatureVector]) -> list[list[str]]:
     groups: list[list[str]] = [[] for _ in range(TURNS)]
     for label in decided:
         if shown_without([label]):
-            fitting = [own for own in groups if shown_without([*own, label])]
+            fitting = [group for group in groups if shown_without([*group, label])]
             min(fitting, key=len).append(label)
     return groups
 
@@ -74,7 +76,8 @@ def turn(
     hidden = {*withheld, *left_open}
     agent = Agent(domain, seed=seed)
     train = replace(
-        scenes, scenes=tuple(s for s, out in zip(scenes.scenes, tested, strict=True) if not out)
+        scenes,
+        scenes=tuple(scene for scene, out in zip(scenes.scenes, tested, strict=True) if not out),
     )
     agent.fit(train, without=sorted(hidden), drawn=drawn, answers=False)
     agent.save(model)
@@ -92,15 +95,17 @@ def turn(
     classes = list(domain.classes)
     other = baseline.probabilities(pixels)["sign"].argmax(axis=1)
     rows: dict[str, dict[str, list[bool]]] = defaultdict(lambda: defaultdict(list))
-    for scene, own, each, end in zip(test.scenes, found, answered, other, strict=True):
+    for scene, classification, ungated, end in zip(
+        test.scenes, found, answered, other, strict=True
+    ):
         group = scene.label if scene.label in hidden else "classes trained on"
-        rows[group]["SeeWhy"].append(own.label == scene.label)
-        rows[group]["not known"].append(own.label is None)
-        rows[group]["SeeWhy, all answered"].append(each.label == scene.label)
+        rows[group]["SeeWhy"].append(classification.label == scene.label)
+        rows[group]["not known"].append(classification.label is None)
+        rows[group]["SeeWhy, all answered"].append(ungated.label == scene.label)
         rows[group]["end to end"].append(classes[int(end)] == scene.label)
     return {
         group: {
-            **{key: float(np.mean(own)) for key, own in columns.items()},
+            **{key: float(np.mean(column)) for key, column in columns.items()},
             "photographs": len(columns["SeeWhy"]),
         }
         for group, columns in rows.items()

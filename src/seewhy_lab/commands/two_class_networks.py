@@ -44,8 +44,8 @@ def main() -> None:
             trial = Trial(seed, size)
             seen = see(setting, trial)
             test = seen.test.scenes
-            own = class_options(setting.domain, seed=seed + OTHER_SEED)
-            second = class_network(seen.train.scenes, own)
+            network_options = class_options(setting.domain, seed=seed + OTHER_SEED)
+            second = class_network(seen.train.scenes, network_options)
             shown = second.probabilities(test.pictures(setting.domain.pictures.size))["class"]
             first = seen.test.classes
             true = np.array([names.index(label) for label in test.classes])
@@ -56,7 +56,10 @@ def main() -> None:
             rows.append(
                 [
                     found.get("seewhy", np.nan),
-                    *(np.mean(p.argmax(axis=1) == true) for p in (first, shown, first * shown)),
+                    *(
+                        np.mean(probabilities.argmax(axis=1) == true)
+                        for probabilities in (first, shown, first * shown)
+                    ),
                 ]
             )
         print(size, *np.round(100 * np.mean(rows, axis=0), 1), flush=True)

@@ -7,8 +7,11 @@ from functools import cache
 
 from seewhy.agent.agent import Agent
 from seewhy.agent.pretraining import Pretrained, pretrained
+from seewhy.agent.settings import Settings
 from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import load_domain
+from seewhy.domain.tables import ReadingRule
+from seewhy.perception.course import Course
 from seewhy_lab.comparison.system import Drawings, Fitted
 
 __all__ = ["fit_before", "fit_default"]
@@ -34,7 +37,7 @@ def _fitted(agent: Agent, train: Dataset, drawings: Drawings | None) -> Fitted:
     # The recurrent network answers questions; no class depends on it.
     first = None
     if drawings is not None:
-        first = _knowing_drawings(drawings, agent.eyes, agent.reading == "with_class")
+        first = _knowing_drawings(drawings, agent.eyes, agent.reading)
     agent.fit(train, drawn=0, start_from=first, answers=False, workers=1)
 
     def classify(pictures: Dataset) -> Sequence[str | None]:
@@ -51,12 +54,11 @@ def _fitted(agent: Agent, train: Dataset, drawings: Drawings | None) -> Fitted:
 
 
 @cache
-def _knowing_drawings(drawings: Drawings, eyes: str, with_class: bool) -> Pretrained:
+def _knowing_drawings(drawings: Drawings, eyes: str, reading: ReadingRule) -> Pretrained:
+    settings = Settings(eyes=eyes, reading=reading)
     return pretrained(
         load_domain(drawings.domain),
-        eyes=eyes,
         count=drawings.count,
-        with_class=with_class,
-        workers=1,
-        checkpoints=drawings.folder,
+        settings=settings,
+        course=Course(workers=1, checkpoints=drawings.folder),
     )

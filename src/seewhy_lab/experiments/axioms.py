@@ -63,7 +63,7 @@ def incomplete(domain: Domain, *, seed: int) -> Domain:
     axioms = domain.knowledge.axioms
     number = round(REMOVED.get(domain.name, 0.25) * len(axioms))
     gone = set(np.random.default_rng(seed).permutation(len(axioms))[:number].tolist())
-    kept = tuple(own for n, own in enumerate(axioms) if n not in gone)
+    kept = tuple(axiom for n, axiom in enumerate(axioms) if n not in gone)
     return replace(domain, knowledge=replace(domain.knowledge, axioms=kept))
 
 
@@ -77,11 +77,11 @@ def learned_again(
     tolerance = TOLERANCE.get(domain.name, 0.0)
     wrong = refuted(domain, scenes, tolerance=tolerance)
     aside = [axiom for axiom, _ in wrong]
-    rest = tuple(own for own in domain.knowledge.axioms if own not in aside)
+    rest = tuple(axiom for axiom in domain.knowledge.axioms if axiom not in aside)
     right = replace(domain, knowledge=replace(domain.knowledge, axioms=rest))
     found = learn_for_domain(right, scenes, options=LearningOptions(tolerance=tolerance))
-    axioms = axioms_of(right, [own.candidate for own in found.accepted], scenes)
-    return axioms, tuple(own for _, own in wrong)
+    axioms = axioms_of(right, [judgement.candidate for judgement in found.accepted], scenes)
+    return axioms, tuple(withdrawn for _, withdrawn in wrong)
 
 
 def explanations(
@@ -91,18 +91,20 @@ def explanations(
     labels: Sequence[str],
 ) -> tuple[Reasons | None, ...]:
     """What the annotator answers when asked why each scene is of its class, as features."""
-    why = {own.label: own for own in questions.all if own.asks is Asks.WHY_CLASS}
+    why = {
+        question.label: question for question in questions.all if question.asks is Asks.WHY_CLASS
+    }
     said = (
         reference.answer(why[label], vector, label).mentions if label in why else ()
         for vector, label in zip(vectors, labels, strict=True)
     )
-    return tuple(frozenset(own) or None for own in said)
+    return tuple(frozenset(mentioned) or None for mentioned in said)
 
 
 def agreement(known: Reasoner, full: Reasoner, vectors: list[FeatureVector]) -> float:
     """The share of the scenes that the full knowledge decides which are decided alike."""
     pairs = zip(known.decide_all(vectors), full.decide_all(vectors), strict=True)
-    same = [own.label == whole.label for own, whole in pairs if whole.label is not None]
+    same = [decision.label == whole.label for decision, whole in pairs if whole.label is not None]
     return float(np.mean(same)) if same else 1.0
 
 

@@ -42,6 +42,6 @@ def experiment(name: str) -> Experiment:
         raise ExperimentError(
             f"'{name}' is no experiment; {did_you_mean(name, (*NAMES, PLANNING))}"
         )
-    module, own = _HOMES[name]
-    found: Experiment = getattr(import_module(module), own)
+    module, attribute = _HOMES[name]
+    found: Experiment = getattr(import_module(module), attribute)
     return found

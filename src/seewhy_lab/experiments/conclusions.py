@@ -70,7 +70,10 @@ class Finding:
             **asdict(self.claim),
             "supported": self.supported,
             "text": self.text,
-            "sizes": [{"size": say_size(own.size), **own.to_dict()} for own in self.compared],
+            "sizes": [
+                {"size": say_size(comparison.size), **comparison.to_dict()}
+                for comparison in self.compared
+            ],
         }
 
 
@@ -83,7 +86,8 @@ def finite(values: dict[str, Any]) -> dict[str, Any]:
     {'p': None, 'interval': {'low': 0.5}}
     """
     return {
-        key: finite(own) if isinstance(own, dict) else _number(own) for key, own in values.items()
+        key: finite(value) if isinstance(value, dict) else _number(value)
+        for key, value in values.items()
     }
 
 
@@ -103,26 +107,26 @@ def values_of(rows: Sequence[Row], system: str, size: int, measure: str) -> dict
 
 def conclude(name: str, rows: Sequence[Row], *, domain: str) -> list[Finding]:
     """Test every claim of an experiment in a domain on its rows."""
-    own = experiment(name)
-    return [_finding(own, claim, rows, domain) for claim in own.claims]
+    design = experiment(name)
+    return [_finding(design, claim, rows, domain) for claim in design.claims]
 
 
 def summary(findings: Sequence[Finding]) -> str:
     """Say in a sentence or two how many claims the trials bear out, and where they do not."""
-    sizes = {found.size for own in findings for found in own.compared}
-    thin = {size for own in findings for size in _too_few(own)}
+    sizes = {found.size for finding in findings for found in finding.compared}
+    thin = {size for finding in findings for size in _too_few(finding)}
     if sizes and thin == sizes:
         return (
             "There are too few trials for any difference to be significant after correction; the "
             "differences say where to look, and no more."
         )
-    held = sum(bool(own.compared) and thin.issuperset(own.failed) for own in findings)
+    held = sum(bool(finding.compared) and thin.issuperset(finding.failed) for finding in findings)
     said = f"{held} of {len(findings)} claims hold at every size that was tried"
     said += " often enough to tell." if thin else "."
     parts = [
-        f"{own.subject} at {_say_sizes(own, missed)}"
-        for own in findings
-        if (missed := [size for size in own.failed if size not in thin])
+        f"{finding.subject} at {_say_sizes(finding, missed)}"
+        for finding in findings
+        if (missed := [size for size in finding.failed if size not in thin])
     ]
     if parts:
         said += f" The hypothesis is not supported for {'; '.join(parts)}."
@@ -139,28 +143,32 @@ def _say_sizes(finding: Finding, missed: Sequence[int]) -> str:
 
 def _too_few(finding: Finding) -> list[int]:
     """Sizes at which no difference could be significant."""
-    enough = can_tell([own.paired.trials for own in finding.compared])
-    return [own.size for own, told in zip(finding.compared, enough, strict=True) if not told]
+    enough = can_tell([comparison.paired.trials for comparison in finding.compared])
+    return [
+        comparison.size
+        for comparison, told in zip(finding.compared, enough, strict=True)
+        if not told
+    ]
 
 
-def _finding(own: Experiment, claim: Claim, rows: Sequence[Row], domain: str) -> Finding:
+def _finding(design: Experiment, claim: Claim, rows: Sequence[Row], domain: str) -> Finding:
     paired: dict[int, Paired] = {}
     for size in dict.fromkeys(row["size"] for row in rows):
         one = values_of(rows, claim.system, size, claim.measure)
         other = values_of(rows, claim.against, size, claim.measure)
         seeds = sorted(one.keys() & other.keys())
         if seeds:
-            paired[size] = compare([one[s] for s in seeds], [other[s] for s in seeds])
-    tested = holm([own.p_t for own in paired.values()])
-    ranked = holm([own.p_wilcoxon for own in paired.values()])
+            paired[size] = compare([one[seed] for seed in seeds], [other[seed] for seed in seeds])
+    tested = holm([pair.p_t for pair in paired.values()])
+    ranked = holm([pair.p_wilcoxon for pair in paired.values()])
     compared = tuple(
         Compared(size, found, p_t, p_wilcoxon)
         for (size, found), p_t, p_wilcoxon in zip(paired.items(), tested, ranked, strict=True)
     )
     failed = tuple(found.size for found in compared if not _holds(claim, found, domain))
     subject = (
-        f"{own.measure(claim.measure).name}: {own.systems[claim.system]} against "
-        f"{own.systems[claim.against]}"
+        f"{design.measure(claim.measure).name}: {design.systems[claim.system]} against "
+        f"{design.systems[claim.against]}"
     )
     return Finding(claim, subject, compared, failed, _sentence(subject, compared, failed))
 

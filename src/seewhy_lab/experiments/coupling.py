@@ -82,7 +82,7 @@ def run_ablation(setting: Setting, trial: Trial) -> list[Row]:
         agent.experience, agent.tree, agent.answerer = whole.experience, tree, answerer
         return _scored(agent, system, trial, seen, reference, seconds)
 
-    values = {key: own.values for key, own in setting.domain.features.items()}
+    values = {key: feature.values for key, feature in setting.domain.features.items()}
     tree, answerer = whole.tree, whole.answerer
     began = time.process_time()
     larger = DecisionTree(values).fit(vectors, labels, seed=trial.seed)
@@ -137,8 +137,8 @@ def _uncertain(seen: Seen, gate: float | None) -> list[int]:
     """The training pictures of which some network is less sure than a gate."""
     if gate is None:
         return []
-    sure = [own.max(axis=1) for own in seen.train.features.values()]
-    return [n for n, own in enumerate(zip(*sure, strict=True)) if min(own) < gate]
+    sure = [probabilities.max(axis=1) for probabilities in seen.train.features.values()]
+    return [n for n, confidences in enumerate(zip(*sure, strict=True)) if min(confidences) < gate]
 
 
 def _gate_name(gate: float | None) -> str:

@@ -91,13 +91,13 @@ def load_pictures(domain: str, folder: Path, out: Path) -> Dataset:
 
     The pixels are kept in ``out``, where the next process finds them in an instant.
     """
-    own = load_domain(domain)
-    scenes = Dataset.load(folder, own).with_class()
+    loaded = load_domain(domain)
+    scenes = Dataset.load(folder, loaded).with_class()
     scenes.require_two_classes()
     scenes = replace(scenes, scenes=tuple(replace(scene, split="") for scene in scenes.scenes))
-    size = own.pictures.size
+    size = loaded.pictures.size
     digest = hashlib.sha256((folder / TABLE).read_bytes()).hexdigest()[:16]
-    file = out / f"pixels-{size}-{own.pictures.fit}-{digest}.npy"
+    file = out / f"pixels-{size}-{loaded.pictures.fit}-{digest}.npy"
     if not file.is_file():
         with whole_file(file) as temporary, temporary.open("wb") as stream:
             np.save(stream, scenes.pictures(size))
@@ -167,9 +167,11 @@ def in_fold(scenes: Dataset, fold: int, *, seed: int = 0) -> npt.NDArray[np.bool
     rng = np.random.default_rng(seed)
     tested: set[tuple[str, str]] = set()
     for label in sorted(groups):
-        own = [str(group) for group in rng.permutation(list(groups[label]))]
+        shuffled = [str(group) for group in rng.permutation(list(groups[label]))]
         first = int(rng.integers(FOLDS))  # or rare classes would all fall into the first folds
-        tested |= {(label, group) for n, group in enumerate(own) if (n + first) % FOLDS == fold}
+        tested |= {
+            (label, group) for n, group in enumerate(shuffled) if (n + first) % FOLDS == fold
+        }
     return np.array(
         [
             (label, group) in tested

@@ -41,14 +41,14 @@ def efforts(rows: Sequence[Row], systems: Sequence[str], measure: str) -> list[E
     curves = {system: _curve(rows, timed, system, measure) for system in systems}
     found = []
     for level in LEVELS:
-        means = [own[1] for curve in curves.values() for own in curve]
+        means = [point[1] for curve in curves.values() for point in curve]
         if not means or max(means) < level or min(means) >= level:
             continue
         for system, curve in curves.items():
-            there = next((n for n, own in enumerate(curve) if own[1] >= level), len(curve))
+            there = next((n for n, point in enumerate(curve) if point[1] >= level), len(curve))
             sides = curve[max(0, there - 1) : there + 1]
-            times = [(own[2], own[1]) for own in sides if own[2] is not None]
-            pictures = reached([(own[0], own[1]) for own in sides], level)
+            times = [(point[2], point[1]) for point in sides if point[2] is not None]
+            pictures = reached([(point[0], point[1]) for point in sides], level)
             seconds = reached(times, level) if len(times) == len(sides) else None
             found.append(Effort(system, level, pictures, seconds))
     return found
@@ -78,7 +78,7 @@ def _curve(
     timings = {key for row in timed for key in row if row["system"] == system and _is_training(key)}
     for size in dict.fromkeys(row["size"] for row in rows):
         values = values_of(rows, system, size, measure)
-        own = [row for row in rows if row["system"] == system and row["size"] == size]
+        at_size = [row for row in rows if row["system"] == system and row["size"] == size]
         if not values:
             continue
         spent = [
@@ -92,7 +92,7 @@ def _curve(
         ]
         curve.append(
             (
-                float(np.mean([row["trained"] for row in own])),
+                float(np.mean([row["trained"] for row in at_size])),
                 float(np.mean(list(values.values()))),
                 float(np.mean(spent)) if spent else None,
             )

@@ -73,7 +73,9 @@ class Answers:
         with torch.inference_mode():
             for start in range(0, len(questions), _SHOWN_AT_ONCE):
                 some = questions[start : start + _SHOWN_AT_ONCE]
-                words, lengths, _ = self._encoding.encode([(own.words, ("",), "") for own in some])
+                words, lengths, _ = self._encoding.encode(
+                    [(question.words, ("",), "") for question in some]
+                )
                 scenes = torch.from_numpy(shown[start : start + _SHOWN_AT_ONCE])
                 best = self._network(words, lengths, scenes).argmax(dim=1).tolist()
                 found += [self.types[n] for n in best]
@@ -97,10 +99,10 @@ def fit_answers(
     """
     vectors, labels = scenes.vectors, scenes.classes
     asked = questions_to_learn(questions, labels, seed=seed)
-    numbers = [own.picture for own in asked]
+    numbers = [asked_question.picture for asked_question in asked]
     answers = [
-        reference.answer(own.question, vectors[n], labels[n]).identifier
-        for own, n in zip(asked, numbers, strict=True)
+        reference.answer(asked_question.question, vectors[n], labels[n]).identifier
+        for asked_question, n in zip(asked, numbers, strict=True)
     ]
     passes = max(1, min(PASSES, round(MOST_SHOWN / len(asked))))
     options = RecurrentOptions(seed=seed, width=WIDTH, epochs=passes)
@@ -119,7 +121,7 @@ def fit_answers(
         digest="",
     )
     words, lengths, _ = Encoding(description).encode(
-        [(own.question.words, ("",), "") for own in asked]
+        [(asked_question.question.words, ("",), "") for asked_question in asked]
     )
     place = {answer: i for i, answer in enumerate(description.answers)}
     examples = Asked(
@@ -142,7 +144,7 @@ def questions_to_learn(
     or, where more can be asked, so many that each can be asked :data:`EACH` times. Every picture
     is asked as much as every other.
     """
-    wordings = [own[0] for own in wordings_of(questions).values()]
+    wordings = [same[0] for same in wordings_of(questions).values()]
     fitting = {
         label: sum(suitable(question, label) for question in wordings) for label in set(labels)
     }
@@ -186,7 +188,7 @@ class EndToEnd:
     def accuracy(self, test: Shown) -> float:
         """The share of pictures whose class is the annotated one."""
         pairs = zip(self.classify(test), test.scenes.classes, strict=True)
-        return float(np.mean([own == true for own, true in pairs]))
+        return float(np.mean([predicted == true for predicted, true in pairs]))
 
     def vectors(self, shown: Shown) -> list[FeatureVector]:
         """The most probable value of every feature of each picture."""
@@ -203,15 +205,16 @@ class EndToEnd:
         assert self.answers is not None
         labels, vectors = self.classify(test), self.vectors(test)
         kinds = self.answers.answer(
-            [own.question for own in asked], represented(test)[[own.picture for own in asked]]
+            [asked_question.question for asked_question in asked],
+            represented(test)[[asked_question.picture for asked_question in asked]],
         )
         scores = answer_scores(
             asked,
             kinds,
             test.scenes,
             reference,
-            vectors=[vectors[own.picture] for own in asked],
-            labels=[labels[own.picture] for own in asked],
+            vectors=[vectors[asked_question.picture] for asked_question in asked],
+            labels=[labels[asked_question.picture] for asked_question in asked],
         )
         return {"accuracy": self.accuracy(test), **scores}
 

@@ -156,7 +156,7 @@ class Experiment:
 
     def measure(self, key: str) -> Measure:
         """The measure with a key."""
-        return next(own for own in self.measures if own.key == key)
+        return next(measure for measure in self.measures if measure.key == key)
 
 
 def say_size(size: int) -> str:

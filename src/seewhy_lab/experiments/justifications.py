@@ -8,7 +8,7 @@ sets by the book, and of nothing else, there has to be a justification, and
 - of stratified knowledge without defaults, so does every choice among alternatives inside it;
 - features that were added for consistency are needed, each of them, and so are those that are said
   to be the fewest that suffice;
-- no belief stands below itself;
+- no belief stands below itself, unless an answer set supposes it, and none is given no reason;
 - every literal and condition that is said to hold, or to fail, does.
 
 Of what is not believed, every axiom that could conclude it is told with each of its conditions,
@@ -152,7 +152,8 @@ def _circles(node: Node, above: tuple[str, ...]) -> Iterator[str]:
         if node.basis is Basis.FACT:
             yield f"{node.literal} is given no reason"
         key = _believed(node)
-        if key in above:
+        # What an answer set supposes is told as that, and as no reason.
+        if key in above and node.basis is not Basis.ASSUMED:
             yield f"{key} is its own reason"
         # Several reasons have the literal of each.
         above = above if node.axiom is None else (*above, key)

@@ -91,7 +91,9 @@ def random_goal(domain: PlanningDomain, *, seed: int) -> Goal:
     messages = signature.members("message")
     people = rng.permutation(signature.members("person"))[: 1 + rng.integers(len(messages))]
     wanted = zip(messages, people, strict=False)
-    text = ", ".join(f"message_status({m}, {p}, delivered)" for m, p in wanted)
+    text = ", ".join(
+        f"message_status({message}, {person}, delivered)" for message, person in wanted
+    )
     return read_goal(text, domain.knowledge)
 
 
@@ -141,15 +143,19 @@ def recipients_elsewhere(seeds: Iterable[int], *, before: int | None = None) -> 
     """
     world = _world(before)
     environment = PlanningEnvironment(world)
-    at_work = {tuple(map(str, own.arguments)) for own in world.statics("work_place")}
+    at_work = {tuple(map(str, literal.arguments)) for literal in world.statics("work_place")}
     found = {}
     for seed in seeds:
         environment.reset(seed=seed)
         state = environment.state
         goal = random_goal(world, seed=seed)
-        people = {own.literal.arguments[1] for own in goal.axiom.body if own.literal}
+        people = {
+            condition.literal.arguments[1] for condition in goal.axiom.body if condition.literal
+        }
         places = [
-            tuple(map(str, own.arguments)) for own in state if own.positive and own.name == "loc"
+            tuple(map(str, literal.arguments))
+            for literal in state
+            if literal.positive and literal.name == "loc"
         ]
         found[seed] = sum(person in people and (person, at) not in at_work for person, at in places)
     return found
@@ -244,8 +250,8 @@ class Ratio:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the ratio as values that JSON can hold."""
-        own = {key: value for key, value in asdict(self).items() if key != "compared"}
-        return {**finite(own), "compared": self.compared and self.compared.to_dict()}
+        values = {key: value for key, value in asdict(self).items() if key != "compared"}
+        return {**finite(values), "compared": self.compared and self.compared.to_dict()}
 
 
 def summary(rows: Iterable[Row], *, machine: str | None = None) -> list[Ratio]:
@@ -258,10 +264,11 @@ def summary(rows: Iterable[Row], *, machine: str | None = None) -> list[Ratio]:
     Examples
     --------
     >>> numbers = dict.fromkeys(MEASURES, 1.0)
-    >>> rows = [{"seed": s, "system": a, **numbers} for s in range(3) for a in SYSTEMS]
+    >>> rows = [{"seed": seed, "system": system, **numbers}
+    ...         for seed in range(3) for system in SYSTEMS]
     >>> rows[0]["plans"] = 4.0
-    >>> own = summary(rows)[0]
-    >>> own.measure, own.trials, own.mean_of_ratios.mean, own.ratio_of_means.mean
+    >>> ratio = summary(rows)[0]
+    >>> ratio.measure, ratio.trials, ratio.mean_of_ratios.mean, ratio.ratio_of_means.mean
     ('plans', 3, 2.0, 2.0)
     """
     rows = list(rows)
@@ -269,31 +276,36 @@ def summary(rows: Iterable[Row], *, machine: str | None = None) -> list[Ratio]:
         timed, _ = one_machine(rows)
     else:
         timed = [row for row in rows if row.get("machine", "") == machine]
-    pairs = {own: _pairs(own, timed if is_timing(own) else rows) for own in MEASURES}
+    pairs = {
+        measure: _pairs(measure, timed if is_timing(measure) else rows) for measure in MEASURES
+    }
     tested = {
-        own: compare(both[:, 0].tolist(), both[:, 1].tolist())
-        for own, both in pairs.items()
+        measure: compare(both[:, 0].tolist(), both[:, 1].tolist())
+        for measure, both in pairs.items()
         if len(both)
     }
-    t = holm([own.p_t for own in tested.values()])
-    wilcoxon = holm([own.p_wilcoxon for own in tested.values()])
+    t = holm([paired.p_t for paired in tested.values()])
+    wilcoxon = holm([paired.p_wilcoxon for paired in tested.values()])
     compared = {
-        own: Compared(ALL, paired, p_t, p_wilcoxon)
-        for (own, paired), p_t, p_wilcoxon in zip(tested.items(), t, wilcoxon, strict=True)
+        measure: Compared(ALL, paired, p_t, p_wilcoxon)
+        for (measure, paired), p_t, p_wilcoxon in zip(tested.items(), t, wilcoxon, strict=True)
     }
-    return [replace(_ratio(own, both), compared=compared.get(own)) for own, both in pairs.items()]
+    return [
+        replace(_ratio(measure, both), compared=compared.get(measure))
+        for measure, both in pairs.items()
+    ]
 
 
 def _pairs(measure: str, rows: Iterable[Row]) -> NDArray[np.float64]:
     """What was measured before and after learning, in the trials that have both."""
-    arms: dict[str, dict[int, Row]] = {own: {} for own in SYSTEMS}
+    arms: dict[str, dict[int, Row]] = {system: {} for system in SYSTEMS}
     for row in rows:
         arms[row["system"]][row["seed"]] = row
     before, after = arms["before"], arms["after"]
     pairs = [
-        (before[own][measure], after[own][measure])
-        for own in sorted(before.keys() & after.keys())
-        if before[own][measure] is not None and after[own][measure]
+        (before[seed][measure], after[seed][measure])
+        for seed in sorted(before.keys() & after.keys())
+        if before[seed][measure] is not None and after[seed][measure]
     ]
     return np.array(pairs, dtype=np.float64).reshape(-1, 2)
 

@@ -87,10 +87,10 @@ def run_planning(
             f"{FIRST_RECORDED:,} on they are those of the runs that are learned from"
         )
     _check_settings(run)
-    own = replace(run, out=run.out.absolute())  # other machines work in other folders
+    portable = replace(run, out=run.out.absolute())  # other machines work in other folders
     take_up(run.folder, fault=fault)
-    _learn(own, jobs=jobs)
-    for done in run_all(_try, [(own, seed) for seed in run.seeds], jobs=jobs):
+    _learn(portable, jobs=jobs)
+    for done in run_all(_try, [(portable, seed) for seed in run.seeds], jobs=jobs):
         if on_trial is not None:
             on_trial(done)
     rows = [row for seed in run.seeds for row in read_trial(run.folder, Trial(seed, ALL)) or ()]

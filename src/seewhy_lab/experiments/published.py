@@ -71,7 +71,7 @@ def take_up(folder: Path, *, fault: Callable[[Row], str] | None = None) -> None:
     results, times = _lines(table), _lines(timings)
     systems = list(dict.fromkeys(system for _, system in (*results, *times)))
     taken: dict[Trial, list[Row]] = {}
-    for trial in dict.fromkeys(own for own, _ in (*results, *times)):
+    for trial in dict.fromkeys(trial for trial, _ in (*results, *times)):
         kept = read_trial(folder, trial)
         if kept is None:
             taken[trial] = list(_rows(folder, trial, systems, results, times, fault))
@@ -88,8 +88,8 @@ def take_up(folder: Path, *, fault: Callable[[Row], str] | None = None) -> None:
     # Everything is read before anything is written: nothing of a damaged table is kept.
     for trial, rows in taken.items():
         made = {key: str(rows[0][key]) for key in COLUMNS if rows[0].get(key) is not None}
-        own = [{key: row[key] for key in row if key not in COLUMNS} for row in rows]
-        write_trial(folder, trial, own, made=made)
+        measured = [{key: row[key] for key in row if key not in COLUMNS} for row in rows]
+        write_trial(folder, trial, measured, made=made)
 
 
 def _differs(line: _Line | None, row: Row) -> bool:

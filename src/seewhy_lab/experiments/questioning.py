@@ -72,10 +72,10 @@ def draw_questions(
     by_class: dict[str, tuple[list[Query], np.ndarray[tuple[int], np.dtype[np.float64]]]] = {}
     for number, label in enumerate(labels):
         if label not in by_class:
-            own = [query for query, same in wordings.items() if suitable(same[0], label)]
-            kinds = [query[0] for query in own]
+            fitting = [query for query, same in wordings.items() if suitable(same[0], label)]
+            kinds = [query[0] for query in fitting]
             chances = np.array([1.0 / kinds.count(kind) for kind in kinds])
-            by_class[label] = own, chances / chances.sum()
+            by_class[label] = fitting, chances / chances.sum()
         queries, chance = by_class[label]
         drawn = rng.choice(len(queries), size=min(count, len(queries)), replace=False, p=chance)
         for chosen in drawn:
@@ -123,28 +123,28 @@ def answer_scores(
         (:func:`~seewhy_lab.experiments.sufficiency.answer_suffices`).
     """
     features = list(scenes.domain.features)
-    true = [_named(features, own) for own in scenes.vectors]
+    true = [_named(features, vector) for vector in scenes.vectors]
     classes = scenes.classes
     sufficiency = sufficiency_of(reference)
     scored: list[tuple[bool, bool]] = []
     explaining: list[tuple[bool, bool, bool]] = []
-    for own, kind, vector, label in zip(asked, kinds, vectors, labels, strict=True):
-        scene, true_class = scenes.scenes[own.picture], classes[own.picture]
+    for asked_question, kind, vector, label in zip(asked, kinds, vectors, labels, strict=True):
+        scene, true_class = scenes.scenes[asked_question.picture], classes[asked_question.picture]
         seen = _named(features, vector)
-        gold = reference.answer(own.question, scene.vector, true_class)
+        gold = reference.answer(asked_question.question, scene.vector, true_class)
         enough, exact = score_answer(
             kind,
             gold,
             seen=seen,
-            true=true[own.picture],
+            true=true[asked_question.picture],
             right_class=label == true_class,
         )
         scored.append((enough, exact))
-        if own.question.asks in EXPLANATORY:
+        if asked_question.question.asks in EXPLANATORY:
             suffices = answer_suffices(
                 kind,
                 gold,
-                own.question,
+                asked_question.question,
                 scene.vector,
                 true_class,
                 seen=seen,
@@ -162,8 +162,8 @@ def answer_scores(
 
 
 def _named(features: Sequence[str], vector: FeatureVector) -> dict[str, str | None]:
-    own: Mapping[str, str | None] = dict(zip(features, vector, strict=True))
-    return dict(own)
+    named: Mapping[str, str | None] = dict(zip(features, vector, strict=True))
+    return dict(named)
 
 
 def _share(outcomes: Sequence[bool]) -> float:

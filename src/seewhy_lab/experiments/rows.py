@@ -64,7 +64,7 @@ def kept_trials(out: Path) -> list[Trial]:
     >>> folder = Path(tempfile.mkdtemp())
     >>> for size, seed in ((0, 1), (20, 0), (9, 3)):
     ...     write_trial(folder, Trial(seed, size), [])
-    >>> [own.name for own in kept_trials(folder)]
+    >>> [trial.name for trial in kept_trials(folder)]
     ['9-3', '20-0', 'all-1']
     """
     found = []
@@ -74,7 +74,7 @@ def kept_trials(out: Path) -> list[Trial]:
             trial = Trial(int(seed), ALL if size == say_size(ALL) else int(size))
             if file == trial_file(out, trial):
                 found.append(trial)
-    return sorted(found, key=lambda own: (own.size == ALL, own.size, own.seed))
+    return sorted(found, key=lambda trial: (trial.size == ALL, trial.size, trial.seed))
 
 
 def write_tables(out: Path) -> None:

@@ -118,9 +118,9 @@ def prepare(
     ExperimentError
         If something asked for cannot be done.
     """
-    own = experiment(name)
+    design = experiment(name)
     loaded = load_domain(domain)
-    plan: Plan = own.plan(loaded.name, quick=quick)
+    plan: Plan = design.plan(loaded.name, quick=quick)
     rule = None if reading is None else reading_rule(reading)
     if rule is not None and name == COMPARES_READINGS:
         raise ExperimentError(
@@ -178,7 +178,7 @@ def prepare(
     for trial in run.trials:
         require_enough(setting, trial)
     check_settings(out, {**settings, "pictures": digest(pictures / TABLE)})
-    take_up(run.folder, fault=lambda row: fault(row, own.measures))
+    take_up(run.folder, fault=lambda row: fault(row, design.measures))
     _check_systems(run)
     return run
 
@@ -212,9 +212,9 @@ def run_missing(run: Run, *, jobs: int = -1, on_trial: Callable[[int], None] | N
     done = len(run.trials) - len(missing)
     if on_trial is not None:
         on_trial(done)
-    own = _anywhere(run)
+    portable = _anywhere(run)
     ordered = side_by_side(missing, cpu_count() if jobs < 1 else jobs)
-    for more in run_all(_run_one, [(own, trial) for trial in ordered], jobs=jobs):
+    for more in run_all(_run_one, [(portable, trial) for trial in ordered], jobs=jobs):
         if on_trial is not None:
             on_trial(done + more)
 
@@ -228,12 +228,12 @@ def side_by_side(trials: Sequence[Trial], count: int) -> list[Trial]:
     Examples
     --------
     >>> trials = [Trial(seed, size) for seed in range(3) for size in (20, 30)]
-    >>> [own.name for own in side_by_side(trials, 2)]
+    >>> [trial.name for trial in side_by_side(trials, 2)]
     ['20-0', '20-1', '30-0', '30-1', '20-2', '30-2']
     """
-    seeds = {seed: n for n, seed in enumerate(dict.fromkeys(own.seed for own in trials))}
-    sizes = {size: n for n, size in enumerate(dict.fromkeys(own.size for own in trials))}
-    return sorted(trials, key=lambda own: (seeds[own.seed] // count, sizes[own.size]))
+    seeds = {seed: n for n, seed in enumerate(dict.fromkeys(trial.seed for trial in trials))}
+    sizes = {size: n for n, size in enumerate(dict.fromkeys(trial.size for trial in trials))}
+    return sorted(trials, key=lambda trial: (seeds[trial.seed] // count, sizes[trial.size]))
 
 
 def _anywhere(run: Run) -> Run:

@@ -21,6 +21,7 @@ from seewhy.errors import ExperimentError
 from seewhy.files.folders import whole_folder
 from seewhy.files.locks import locked
 from seewhy.files.whole_files import whole_file
+from seewhy.perception.course import Course
 from seewhy.perception.domain_options import (
     class_options,
     seen_labels,
@@ -29,6 +30,7 @@ from seewhy.perception.domain_options import (
     training_options,
 )
 from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy_lab.experiments.drawing import divide
@@ -156,15 +158,17 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
     first, first_class = pretrain(setting) if setting.drawn else (None, None)
     began = time.process_time()
     features = fit_extractor(
-        pixels["train"],
-        seen_labels(domain, train.vectors, train.classes),
-        values=seen_values(domain),
+        LabelledPictures(
+            pixels["train"],
+            seen_labels(domain, train.vectors, train.classes),
+            seen_values(domain),
+            groups=train.groups,
+        ),
         options=training_options(domain, seed=trial.seed),
-        groups=train.groups,
         start_from=first.networks if first else None,
         rehearsal=first.rehearsal if first else None,
         together=trained_together(domain),
-        workers=1,
+        course=Course(workers=1),
     )
     middle = time.process_time()
     classes = class_network(
@@ -179,16 +183,16 @@ def _train(setting: Setting, trial: Trial, train: Dataset, test: Dataset, file: 
             {
                 "seconds_features": round(middle - began, 2),
                 "seconds_class": round(ended - middle, 2),
-                "weights": sum(own.parameters_count for own in features.networks.values()),
+                "weights": sum(network.parameters_count for network in features.networks.values()),
                 "weights_class": classes.networks[CLASS].parameters_count,
                 "machine": here().machine,
             }
         )
     }
-    for part, own in pixels.items():
-        for key, found in features.probabilities(own).items():
+    for part, pictures in pixels.items():
+        for key, found in features.probabilities(pictures).items():
             kept[f"{part}/{key}"] = found
-        kept[f"{part}-{CLASS}"] = classes.probabilities(own)[CLASS]
+        kept[f"{part}-{CLASS}"] = classes.probabilities(pictures)[CLASS]
     with whole_file(file) as temporary, temporary.open("wb") as stream:
         np.savez_compressed(stream, **kept)
 
@@ -202,14 +206,16 @@ def class_network(
 ) -> FeatureExtractor:
     """Train one network from the picture to the class, like the network of a feature."""
     return fit_extractor(
-        scenes.pictures(scenes.domain.pictures.size),
-        {CLASS: scenes.classes},
-        values={CLASS: tuple(scenes.domain.classes)},
+        LabelledPictures(
+            scenes.pictures(scenes.domain.pictures.size),
+            {CLASS: scenes.classes},
+            {CLASS: tuple(scenes.domain.classes)},
+            groups=scenes.groups,
+        ),
         options=options,
-        groups=scenes.groups,
         start_from=start_from,
         rehearsal=rehearsal,
-        workers=1,
+        course=Course(workers=1),
     )
 
 
@@ -268,8 +274,7 @@ def _pretrain(setting: Setting, folder: Path) -> None:
         first = pretrained(
             domain,
             count=setting.drawn,
-            workers=1,
-            checkpoints=folder,
+            course=Course(workers=1, checkpoints=folder),
         )
         _save(first.networks, folder / _FEATURES)
     scenes = Dataset.load(folder / "drawn", domain)

@@ -75,12 +75,12 @@ def interval(values: Sequence[float], *, seed: int = 0) -> Interval:
     """
     from scipy.stats import bootstrap
 
-    own = np.asarray(values, dtype=np.float64)
-    mean = float(own.mean())
-    if len(own) < 2 or float(np.ptp(own)) < _EQUAL:
+    sample = np.asarray(values, dtype=np.float64)
+    mean = float(sample.mean())
+    if len(sample) < 2 or float(np.ptp(sample)) < _EQUAL:
         return Interval(mean, mean, mean)
     found = bootstrap(
-        (own,), np.mean, n_resamples=_RESAMPLES, rng=np.random.default_rng(seed), method="BCa"
+        (sample,), np.mean, n_resamples=_RESAMPLES, rng=np.random.default_rng(seed), method="BCa"
     ).confidence_interval
     return Interval(mean, float(found.low), float(found.high))
 
@@ -169,8 +169,8 @@ def can_tell(trials: Sequence[int]) -> list[bool]:
     >>> can_tell([6, 1]), can_tell([6, 6])
     ([True, False], [False, False])
     """
-    least = [2.0 ** (1 - own) if own > 1 else math.nan for own in trials]
-    return [own < LEVEL for own in holm(least)]
+    least = [2.0 ** (1 - number) if number > 1 else math.nan for number in trials]
+    return [p_value < LEVEL for p_value in holm(least)]
 
 
 def _effect(mean: float, deviation: float) -> float:
@@ -188,9 +188,9 @@ def holm(p_values: Sequence[float]) -> list[float]:
     [0.03, 0.06, 0.06]
     """
     corrected = [math.nan] * len(p_values)
-    known = [n for n, own in enumerate(p_values) if not math.isnan(own)]
+    known = [n for n, p_value in enumerate(p_values) if not math.isnan(p_value)]
     largest = 0.0
-    for rank, number in enumerate(sorted(known, key=lambda own: p_values[own])):
+    for rank, number in enumerate(sorted(known, key=lambda position: p_values[position])):
         largest = max(largest, min(1.0, (len(known) - rank) * p_values[number]))
         corrected[number] = largest
     return corrected

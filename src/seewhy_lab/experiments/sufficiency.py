@@ -54,13 +54,13 @@ class Sufficiency:
     Examples
     --------
     >>> seen = {("a", "x"): {"up": 2}, ("a", "y"): {"up": 2}, ("b", "x"): {"down": 4}}
-    >>> own = Sufficiency(seen, ["first", "second"], decide=lambda vector: None)
+    >>> sufficiency = Sufficiency(seen, ["first", "second"], decide=lambda vector: None)
     >>> scene, up = frozenset({("first", "a"), ("second", "x")}), frozenset({"up"})
-    >>> own.suffices(frozenset({("first", "a")}), scene, up)
+    >>> sufficiency.suffices(frozenset({("first", "a")}), scene, up)
     True
-    >>> own.suffices(frozenset({("second", "x")}), scene, up)
+    >>> sufficiency.suffices(frozenset({("second", "x")}), scene, up)
     False
-    >>> own.leads_to(("a", "x"), (("first", "b"),), "down")
+    >>> sufficiency.leads_to(("a", "x"), (("first", "b"),), "down")
     True
     """
 
@@ -101,9 +101,11 @@ class Sufficiency:
 
     def _share(self, values: Values, labels: frozenset[str]) -> float | None:
         """The share of the scenes with the values that are of one of the classes, if any has."""
-        alike = self._index.showing((self._features.index(own), value) for own, value in values)
+        alike = self._index.showing(
+            (self._features.index(feature), value) for feature, value in values
+        )
         total = int(self._totals[alike].sum())
-        of_class = [int(self._of_class[own][alike].sum()) for own in labels & self.classes]
+        of_class = [int(self._of_class[label][alike].sum()) for label in labels & self.classes]
         return sum(of_class) / total if total else None
 
     def accountable(self, scene: Values, labels: frozenset[str]) -> bool:
@@ -126,7 +128,7 @@ class Sufficiency:
         counts = self._experience.get(vector)
         if not counts:
             return self._decide(vector)
-        label = max(counts, key=lambda own: counts[own])
+        label = max(counts, key=lambda class_name: counts[class_name])
         return label if 2 * counts[label] > sum(counts.values()) else None
 
     def leads_to(self, vector: FeatureVector, changes: Changes, label: str) -> bool:
@@ -193,12 +195,12 @@ def answer_suffices(
     Examples
     --------
     >>> experience = {("2", "no"): {"stable": 9}, ("5", "yes"): {"unstable": 9}}
-    >>> own = Sufficiency(experience, ["blocks", "lean"], decide=lambda vector: None)
+    >>> sufficiency = Sufficiency(experience, ["blocks", "lean"], decide=lambda vector: None)
     >>> question = Question(Asks.WHY_CLASS, "", (), label="stable")
     >>> answer_suffices(
     ...     AnswerType("reasons", ("lean",)), AnswerType("reasons", ("blocks",)), question,
     ...     ("2", "no"), "stable", seen={"blocks": "2", "lean": "no"}, strict=False,
-    ...     sufficiency=own,
+    ...     sufficiency=sufficiency,
     ... )
     True
     """
@@ -213,7 +215,7 @@ def answer_suffices(
             and asked is not None
             and asked != label
             and bool(kind.changes)
-            and all(sufficiency.leads_to(vector, own, asked) for own in kind.changes)
+            and all(sufficiency.leads_to(vector, change, asked) for change in kind.changes)
         )
     if kind.form != gold.form or not reason or question.asks not in _REASONS:
         return strict

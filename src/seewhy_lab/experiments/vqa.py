@@ -66,10 +66,12 @@ def score_agent(
     """
     found = agent.classify_all(test.pictures(test.domain.pictures.size))
     if not believing:
-        found = [replace(own, otherwise=()) for own in found]
-    replies = agent.answer_all([(found[own.picture], own.question) for own in asked])
-    labels = [own.label for own in found]
-    vectors = [own.vector for own in found]
+        found = [replace(classification, otherwise=()) for classification in found]
+    replies = agent.answer_all(
+        [(found[asked_question.picture], asked_question.question) for asked_question in asked]
+    )
+    labels = [classification.label for classification in found]
+    vectors = [classification.vector for classification in found]
     return {
         "accuracy": _agreement(labels, test.classes),
         **answer_scores(
@@ -77,21 +79,23 @@ def score_agent(
             [reply.kind for reply in replies],
             test,
             reference,
-            vectors=[own.scene.vector for own in replies],
-            labels=[own.scene.label for own in replies],
+            vectors=[reply.scene.vector for reply in replies],
+            labels=[reply.scene.label for reply in replies],
         ),
         "features": _feature_accuracy(vectors, test),
-        "by_knowledge": float(np.mean([own.method == "knowledge" for own in found])),
+        "by_knowledge": float(
+            np.mean([classification.method == "knowledge" for classification in found])
+        ),
     }
 
 
 def _agreement(found: list[str | None] | list[str], true: list[str]) -> float:
-    return float(np.mean([own == label for own, label in zip(found, true, strict=True)]))
+    return float(np.mean([given == label for given, label in zip(found, true, strict=True)]))
 
 
 def _feature_accuracy(vectors: list[Any], test: Dataset) -> float:
     pairs = zip(vectors, test.vectors, strict=True)
-    return float(np.mean([a == b for own, true in pairs for a, b in zip(own, true, strict=True)]))
+    return float(np.mean([a == b for read, true in pairs for a, b in zip(read, true, strict=True)]))
 
 
 def agent_of(

@@ -90,10 +90,10 @@ def visible(scene: Scene, hits: Hits, lights: Array, turn: Array, *, asks: int =
     first = np.where(on_any, turn % step, -1)
     for number in range(LIGHTS):
         rows = np.flatnonzero(first == number % step)
-        at, normal, own = surface.take(rows, 0), hits.normal.take(rows, 0), level[rows]
+        at, normal, height = surface.take(rows, 0), hits.normal.take(rows, 0), level[rows]
         for kind, places in enumerate(lights):
             place = places[number]
-            cosine = (normal @ place - own) / np.linalg.norm(place)
+            cosine = (normal @ place - height) / np.linalg.norm(place)
             facing = np.flatnonzero(cosine > 0.0)
             if not len(facing):
                 continue
@@ -110,12 +110,12 @@ def share(values: list[Array], label: Array, size: int) -> list[Array]:
     """Sums images over a tile around each pixel, over pixels with the same label only."""
     padded = np.pad(label.reshape(size, size), 2, constant_values=-2)
     sources = [np.pad(value.reshape(size, size), 2) for value in values]
-    own = label.reshape(size, size)
+    labels = label.reshape(size, size)
     sums = [np.zeros((size, size), np.float32) for _ in values]
     for row in range(TILE):
         for column in range(TILE):
             window = (slice(row, row + size), slice(column, column + size))
-            same = padded[window] == own
+            same = padded[window] == labels
             for total, source in zip(sums, sources, strict=True):
                 total += source[window] * same
     return [total.ravel() for total in sums]

@@ -37,24 +37,24 @@ def experiment_page(
     command : str
         What makes the page, for its last lines.
     """
-    own = experiment(run.experiment)
+    design = experiment(run.experiment)
     sizes = list(dict.fromkeys(row["size"] for row in rows))
     finished = len({(row["seed"], row["size"]) for row in rows})
     timed, machine = one_machine(rows)
     return rendered(
         "experiment.html",
         package="seewhy_lab",
-        experiment=own,
+        experiment=design,
         domain=run.domain,
         reading=run.reading,
         finished=finished,
         planned=len(run.trials),
-        measures=[_measure(own, measure, rows, sizes) for measure in own.measures],
+        measures=[_measure(design, measure, rows, sizes) for measure in design.measures],
         summary=summary(findings),
-        findings=[_tested(own, finding) for finding in findings],
-        efforts=_efforts(own, rows),
+        findings=[_tested(design, finding) for finding in findings],
+        efforts=_efforts(design, rows),
         parts=training_parts(timed),
-        timings=_timings(own, timed, sizes),
+        timings=_timings(design, timed, sizes),
         timed=say_machine(rows, timed, machine),
         maker=here().commit,
         origins=say_origins(rows),
@@ -67,10 +67,10 @@ def experiment_page(
 
 
 def _measure(
-    own: Experiment, measure: Measure, rows: Sequence[Row], sizes: Sequence[int]
+    design: Experiment, measure: Measure, rows: Sequence[Row], sizes: Sequence[int]
 ) -> dict[str, object]:
     lines, table = [], []
-    for system, name in own.systems.items():
+    for system, name in design.systems.items():
         points, cells = [], []
         for size in sizes:
             values = list(values_of(rows, system, size, measure.key).values())
@@ -90,20 +90,21 @@ def _measure(
         "name": measure.name,
         "sizes": labels,
         "systems": table,
-        "figure": draw_lines(lines, labels, across=own.across, up=measure.name).svg,
+        "figure": draw_lines(lines, labels, across=design.across, up=measure.name).svg,
     }
 
 
-def _tested(own: Experiment, finding: Finding) -> dict[str, object]:
+def _tested(design: Experiment, finding: Finding) -> dict[str, object]:
     claim = finding.claim
     return {
-        "measure": own.measure(claim.measure).name,
-        "system": own.systems[claim.system],
-        "against": own.systems[claim.against],
+        "measure": design.measure(claim.measure).name,
+        "system": design.systems[claim.system],
+        "against": design.systems[claim.against],
         "text": finding.text,
         "supported": finding.supported,
         "sizes": [
-            [say_size(own.size), *comparison_cells(own, times=100)] for own in finding.compared
+            [say_size(comparison.size), *comparison_cells(comparison, times=100)]
+            for comparison in finding.compared
         ],
     }
 
@@ -134,10 +135,10 @@ def _p(value: float) -> str:
     return f"{value:.3f}" if value >= 0.001 else f"{value:.0e}"
 
 
-def _efforts(own: Experiment, rows: Sequence[Row]) -> list[dict[str, object]]:
+def _efforts(design: Experiment, rows: Sequence[Row]) -> list[dict[str, object]]:
     """For every level: what each system needs to classify so many pictures rightly."""
     found: dict[float, dict[str, object]] = {}
-    for effort in efforts(rows, list(own.systems), own.measures[0].key):
+    for effort in efforts(rows, list(design.systems), design.measures[0].key):
         line = found.setdefault(effort.level, {"level": f"{100 * effort.level:.0f} %", "cells": []})
         cells = line["cells"]
         assert isinstance(cells, list)
@@ -146,11 +147,11 @@ def _efforts(own: Experiment, rows: Sequence[Row]) -> list[dict[str, object]]:
     return list(found.values())
 
 
-def _timings(own: Experiment, rows: Sequence[Row], sizes: Sequence[int]) -> dict[str, object]:
+def _timings(design: Experiment, rows: Sequence[Row], sizes: Sequence[int]) -> dict[str, object]:
     """Mean processor seconds of every part of a trial, by system and size."""
     columns = list(dict.fromkeys(name for row in rows for name in row if is_timing(name)))
     lines = []
-    for system, name in own.systems.items():
+    for system, name in design.systems.items():
         for size in sizes:
             cells = []
             for column in columns:

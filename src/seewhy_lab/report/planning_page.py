@@ -46,12 +46,14 @@ def planning_page(run: PlanningRun, rows: Sequence[Row], *, command: str) -> str
         sentences=conclusions(found),
         learned=(run.folder / LEARNED).read_text(encoding="utf-8"),
         tables=[
-            {"name": name, "trials": len(own) // 2, "lines": _lines(own, machine)}
-            for name, own in parts
-            if own
+            {"name": name, "trials": len(part_rows) // 2, "lines": _lines(part_rows, machine)}
+            for name, part_rows in parts
+            if part_rows
         ],
         tests=[
-            [NAMES[own.measure], *comparison_cells(own.compared)] for own in found if own.compared
+            [NAMES[ratio.measure], *comparison_cells(ratio.compared)]
+            for ratio in found
+            if ratio.compared
         ],
         ended=[_ended(system, rows) for system in SYSTEMS],
         finished=len(rows) // 2,
@@ -83,33 +85,33 @@ the ratios 3.00 (2.56 to 3.42), less than in the paper (4.0).'
     'There are too few pairs for any difference to be significant after correction.'
     """
     said = []
-    for own in found:
-        ratio = own.mean_of_ratios
-        if not own.trials:
-            said.append(f"{NAMES[own.measure]}: there is no finished pair yet.")
+    for ratio in found:
+        interval = ratio.mean_of_ratios
+        if not ratio.trials:
+            said.append(f"{NAMES[ratio.measure]}: there is no finished pair yet.")
             continue
-        verdict = own.compared.verdict if own.compared else "open"
-        if ratio.mean >= own.paper:
-            beside = f"at least as in the paper ({own.paper})"
-        elif ratio.high >= own.paper:
-            beside = f"the paper's figure ({own.paper}) lies within the interval"
+        verdict = ratio.compared.verdict if ratio.compared else "open"
+        if interval.mean >= ratio.paper:
+            beside = f"at least as in the paper ({ratio.paper})"
+        elif interval.high >= ratio.paper:
+            beside = f"the paper's figure ({ratio.paper}) lies within the interval"
         else:
-            beside = f"less than in the paper ({own.paper})"
-        means = f"{own.before:.2f} before, {own.after:.2f} after, {_VERDICTS[verdict]}"
-        times = f"{ratio.mean:.2f} ({ratio.low:.2f} to {ratio.high:.2f})"
-        said.append(f"{NAMES[own.measure]}: {means}; the mean of the ratios {times}, {beside}.")
+            beside = f"less than in the paper ({ratio.paper})"
+        means = f"{ratio.before:.2f} before, {ratio.after:.2f} after, {_VERDICTS[verdict]}"
+        times = f"{interval.mean:.2f} ({interval.low:.2f} to {interval.high:.2f})"
+        said.append(f"{NAMES[ratio.measure]}: {means}; the mean of the ratios {times}, {beside}.")
     return [*said, _hypothesis(found)]
 
 
 def _hypothesis(found: Sequence[Ratio]) -> str:
     """Say of which measures the trials bear out that learning saves some of it."""
-    told = [(own.measure, own.compared) for own in found if own.compared]
+    told = [(ratio.measure, ratio.compared) for ratio in found if ratio.compared]
     if not any(can_tell([compared.paired.trials for _, compared in told])):
         return "There are too few pairs for any difference to be significant after correction."
-    saved = [NAMES[own] for own, compared in told if compared.verdict == "better"]
+    saved = [NAMES[measure] for measure, compared in told if compared.verdict == "better"]
     other = [
-        f"{NAMES[own]} ({_VERDICTS[compared.verdict]})"
-        for own, compared in told
+        f"{NAMES[measure]} ({_VERDICTS[compared.verdict]})"
+        for measure, compared in told
         if compared.verdict != "better"
     ]
     if not saved:
@@ -131,8 +133,8 @@ def draw_ratios(found: Sequence[Ratio]) -> Figure:
     >>> draw_ratios([ratio]).width
     640
     """
-    shown = [own for own in found if own.trials]
-    most = max([2.0, *(max(own.mean_of_ratios.high, own.paper) for own in shown)])
+    shown = [ratio for ratio in found if ratio.trials]
+    most = max([2.0, *(max(ratio.mean_of_ratios.high, ratio.paper) for ratio in shown)])
     unit = (_WIDTH - _LEFT - 30) / most
     bottom = _TOP + _ROW * len(shown)
     parts = []
@@ -143,20 +145,20 @@ def draw_ratios(found: Sequence[Ratio]) -> Figure:
             f"<line x1='{x:.1f}' x2='{x:.1f}' y1='{_TOP}' y2='{bottom}' stroke='{colour}'/>"
             f"<text x='{x:.1f}' y='{bottom + 16}' text-anchor='middle' fill='#666'>{mark}</text>"
         )
-    for number, own in enumerate(shown):
+    for number, ratio in enumerate(shown):
         y = _TOP + _ROW * (number + 0.5)
         low, middle, high, paper = (
             _LEFT + unit * value
             for value in (
-                own.mean_of_ratios.low,
-                own.mean_of_ratios.mean,
-                own.mean_of_ratios.high,
-                own.paper,
+                ratio.mean_of_ratios.low,
+                ratio.mean_of_ratios.mean,
+                ratio.mean_of_ratios.high,
+                ratio.paper,
             )
         )
         parts.append(
             f"<text x='{_LEFT - 10}' y='{y + 4:.1f}' text-anchor='end'>"
-            f"{escape(NAMES[own.measure])}</text>"
+            f"{escape(NAMES[ratio.measure])}</text>"
             f"<line x1='{low:.1f}' x2='{high:.1f}' y1='{y:.1f}' y2='{y:.1f}' stroke='#2f6fb3' "
             "stroke-width='3' stroke-linecap='round'/>"
             f"<circle cx='{middle:.1f}' cy='{y:.1f}' r='5.5' fill='#2f6fb3'/>"
@@ -167,28 +169,30 @@ def draw_ratios(found: Sequence[Ratio]) -> Figure:
 
 
 def _lines(rows: Sequence[Row], machine: str) -> list[list[str]]:
-    return [_line(own) for own in summary(rows, machine=machine)]
+    return [_line(ratio) for ratio in summary(rows, machine=machine)]
 
 
-def _line(own: Ratio) -> list[str]:
+def _line(ratio: Ratio) -> list[str]:
     return [
-        NAMES[own.measure],
-        f"{own.before:.2f}",
-        f"{own.after:.2f}",
-        _said(own.mean_of_ratios),
-        _said(own.ratio_of_means),
-        str(own.paper),
-        str(own.trials),
+        NAMES[ratio.measure],
+        f"{ratio.before:.2f}",
+        f"{ratio.after:.2f}",
+        _said(ratio.mean_of_ratios),
+        _said(ratio.ratio_of_means),
+        str(ratio.paper),
+        str(ratio.trials),
     ]
 
 
-def _said(own: Interval) -> str:
-    return f"{own.mean:.2f} ({own.low:.2f} to {own.high:.2f})"
+def _said(interval: Interval) -> str:
+    return f"{interval.mean:.2f} ({interval.low:.2f} to {interval.high:.2f})"
 
 
 def _ended(system: str, rows: Sequence[Row]) -> str:
-    own = [row for row in rows if row["system"] == system]
-    ends = [row["outcome"] for row in own]
+    of_system = [row for row in rows if row["system"] == system]
+    ends = [row["outcome"] for row in of_system]
     counts = ", ".join(f"{end} {ends.count(end)}" for end in sorted(set(ends)))
-    reached = sum(row["achieved"] for row in own)
-    return f"{system} learning: {counts}; the goal was truly reached in {reached} of {len(own)}."
+    reached = sum(row["achieved"] for row in of_system)
+    return (
+        f"{system} learning: {counts}; the goal was truly reached in {reached} of {len(of_system)}."
+    )

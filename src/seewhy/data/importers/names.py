@@ -34,7 +34,11 @@ def valid_name(text: str) -> str:
     for sign, word in _SIGNS.items():
         apart = apart.replace(sign, word)
     plain = unicodedata.normalize("NFKD", apart.casefold())
-    name = re.sub(r"[^a-z0-9]+", "_", "".join(c for c in plain if not unicodedata.combining(c)))
+    name = re.sub(
+        r"[^a-z0-9]+",
+        "_",
+        "".join(character for character in plain if not unicodedata.combining(character)),
+    )
     name = name.strip("_")[:LONGEST_NAME].rstrip("_") or "unnamed"
     if name[0].isdigit():
         return f"n{name}"

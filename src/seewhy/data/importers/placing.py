@@ -110,7 +110,10 @@ def image_names(files: Sequence[str]) -> list[str]:
 
 
 def _safe_part(part: str) -> str:
-    safe = "".join("_" if c in '<>:"|?*\\' or not c.isprintable() else c for c in part).strip()
+    safe = "".join(
+        "_" if character in '<>:"|?*\\' or not character.isprintable() else character
+        for character in part
+    ).strip()
     if len(safe.encode()) > _LONGEST_PART:
         stem, dot, ending = safe.rpartition(".")
         digest = sha256(part.encode(errors="surrogateescape")).hexdigest()[:12]

@@ -152,7 +152,10 @@ def _check_options(request: ImportRequest, kind: Format) -> None:
         "--image-column": (request.image_column, ("table", "labelstudio")),
         "--class-column": (request.class_column, ("table", "labelstudio")),
         "--inside": (request.inside, ("folder",)),
-        "--pictures": (request.pictures, tuple(f for f in get_args(Format) if f != "folder")),
+        "--pictures": (
+            request.pictures,
+            tuple(format_name for format_name in get_args(Format) if format_name != "folder"),
+        ),
     }
     for option, (value, formats) in others.items():
         if value is not None and kind not in formats:

@@ -174,7 +174,9 @@ def _excel_rows(files: SourceFiles, name: str) -> Iterator[tuple[int, Sequence[o
     content = io.BytesIO(read_bytes(files, name))
     try:
         with zipfile.ZipFile(content) as archive:
-            exploding = next((m.filename for m in archive.infolist() if explodes(m)), None)
+            exploding = next(
+                (member.filename for member in archive.infolist() if explodes(member)), None
+            )
         if exploding is not None:
             raise DamagedFileError(
                 f"{said}: '{exploding}' in it would unpack to what no table holds; save it as CSV"

@@ -22,8 +22,8 @@ class State:
     Examples
     --------
     >>> state = State(frozenset(map(clingo.parse_term, ("at(hall)", "-at(attic)", "lit"))))
-    >>> [str(own) for own in state.positive()], [str(own) for own in state.positive("at")]
-    (['lit', 'at(hall)'], ['at(hall)'])
+    >>> [[str(fluent) for fluent in found] for found in (state.positive(), state.positive("at"))]
+    [['lit', 'at(hall)'], ['at(hall)']]
     """
 
     holds: frozenset[clingo.Symbol]
@@ -31,9 +31,13 @@ class State:
 
     def positive(self, predicate: str | None = None) -> list[clingo.Symbol]:
         """The literals believed that are not denials, of one predicate or all, sorted."""
-        return sorted(own for own in self.holds if own.positive and predicate in (None, own.name))
+        return sorted(
+            literal
+            for literal in self.holds
+            if literal.positive and predicate in (None, literal.name)
+        )
 
 
 def facts(predicate: str, symbols: Iterable[clingo.Symbol]) -> str:
     """Return facts of a predicate, one for each symbol, sorted."""
-    return " ".join(f"{predicate}({own})." for own in sorted(map(str, symbols)))
+    return " ".join(f"{predicate}({symbol})." for symbol in sorted(map(str, symbols)))

@@ -142,10 +142,11 @@ def diagnose(
     ... default sally_in(office).
     ... ''')
     >>> usual = diagnose(known, read_history("", known.signature))
-    >>> [str(own) for own in usual.now.positive()]
+    >>> [str(fluent) for fluent in usual.now.positive()]
     ['sally_in(office)']
     >>> seen = read_history("observed sally_in(library) at 1.", known.signature)
-    >>> [(own.kind.value, str(own.what)) for own in diagnose(known, seen).surprises]
+    >>> [(surprise.kind.value, str(surprise.what))
+    ...     for surprise in diagnose(known, seen).surprises]
     [('exception', 'sally_in(office)')]
     """
     last = history.last_step if last is None else max(last, history.last_step)
@@ -160,7 +161,7 @@ def diagnose(
     solve = control.configuration
     solve.opt_mode, solve.enum_mode, solve.models = "optN", "cautious", 0
     sure = control.last_model() or []
-    fluents = [own.symbol.arguments[1] for own in control.by_signature("fluent", 2)]
+    fluents = [atom.symbol.arguments[1] for atom in control.by_signature("fluent", 2)]
     return Diagnosis(
         states=tuple(_states(sure, fluents, last)),
         surprises=tuple(sorted(_surprises(knowledge, best, frozenset(sure)))),
@@ -200,7 +201,9 @@ def diagnosis_program(knowledge: Knowledge, *, last: int, sensors_err: bool = Fa
             lines += _evident(axiom, signature)
             continue
         # At first a constraint that gives way is a default like any other.
-        usual = [own for own in axiom.body if own.literal != axiom.head.complement]
+        usual = [
+            condition for condition in axiom.body if condition.literal != axiom.head.complement
+        ]
         body = body_at(replace(axiom, body=tuple(usual)), signature, "0")
         lines.append(
             rule(f"exception({instance(axiom)})", [*body, f"holds({axiom.head.complement}, 0)"])
@@ -217,8 +220,12 @@ def diagnosis_program(knowledge: Knowledge, *, last: int, sensors_err: bool = Fa
 
 def _evident(axiom: Axiom, signature: Signature) -> Iterator[str]:
     """Yield what follows by a constraint from what was seen at first, and from nothing else."""
-    fluents = [own for own in axiom.body if any(map(signature.changes, predicates_in(own.text)))]
-    if all(own.literal and not own.absent for own in fluents):
+    fluents = [
+        condition
+        for condition in axiom.body
+        if any(map(signature.changes, predicates_in(condition.text)))
+    ]
+    if all(condition.literal and not condition.absent for condition in fluents):
         yield rule(f"holds({axiom.head}, seen)", body_at(axiom, signature, "seen"))
 
 
@@ -236,7 +243,7 @@ def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) 
         if atom.name == "holds" and atom.arguments[1].type is clingo.SymbolType.Number:
             holds[atom.arguments[1].number].add(atom.arguments[0])
     for believed in holds:
-        known = {fluent_of(own) for own in believed}
+        known = {fluent_of(literal) for literal in believed}
         yield State(frozenset(believed), frozenset(set(fluents) - known))
 
 
@@ -245,8 +252,8 @@ def _surprises(
     model: list[clingo.Symbol],
     sure: frozenset[clingo.Symbol],
 ) -> Iterator[Surprise]:
-    evident = {str(own.arguments[0]) for own in model if own.name == "evident"}
-    axioms = {own.identifier: own for own in knowledge.axioms}
+    evident = {str(atom.arguments[0]) for atom in model if atom.name == "evident"}
+    axioms = {axiom.identifier: axiom for axiom in knowledge.axioms}
     for atom in model:
         if atom.name == SurpriseKind.EXCEPTION:
             axiom = axioms[str(atom.arguments[0])]
@@ -279,7 +286,7 @@ def entries_in_the_way(
     >>> known = read_knowledge("#fluent basic dark. #fluent basic lit. -lit if dark.")
     >>> both = read_history("observed dark at 0. observed lit at 0. observed lit at 1.",
     ...     known.signature)
-    >>> [str(own) for own in entries_in_the_way(known, both)]
+    >>> [str(entry) for entry in entries_in_the_way(known, both)]
     ['observed dark at 0.']
     """
     entries: list[Observation | Occurrence] = [*history.observations, *history.occurrences]
@@ -297,7 +304,7 @@ def entries_in_the_way(
     best = control.last_model()
     if best is None:
         return None
-    wrong = sorted(own.arguments[0].number for own in best if own.name == "wrong")
+    wrong = sorted(atom.arguments[0].number for atom in best if atom.name == "wrong")
     return tuple(entries[number] for number in wrong)
 
 
@@ -309,7 +316,7 @@ def unexplained(knowledge: Knowledge, history: History) -> str:
             f"{knowledge.file}: no state satisfies the axioms, whatever is observed; look for "
             "defaults or constraints that contradict each other"
         )
-    said = " and ".join(f"'{str(own).rstrip('.')}'" for own in wrong)
+    said = " and ".join(f"'{str(entry).rstrip('.')}'" for entry in wrong)
     return (
         f"nothing that may be assumed explains this history as long as it says {said}; correct "
         f"{'it' if len(wrong) == 1 else 'them'}, or add to the knowledge what could have happened"

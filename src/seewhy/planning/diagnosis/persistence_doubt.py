@@ -27,7 +27,7 @@ class Doubt:
     ...     "shut causes -open.")
     >>> state = State(frozenset({clingo.Function("open"), clingo.Function("lit")}))
     >>> after = Doubt(known).applied(state, {clingo.Function("open"): 3}, before=4)
-    >>> [str(own) for own in after.positive()], [str(own) for own in after.unknown]
+    >>> [str(fluent) for fluent in after.positive()], [str(fluent) for fluent in after.unknown]
     (['lit'], ['open'])
     """
 
@@ -48,22 +48,24 @@ class Doubt:
         def recent(fluent: clingo.Symbol) -> bool:
             return last_seen.get(fluent, -1) >= before
 
-        settled = {self._group(own) for own in state.holds if own.positive and recent(own)} - {None}
+        settled = {
+            self._group(literal) for literal in state.holds if literal.positive and recent(literal)
+        } - {None}
         doubtful = {
-            own
-            for own in state.holds
-            if (fluent := fluent_of(own)) in self.fluents
+            literal
+            for literal in state.holds
+            if (fluent := fluent_of(literal)) in self.fluents
             and not recent(fluent)
             and self._group(fluent) not in settled
         }
         if not doubtful:
             return state
         defined = {
-            own
-            for own in state.holds
-            if self.knowledge.signature.kind(own.name) is PredicateKind.FLUENT_DEFINED
+            literal
+            for literal in state.holds
+            if self.knowledge.signature.kind(literal.name) is PredicateKind.FLUENT_DEFINED
         }
-        unknown = {fluent_of(own) for own in doubtful | defined}
+        unknown = {fluent_of(literal) for literal in doubtful | defined}
         return State(state.holds - doubtful - defined, state.unknown | unknown)
 
     def _group(self, fluent: clingo.Symbol) -> tuple[str, ...] | None:
@@ -86,17 +88,17 @@ def _changed_unasked(knowledge: Knowledge) -> set[clingo.Symbol]:
         fluent = Literal(axiom.head.predicate, axiom.head.arguments)
         lines.append(rule(f"changed({fluent})", [f"exogenous({axiom.action})", *sorts]))
     control = BoundedControl("\n".join(lines), size=grounding_size(knowledge))
-    changed = {own.symbol.arguments[0] for own in control.by_signature("changed", 1)}
-    groups = {_group(own, knowledge) for own in changed} - {None}
-    fluents = (own.symbol.arguments[1] for own in control.by_signature("fluent", 2))
-    return changed | {own for own in fluents if _group(own, knowledge) in groups}
+    changed = {atom.symbol.arguments[0] for atom in control.by_signature("changed", 1)}
+    groups = {_group(symbol, knowledge) for symbol in changed} - {None}
+    fluents = (atom.symbol.arguments[1] for atom in control.by_signature("fluent", 2))
+    return changed | {symbol for symbol in fluents if _group(symbol, knowledge) in groups}
 
 
 def _group(fluent: clingo.Symbol, knowledge: Knowledge) -> tuple[str, ...] | None:
-    for own in mutexes(knowledge):
-        if own.predicate == fluent.name:
+    for mutex in mutexes(knowledge):
+        if mutex.predicate == fluent.name:
             others = [
-                str(term) for place, term in enumerate(fluent.arguments) if place != own.position
+                str(term) for place, term in enumerate(fluent.arguments) if place != mutex.position
             ]
             return (fluent.name, *others)
     return None

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
 import clingo
 
 from seewhy.knowledge.axiom import AxiomKind
-from seewhy.knowledge.dynamics import of_kind
+from seewhy.knowledge.dynamics import constraints, of_kind
 from seewhy.knowledge.ground import fluent_of, key_of
+from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.diagnosis.persistence_doubt import Doubt
 from seewhy.planning.dialogue.instances import Applied, Instances
@@ -33,6 +34,25 @@ class Failing:
     action: clingo.Symbol | None
     state: State
     obstacles: tuple[Applied, ...] = ()
+
+
+@dataclass(frozen=True)
+class Removed:
+    """What stood in the way of a later action until an action was done.
+
+    Attributes
+    ----------
+    action : clingo.Symbol
+        The later action.
+    obstacle : Applied
+        The executability condition that forbade it before.
+    changed : tuple of clingo.Symbol
+        The literals about basic fluents on which it rested, as they were.
+    """
+
+    action: clingo.Symbol
+    obstacle: Applied
+    changed: tuple[clingo.Symbol, ...]
 
 
 class Against(StrEnum):
@@ -95,6 +115,45 @@ class Intentions:
             done, actions = actions[: failing.place + 1], actions[failing.place + 1 :]
             state = state_after(self.domain.knowledge, done, start=state)
         return found
+
+    def removed(self, step: Step) -> Removed | None:
+        """Return what the action of a step takes out of a later action's way.
+
+        None where it removes nothing, or only what the next action that needs it tells.
+        """
+        if not step.plan:
+            return None
+        before = self.start(step)
+        after = state_after(self.domain.knowledge, step.plan[:1], start=before)
+        if after is None:
+            return None
+        needs = self.needs(step)
+        told = {applied.axiom.identifier for need in needs for applied in need.obstacles}
+        for action in step.plan[1:]:
+            left = {applied.axiom.identifier for applied in self.obstacles(action, after)}
+            for obstacle in self.obstacles(action, before):
+                gone = [literal for literal in obstacle.holds if literal not in after.holds]
+                if obstacle.axiom.identifier in told | left or not gone:
+                    continue
+                changed = [
+                    basic for literal in gone for basic in self._basic(literal, before, after)
+                ]
+                return Removed(action, obstacle, tuple(dict.fromkeys(changed)))
+        return None
+
+    def _basic(
+        self, literal: clingo.Symbol, before: State, after: State
+    ) -> Iterator[clingo.Symbol]:
+        """The literals about basic fluents that made a literal hold and no longer do."""
+        knowledge = self.domain.knowledge
+        if knowledge.signature.kind(literal.name) is not PredicateKind.FLUENT_DEFINED:
+            yield literal
+            return
+        for axiom in constraints(knowledge):
+            for found in self.instances.of(axiom, before.holds, head=literal):
+                for condition in found.holds:
+                    if condition not in after.holds and condition != literal:
+                        yield from self._basic(condition, before, after)
 
     def failing(self, actions: Sequence[clingo.Symbol], start: State) -> Failing | None:
         """Return where actions fail from a state; None where they reach the goal."""

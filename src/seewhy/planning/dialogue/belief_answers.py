@@ -9,16 +9,18 @@ from typing import Any
 import clingo
 
 from seewhy.knowledge.ground import complement_of, fluent_of
-from seewhy.planning.dialogue.asking import Query
+from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.dialogue.belief_reason import Beliefs, tell
 from seewhy.planning.dialogue.describing import describe_place, say_counted
-from seewhy.planning.dialogue.speech import Speech, past, sentences
+from seewhy.planning.dialogue.query import Query, Told
+from seewhy.planning.dialogue.speech import Speech, sentences
 from seewhy.planning.dialogue.supposing import known_at
 from seewhy.planning.dialogue.whereabouts import contents as whats_at
-from seewhy.planning.dialogue.whereabouts import places, whereabouts
+from seewhy.planning.dialogue.whereabouts import place_of, places, whereabouts
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
 from seewhy.planning.planner.mutex import mutexes
+from seewhy.planning.predicate_words import past
 
 
 class BeliefAnswers:
@@ -41,7 +43,7 @@ class BeliefAnswers:
         self.run = run
         self.speech = Speech(domain.words)
 
-    def is_so(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def is_so(self, query: Query) -> Told:
         """Whether something is so, with the reason."""
         beliefs, step = self._beliefs(query)
         before: list[str] = []
@@ -62,9 +64,10 @@ class BeliefAnswers:
         known = self._known(literal, beliefs, step)
         reasons: dict[str, Any] = {"literal": str(literal), "believed": None}
         if known is None:
-            return sentences([*before, self._not_known(literal)]), reasons
+            return sentences([*before, *self._not_known(literal, beliefs, step)]), reasons
         yes = "yes" if known == literal else "no"
-        known = self._instead(known, beliefs, step) if yes == "no" else known
+        if yes == "no":
+            known = instead_of(self.domain, known, beliefs.diagnosis.states[step])
         reasons |= {"believed": yes == "yes", "why": beliefs.why(known, step).to_dict()}
         counted = say_counted(beliefs, known, step)
         if counted is not None:
@@ -85,27 +88,12 @@ class BeliefAnswers:
         """How literals of a step are said: what is past in the past tense."""
         return self.speech.say if step == self.run.history.last_step else self.speech.said
 
-    def _instead(self, denied: clingo.Symbol, beliefs: Beliefs, step: int) -> clingo.Symbol:
-        """What is so instead of something that is not, where only one of them can be."""
-        if denied.positive:
-            return denied
-        for own in mutexes(self.domain.knowledge):
-            for literal in beliefs.diagnosis.states[step].positive(own.predicate):
-                if own.predicate == denied.name and all(
-                    one == other or place == own.position
-                    for place, (one, other) in enumerate(
-                        zip(literal.arguments, denied.arguments, strict=True)
-                    )
-                ):
-                    return literal
-        return denied
-
-    def which(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def which(self, query: Query) -> Told:
         """Of what something is believed: what somebody has, what is closed."""
         beliefs, step = self._beliefs(query)
         found = [
             own
-            for own in beliefs.diagnosis.states[step].positive(query.predicate)
+            for own in beliefs.positive(query.predicate, step)
             if all(
                 asked in (None, str(argument))
                 for asked, argument in zip(query.arguments, own.arguments, strict=True)
@@ -113,11 +101,11 @@ class BeliefAnswers:
         ]
         reasons = {"literals": [str(own) for own in found]}
         if not found:
-            return sentences(["nothing that I know of"]), reasons
+            return sentences([f"{none_of(query.text)} that I know of"]), reasons
         now = step == self.run.history.last_step
         return sentences([(self.speech.every if now else self.speech.every_past)(found)]), reasons
 
-    def why_disbelieve(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def why_disbelieve(self, query: Query) -> Told:
         """Why something is not believed, where it is not."""
         query = self._when_it_mattered(replace(query, positive=not query.positive))
         denied = replace(query, positive=not query.positive)
@@ -141,14 +129,14 @@ class BeliefAnswers:
         held = [own.number for own in acting if literal in own.believed.holds]
         return replace(query, step=held[-1]) if held else query
 
-    def why_believe(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def why_believe(self, query: Query) -> Told:
         """Why something is believed."""
         query = self._when_it_mattered(query)
         beliefs, step = self._beliefs(query)
         literal = query.symbol()
         known = self._known(literal, beliefs, step)
         if known is None:
-            return sentences([self._not_known(literal)]), {"literal": str(literal)}
+            return sentences(self._not_known(literal, beliefs, step)), {"literal": str(literal)}
         why = beliefs.why(known, step)
         reasons = {"literal": str(literal), "believed": known == literal, "why": why.to_dict()}
         counted = say_counted(beliefs, known, step)
@@ -163,7 +151,7 @@ class BeliefAnswers:
         first = "" if counted else believe
         return sentences([first, *because]), reasons
 
-    def where(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def where(self, query: Query) -> Told:
         """Where a thing is."""
         beliefs, step = self._beliefs(query)
         thing = next(own for own in query.arguments if own is not None)
@@ -175,7 +163,7 @@ class BeliefAnswers:
         said = [self._saying(step)(literal), *self._because(literal, beliefs, step)]
         return sentences(said), reasons
 
-    def contents(self, query: Query) -> tuple[str, dict[str, Any]]:
+    def contents(self, query: Query) -> Told:
         """What is at a place."""
         beliefs, step = self._beliefs(query)
         place = query.arguments[0] or ""
@@ -198,11 +186,7 @@ class BeliefAnswers:
         return said if looked else f"{said}; I have not looked there"
 
     def _because(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:
-        said = self.speech.say(literal)
-        return [
-            own.replace(f"it is usual that {said}", "that is usual")
-            for own in tell(beliefs.why(literal, step), self.speech, now=self.run.history.last_step)
-        ]
+        return reason_told(beliefs, literal, step, now=self.run.history.last_step)
 
     def _beliefs(self, query: Query) -> tuple[Beliefs, int]:
         history = known_at(self.run.history, query.step)
@@ -213,20 +197,29 @@ class BeliefAnswers:
         return next((own for own in (literal, complement_of(literal)) if beliefs.holds(own, step)),
                     None)  # fmt: skip
 
-    def _not_known(self, literal: clingo.Symbol) -> str:
+    def _not_known(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:
         said = self.speech.say(fluent_of(literal))
-        return f"I do not know whether {said}: I have not seen it, and nothing that I know tells"
+        if literal.name not in self.speech.words.fixed:
+            return [
+                f"I do not know whether {said}: I have not seen it, and nothing that I know tells"
+            ]
+        # What is known of the first thing instead: where else somebody works.
+        others = [
+            other
+            for other in beliefs.positive(literal.name, step)
+            if len(other.arguments) > 1 and other.arguments[0] == literal.arguments[0]
+        ]
+        only = [f"I only know that {self.speech.every(others)}"] if others else []
+        return [f"not as far as I know: nothing tells me that {said}", *only]
 
     def _place_of(
         self, thing: str, beliefs: Beliefs, step: int
     ) -> tuple[clingo.Symbol, str] | None:
-        literal = whereabouts(self.domain, beliefs.diagnosis.states[step], thing)
-        if literal is None:
-            return None
-        own = next(own for own in places(self.domain) if own.predicate == literal.name)
-        return literal, str(literal.arguments[own.place])
+        state = beliefs.diagnosis.states[step]
+        literal, place = whereabouts(self.domain, state, thing), place_of(self.domain, state, thing)
+        return None if literal is None or place is None else (literal, place)
 
-    def _unknown_place(self, thing: str, beliefs: Beliefs, step: int) -> tuple[str, dict[str, Any]]:
+    def _unknown_place(self, thing: str, beliefs: Beliefs, step: int) -> Told:
         is_me = thing == self.domain.robot
         where = "I am" if is_me else f"{self.speech.name(thing)} is"
         ruled_out = [
@@ -249,3 +242,45 @@ class BeliefAnswers:
             term in signature.members(signature.predicates[own.predicate].sorts[own.place])
             for own in places(self.domain)
         )
+
+
+def none_of(question: str) -> str:
+    """What there is none of: nobody, nowhere, or nothing.
+
+    Examples
+    --------
+    >>> none_of("who works in the kitchen")
+    'nobody'
+    """
+    return {"who": "nobody", "where": "nowhere"}.get(question.split()[0], "nothing")
+
+
+def reason_told(beliefs: Beliefs, literal: clingo.Symbol, step: int, *, now: int) -> list[str]:
+    """The reason of a belief as clauses, after the belief itself; ``now`` is the present step."""
+    said = beliefs.speech.say(literal)
+    told = tell(beliefs.why(literal, step), beliefs.speech, now=now)
+    return [clause.replace(f"it is usual that {said}", "that is usual") for clause in told]
+
+
+def because(beliefs: Beliefs, literal: clingo.Symbol, step: int, *, now: int) -> list[str]:
+    """The reason of a belief as clauses, or what is counted for it."""
+    counted = say_counted(beliefs, literal, step)
+    if counted is None:
+        return reason_told(beliefs, literal, step, now=now)
+    return [counted if step == now else past(counted)]
+
+
+def instead_of(domain: PlanningDomain, denied: clingo.Symbol, state: State) -> clingo.Symbol:
+    """What is so in a state instead of something that is not, where only one of them can be."""
+    if denied.positive:
+        return denied
+    for mutex in mutexes(domain.knowledge):
+        for literal in state.positive(mutex.predicate):
+            if mutex.predicate == denied.name and all(
+                one == other or place == mutex.position
+                for place, (one, other) in enumerate(
+                    zip(literal.arguments, denied.arguments, strict=True)
+                )
+            ):
+                return literal
+    return denied

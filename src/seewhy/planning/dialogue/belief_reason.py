@@ -32,6 +32,7 @@ class Basis(StrEnum):
     UNCHANGED = "unchanged"
     NOTHING_ELSE = "nothing makes it so"
     EXPLAINS = "explains what was observed"
+    GIVEN = "given"
 
 
 @dataclass(frozen=True)
@@ -104,8 +105,15 @@ class Beliefs:
         return self._diagnosed(self.history)
 
     def holds(self, literal: clingo.Symbol, step: int) -> bool:
-        """Whether the literal is believed of a step."""
+        """Whether the literal is believed of a step; what never changes, of every step."""
+        if self._kind(literal) is PredicateKind.STATIC:
+            return literal in self.instances.statics
         return literal in self.diagnosis.states[step].holds
+
+    def positive(self, predicate: str | None, step: int) -> list[clingo.Symbol]:
+        """The literals of a predicate that are believed of a step and are no denials, sorted."""
+        fixed = (one for one in self.instances.statics if one.positive and one.name == predicate)
+        return [*self.diagnosis.states[step].positive(predicate), *sorted(fixed)]
 
     def observed(self, literal: clingo.Symbol, step: int) -> bool:
         """Whether the literal was seen at a step, and not wrongly."""
@@ -138,6 +146,8 @@ class Beliefs:
         self, literal: clingo.Symbol, step: int, above: frozenset[tuple[clingo.Symbol, int]]
     ) -> Reason:
         above |= {(literal, step)}
+        if self._kind(literal) is PredicateKind.STATIC:
+            return self._given(literal, step, above)
         own = self._observed_or_caused(literal, step, above)
         if own is not None:
             return own
@@ -179,7 +189,7 @@ class Beliefs:
                         Basis.EFFECT,
                         axiom=axiom,
                         action=action,
-                        children=self._each(found.holds, step - 1, above),
+                        children=self._each((*found.holds, *found.statics), step - 1, above),
                     )
         return None
 
@@ -191,13 +201,32 @@ class Beliefs:
             if gives_way(axiom, self.domain.knowledge.signature):
                 continue
             for found in self.instances.of(axiom, state, head=literal):
-                rests = (*found.holds, *found.counted)
+                rests = (*found.holds, *found.counted, *found.statics)
                 if not any((own, step) in above for own in rests):
                     children = self._each(rests, step, above)
                     return self._reason(
                         literal, step, Basis.FOLLOWS, axiom=axiom, children=children
                     )
         return None
+
+    def _given(
+        self, literal: clingo.Symbol, step: int, above: frozenset[tuple[clingo.Symbol, int]]
+    ) -> Reason:
+        """What never changes: known from the beginning, or from what is."""
+        axioms = [
+            axiom
+            for axiom in self.domain.knowledge.without_change.axioms
+            if axiom.head.predicate == literal.name
+        ]
+        for axiom in sorted(axioms, key=lambda axiom: len(axiom.body)):
+            for found in self.instances.of(axiom, (), head=literal):
+                rests = [other for other in found.statics if (other, step) not in above]
+                if len(rests) < len(found.statics):
+                    continue  # a round-about way to itself
+                children = self._each(tuple(rests), step, above)
+                basis = Basis.FOLLOWS if axiom.body else Basis.GIVEN
+                return self._reason(literal, step, basis, axiom=found.axiom, children=children)
+        return self._reason(literal, step, Basis.GIVEN)
 
     def _usual(self, literal: clingo.Symbol) -> Reason | None:
         knowledge = self.domain.knowledge
@@ -295,6 +324,9 @@ def _tell(reason: Reason, speech: Speech, told: list[str], now: int | None) -> N
             f"it follows {'from ' + axiom if axiom else 'from what I know'}"
             f"{': ' if since else ''}{since}"
         )
+    elif reason.basis is Basis.GIVEN:
+        told.append(f"I know that from the beginning{': ' if axiom else ''}{axiom}")
+        return
     elif reason.basis is Basis.NOTHING_ELSE:
         told.append("nothing that I know of makes it otherwise")
         return
@@ -305,6 +337,11 @@ def _tell(reason: Reason, speech: Speech, told: list[str], now: int | None) -> N
         )
         return
     for child in _first_of_each(children):
+        if child.basis is Basis.GIVEN or (
+            child.literal.name in speech.words.fixed
+            and reason.literal.name not in speech.words.fixed
+        ):
+            continue  # what never changes is no news
         _tell(child, speech, told, now)
 
 

@@ -31,12 +31,16 @@ class Applied:
         Those that an aggregate counts.
     absent : tuple of clingo.Symbol
         Those that are not believed (``not …``).
+    statics, absent_statics : tuple of clingo.Symbol
+        The literals about what never changes among its conditions, and those that are not so.
     """
 
     axiom: Axiom
     holds: tuple[clingo.Symbol, ...] = ()
     counted: tuple[clingo.Symbol, ...] = ()
     absent: tuple[clingo.Symbol, ...] = ()
+    statics: tuple[clingo.Symbol, ...] = ()
+    absent_statics: tuple[clingo.Symbol, ...] = ()
 
 
 class Instances:
@@ -59,12 +63,13 @@ class Instances:
     def __init__(self, knowledge: Knowledge) -> None:
         self.knowledge = knowledge
         control = BoundedControl("\n".join(fixed_rules(knowledge)), size=grounding_size(knowledge))
-        fixed = [
-            str(atom.symbol)
-            for name, arity in (("sort", 2), ("holds", 1))
-            for atom in control.by_signature(name, arity)
-        ]
-        self._fixed = " ".join(f"{own}." for own in fixed)
+        sorts = [str(atom.symbol) for atom in control.by_signature("sort", 2)]
+        self.statics = frozenset(
+            atom.symbol.arguments[0] for atom in control.by_signature("holds", 1)
+        )
+        """What is so in every state."""
+        held = [f"holds({literal})" for literal in sorted(self.statics)]
+        self._fixed = " ".join(f"{fact}." for fact in [*sorts, *held])
 
     def of(
         self,
@@ -110,19 +115,27 @@ class Instances:
         own = _substituted(
             axiom, dict(zip(axiom.variables, map(str, binding.arguments), strict=True))
         )
-        fluents = [
-            (condition, clingo.parse_term(key_of(condition.literal)))
-            for condition in own.body
-            if condition.literal is not None
-            and self.knowledge.signature.kind(condition.literal.predicate).is_fluent
-            and "_" not in condition.literal.arguments
-        ]
         counted = tuple(self._counted(own, facts))
         return Applied(
             own,
-            holds=tuple(own for condition, own in fluents if not condition.absent),
+            holds=self._named(own, fluent=True, absent=False),
             counted=counted,
-            absent=tuple(own for condition, own in fluents if condition.absent),
+            absent=self._named(own, fluent=True, absent=True),
+            statics=self._named(own, fluent=False, absent=False),
+            absent_statics=self._named(own, fluent=False, absent=True),
+        )
+
+    def _named(self, axiom: Axiom, *, fluent: bool, absent: bool) -> tuple[clingo.Symbol, ...]:
+        """The literals of conditions of one kind."""
+        predicates = self.knowledge.signature.predicates
+        return tuple(
+            clingo.parse_term(key_of(condition.literal))
+            for condition in axiom.body
+            if condition.literal is not None
+            and condition.absent == absent
+            and condition.literal.predicate in predicates
+            and predicates[condition.literal.predicate].kind.is_fluent == fluent
+            and "_" not in condition.literal.arguments
         )
 
     def _counted(self, axiom: Axiom, facts: str) -> Iterator[clingo.Symbol]:

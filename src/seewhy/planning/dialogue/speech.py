@@ -10,11 +10,10 @@ import clingo
 
 from seewhy.domain.wording import join_words, say_one_of, sentence
 from seewhy.planning.diagnosis.diagnosis import Surprise
+from seewhy.planning.predicate_words import base_form, past
 from seewhy.planning.words import PlanningWords
 
 _ME = "\x01"
-_PAST = {"is": "was", "are": "were", "am": "was", "has": "had", "have": "had", "does": "did",
-         "do": "did", "can": "could"}  # fmt: skip
 _PLURAL = {"is": "are", "has": "have", "does": "do", "was": "were", "had": "had"}
 _VERB = re.compile(rf"^(.+?) ({'|'.join(_PLURAL)}) (.+)$")
 _SUBJECT = re.compile(rf"(^|\bthat |^perhaps ){_ME} (\w+)")
@@ -50,8 +49,8 @@ class Speech:
         return self._spoken(self.words.say(literal))
 
     def said(self, literal: clingo.Symbol) -> str:
-        """A literal as a clause in the past tense."""
-        return past(self.say(literal))
+        """A literal as a clause in the past tense; what never changes is said in the present."""
+        return self._spoken(self.words.said(literal))
 
     def do(self, action: clingo.Symbol) -> str:
         """An action as what is to be done: "move to the kitchen"."""
@@ -61,10 +60,20 @@ class Speech:
         """An action as what was done: "moved to the kitchen"."""
         return self._spoken(self.words.did(action))
 
+    def act(self, action: clingo.Symbol) -> str:
+        """An action as what whoever does it is to do."""
+        return self._spoken(self.words.act(action))
+
+    def subject(self, action: clingo.Symbol) -> str:
+        """Whoever does an action: "I", or another robot by its name."""
+        actor = self.words.actor(action)
+        return "I" if actor is None else self.name(actor)
+
     def happened(self, action: clingo.Symbol) -> str:
         """What was done or happened as a clause: "I moved to the kitchen", "Bob walked away"."""
         table = self.words.actions.get(action.name)
-        return self.did(action) if table and table.do is None else f"I {self.did(action)}"
+        happened = table is not None and table.do is None
+        return self.did(action) if happened else f"{self.subject(action)} {self.did(action)}"
 
     def surprise(self, surprise: Surprise) -> str:
         """What a diagnosis assumes, as a clause."""
@@ -85,21 +94,6 @@ class Speech:
             if clause.startswith(f"{name} "):
                 clause = name + clause[len(name) :].replace(f"{name}'s", possessive)
         return re.sub(r"\b([Aa]) (?=[aeiou])", r"\1n ", clause)
-
-
-def past(clause: str) -> str:
-    """Put a clause into the past tense, as far as its verb is known.
-
-    Examples
-    --------
-    >>> past("the kitchen is closed")
-    'the kitchen was closed'
-    """
-    words = clause.split(" ")
-    for place, word in enumerate(words):
-        if word in _PAST:
-            return " ".join([*words[:place], _PAST[word], *words[place + 1 :]])
-    return clause
 
 
 def subjunctive(clause: str) -> str:
@@ -184,22 +178,7 @@ def plural(noun: str) -> str:
 def _in_first_person(clause: str) -> str:
     def spoken(found: re.Match[str]) -> str:
         before, verb = found.groups()
-        return f"{before}I {_FIRST.get(verb) or base(verb)}"
+        return f"{before}I {_FIRST.get(verb) or base_form(verb)}"
 
     clause = _SUBJECT.sub(spoken, clause)
     return clause.replace(f"{_ME}'s", "my").replace(_ME, "me")
-
-
-def base(verb: str) -> str:
-    """Return a regular verb of the third person without its ending.
-
-    Examples
-    --------
-    >>> base("holds"), base("carries"), base("reaches"), base("moved")
-    ('hold', 'carry', 'reach', 'moved')
-    """
-    if verb.endswith("ies"):
-        return f"{verb[:-3]}y"
-    if verb.endswith(("sses", "ches", "shes", "xes", "oes")):
-        return verb[:-2]
-    return verb[:-1] if verb.endswith("s") and not verb.endswith("ss") else verb

@@ -66,6 +66,15 @@ def whereabouts(domain: PlanningDomain, state: State, thing: str) -> clingo.Symb
     return None
 
 
+def place_of(domain: PlanningDomain, state: State, thing: str) -> str | None:
+    """Return the place where a thing is, where it is believed to be somewhere."""
+    literal = whereabouts(domain, state, thing)
+    for place in places(domain):
+        if literal is not None and place.predicate == literal.name:
+            return str(literal.arguments[place.place])
+    return None
+
+
 def contents(domain: PlanningDomain, state: State, place: str) -> list[clingo.Symbol]:
     """Return the literals that say what is at a place."""
     return [

@@ -84,7 +84,7 @@ class PlanningEnvironment:
         self.sensors = Sensors(domain.knowledge, domain.sensing)
         self.actions = self.transitions.actions
         self.fluents = sorted(self.transitions.fluents)
-        self._places = {own: number for number, own in enumerate(self.fluents)}
+        self._places = {fluent: number for number, fluent in enumerate(self.fluents)}
         self.state: World = frozenset()
         self.sight = sight
         self.look: Look | None = None
@@ -162,14 +162,14 @@ class PlanningEnvironment:
             self.look = self.sight.look(self.state, seed=int(stream.integers(2**31)))
             for fluent, holds in self.look.read.items():
                 observation[self._places[fluent]] = SEEN_TRUE if holds else SEEN_FALSE
-            misread = [own for own in misread if own not in self.look.read]
+            misread = [fluent for fluent in misread if fluent not in self.look.read]
             misread += self.look.misread
         return observation, tuple(misread)
 
     def _random_events(self) -> Iterator[clingo.Symbol]:
         for name, chance in self.domain.simulation.events.items():
             if self.random.random() < chance:
-                possible = [own for own in self.transitions.events if own.name == name]
+                possible = [event for event in self.transitions.events if event.name == name]
                 order = self.random.permutation(len(possible))
                 yield from self._first_possible(possible[int(number)] for number in order)
 
@@ -183,7 +183,7 @@ class PlanningEnvironment:
         knowledge, simulation = self.domain.knowledge, self.domain.simulation
         usual = diagnose(knowledge, self.domain.history).states[0]
         open_fluents = sorted(usual.unknown)
-        chosen = [own for own in open_fluents if self.random.random() < simulation.unknown]
+        chosen = [fluent for fluent in open_fluents if self.random.random() < simulation.unknown]
         order = self.random.permutation(len(chosen))
         state = self.transitions.complete(
             [*sorted(usual.holds), *(chosen[int(number)] for number in order)]

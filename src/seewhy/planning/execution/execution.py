@@ -25,6 +25,7 @@ from seewhy.planning.execution.sensing import condition_to_sense
 from seewhy.planning.goal import Goal, read_goal
 from seewhy.planning.planner.goal_test import holds_in
 from seewhy.planning.planner.planner import Plan, PlanStatus, plan
+from seewhy.text.notebook import html_line, html_table
 
 Act = Callable[[clingo.Symbol], list[Literal]]
 """Does an action in the world and returns what is sensed after it."""
@@ -107,15 +108,31 @@ class Run:
     outcome: Outcome | None = None
     sensors_err: bool = False
 
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the goal, how the run ended, and what was decided at each step."""
+        ended = "goes on" if self.outcome is None else self.outcome.value
+        return html_line(f"goal: {self.goal}; {ended}") + html_table(
+            ["step", "decision", "action", "surprises"],
+            (
+                (
+                    str(step.number),
+                    step.decision.value,
+                    "" if step.action is None else str(step.action),
+                    str(len(step.surprises)),
+                )
+                for step in self.steps
+            ),
+        )
+
     @property
     def actions(self) -> list[clingo.Symbol]:
         """What was done, in order."""
-        return [own.action for own in self.steps if own.action is not None]
+        return [step.action for step in self.steps if step.action is not None]
 
     @property
     def plans(self) -> list[Step]:
         """The steps at which a plan was made."""
-        return [own for own in self.steps if own.decision in (Decision.PLAN, Decision.REPLAN)]
+        return [step for step in self.steps if step.decision in (Decision.PLAN, Decision.REPLAN)]
 
 
 def execute(
@@ -150,7 +167,7 @@ def execute(
     known: tuple[Surprise, ...] = ()
     while run.outcome is None:
         diagnosis = diagnose(domain.knowledge, run.history, sensors_err=domain.sensors_err)
-        new = tuple(own for own in diagnosis.surprises if own not in known)
+        new = tuple(surprise for surprise in diagnosis.surprises if surprise not in known)
         known = diagnosis.surprises
         step = robot.decide(run.history, diagnosis.now, sensed, new)
         if step.action is not None and len(run.actions) == most_steps:
@@ -270,7 +287,7 @@ class _Robot:
         def leaves_a_plan(before: int) -> bool:
             return doubting(before)[1].found
 
-        steps = {own for fluent, own in last_seen.items() if fluent in self.doubt.fluents}
+        steps = {step for fluent, step in last_seen.items() if fluent in self.doubt.fluents}
         ages = sorted({0, *steps})
         if not leaves_a_plan(ages[-1]):
             return None
@@ -282,17 +299,17 @@ class _Robot:
     ) -> tuple[clingo.Symbol, ...]:
         """What is seen now that, were it otherwise, would leave a plan; the unusual first."""
         latest = max(last_seen.values(), default=0)
-        before = {own: step for own, step in last_seen.items() if step < latest}
+        before = {fluent: step for fluent, step in last_seen.items() if step < latest}
         if not self._plan(self.doubt.applied(now, before, before=latest)).found:
             return ()  # not even if all of it were otherwise
         found = []
-        for fluent in sorted(own for own, step in last_seen.items() if step == latest):
-            less = {own: step for own, step in last_seen.items() if own != fluent}
+        for fluent in sorted(fluent for fluent, step in last_seen.items() if step == latest):
+            less = {other: step for other, step in last_seen.items() if other != fluent}
             start = self.doubt.applied(now, less, before=latest)
             if fluent in start.unknown and self._plan(start).actions:
                 found.append(fluent if fluent in now.holds else complement_of(fluent))
         usual = diagnose(self.domain.knowledge, self.domain.history).states[0].holds
-        unusual = [own for own in found if complement_of(own) in usual]
+        unusual = [literal for literal in found if complement_of(literal) in usual]
         return tuple(unusual or found)
 
     def _plan(self, start: State, goal: Goal | None = None) -> Plan:
@@ -312,7 +329,7 @@ class _Robot:
 def _last_seen(history: History) -> dict[clingo.Symbol, int]:
     """For every fluent that was observed, the last step at which it was."""
     return {
-        fluent_of(symbol): own.step
-        for own in sorted(history.observations, key=lambda own: own.step)
-        for symbol in (clingo.parse_term(str(own.literal)),)
+        fluent_of(symbol): observation.step
+        for observation in sorted(history.observations, key=lambda observation: observation.step)
+        for symbol in (clingo.parse_term(str(observation.literal)),)
     }

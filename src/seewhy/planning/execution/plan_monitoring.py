@@ -47,26 +47,29 @@ def suppositions(
     >>> closed, has_key = clingo.parse_term("-open"), clingo.Function("has_key")
     >>> start = State(frozenset({closed}), frozenset({has_key}))
     >>> push = [clingo.Function("push")]
-    >>> [str(own) for own in suppositions(known, read_goal("open", known), push, start=start)]
+    >>> supposed = suppositions(known, read_goal("open", known), push, start=start)
+    >>> [str(literal) for literal in supposed]
     ['has_key']
     """
     aimed = with_goal(knowledge, goal)
     wanted = f":- not holds({REACHED}, {len(actions)})."
     model = _solved(aimed, actions, start, wanted, cautious=True) or []
-    at_first = (own.arguments[0] for own in model if own.arguments[1].number == 0)
+    at_first = (atom.arguments[0] for atom in model if atom.arguments[1].number == 0)
     unknown = start.unknown
     needed = [
-        own
-        for own in at_first
-        if fluent_of(own) in unknown
-        and knowledge.signature.kind(own.name) is PredicateKind.FLUENT_BASIC
+        literal
+        for literal in at_first
+        if fluent_of(literal) in unknown
+        and knowledge.signature.kind(literal.name) is PredicateKind.FLUENT_BASIC
     ]
     if not needed:
         model = _solved(aimed, actions, start, wanted, cautious=False) or []
-        at_first = (own.arguments[0] for own in model if own.arguments[1].number == 0)
-        needed = [own for own in at_first if own in unknown]
-    affirmed = {own.name for own in needed if own.positive}
-    return tuple(sorted(own for own in needed if own.positive or own.name not in affirmed))
+        at_first = (atom.arguments[0] for atom in model if atom.arguments[1].number == 0)
+        needed = [literal for literal in at_first if literal in unknown]
+    affirmed = {literal.name for literal in needed if literal.positive}
+    return tuple(
+        sorted(literal for literal in needed if literal.positive or literal.name not in affirmed)
+    )
 
 
 def _solved(
@@ -78,20 +81,20 @@ def _solved(
     cautious: bool,
 ) -> list[clingo.Symbol] | None:
     basic = [
-        own
-        for own in sorted(start.unknown)
-        if knowledge.signature.kind(own.name) is PredicateKind.FLUENT_BASIC
+        fluent
+        for fluent in sorted(start.unknown)
+        if knowledge.signature.kind(fluent.name) is PredicateKind.FLUENT_BASIC
     ]
     lines = [
         *transition_rules(knowledge, last=len(actions)),
-        " ".join(f"holds({own}, 0)." for own in sorted(start.holds)),
-        " ".join(f"1 {{ holds({own}, 0); holds(-{own}, 0) }} 1." for own in basic),
-        " ".join(f"occurs({own}, {step})." for step, own in enumerate(actions)),
+        " ".join(f"holds({literal}, 0)." for literal in sorted(start.holds)),
+        " ".join(f"1 {{ holds({fluent}, 0); holds(-{fluent}, 0) }} 1." for fluent in basic),
+        " ".join(f"occurs({action}, {step})." for step, action in enumerate(actions)),
         wanted,
         "#show holds/2.",
     ]
     if not cautious:
-        lines += [f":~ holds({own}, 0). [1, {own}]" for own in basic]
+        lines += [f":~ holds({fluent}, 0). [1, {fluent}]" for fluent in basic]
     size = grounding_size(knowledge).times(len(actions) + 1)
     control = BoundedControl("\n".join(lines), size=size)
     if cautious:
@@ -111,7 +114,7 @@ def state_after(
     ...     "impossible press if lit.")
     >>> press = clingo.Function("press")
     >>> dark = State(frozenset({clingo.parse_term("-lit")}))
-    >>> [str(own) for own in state_after(known, [press], start=dark).holds]
+    >>> [str(literal) for literal in state_after(known, [press], start=dark).holds]
     ['lit']
     >>> state_after(known, [press, press], start=dark) is None
     True
@@ -120,7 +123,7 @@ def state_after(
     if model is None:
         return None
     last = len(actions)
-    holds = frozenset(own.arguments[0] for own in model if own.arguments[1].number == last)
-    known = {fluent_of(own) for own in holds}
-    before = {fluent_of(own) for own in start.holds} | start.unknown
+    holds = frozenset(atom.arguments[0] for atom in model if atom.arguments[1].number == last)
+    known = {fluent_of(literal) for literal in holds}
+    before = {fluent_of(literal) for literal in start.holds} | start.unknown
     return State(holds, frozenset(before - known))

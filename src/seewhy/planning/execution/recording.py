@@ -26,6 +26,14 @@ def record_of(domain: PlanningDomain, run: Run) -> History:
     if not run.sensors_err:
         return run.history
     found = diagnose(domain.knowledge, run.history, sensors_err=True).surprises
-    wrong = {(own.step, str(own.what)) for own in found if own.kind is SurpriseKind.MISREADING}
-    kept = (own for own in run.history.observations if (own.step, key_of(own.literal)) not in wrong)
+    wrong = {
+        (surprise.step, str(surprise.what))
+        for surprise in found
+        if surprise.kind is SurpriseKind.MISREADING
+    }
+    kept = (
+        observation
+        for observation in run.history.observations
+        if (observation.step, key_of(observation.literal)) not in wrong
+    )
     return replace(run.history, observations=tuple(kept))

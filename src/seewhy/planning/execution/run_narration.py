@@ -39,7 +39,7 @@ def narrate_end(run: Run) -> str:
 
 def _clauses(words: PlanningWords, step: Step) -> Iterator[str]:
     if step.surprises:
-        found = [words.surprise(own) for own in step.surprises]
+        found = [words.surprise(surprise) for surprise in step.surprises]
         yield f"I did not expect what I see; it must be that {in_sequence(found)}"
     if step.decision is Decision.STOP:
         if step.skipped:

@@ -51,7 +51,7 @@ def read_sensing(literal: str, where: str, knowledge: Knowledge, *, error: float
     >>> known = read_knowledge("#sort place = {hall}. #fluent basic dark(place). "
     ...     "#fluent basic at(place).")
     >>> sensing = read_sensing("dark(L)", "at(L)", known, error=0.1)
-    >>> str(sensing.literal), [str(own) for own in sensing.conditions], sensing.error
+    >>> str(sensing.literal), [str(part) for part in sensing.conditions], sensing.error
     ('dark(L)', ['at(L)'], 0.1)
     """
     signature, example = knowledge.signature, example_fluent(knowledge)
@@ -104,7 +104,7 @@ def condition_to_sense(sensing: Sensing, literal: clingo.Symbol) -> str | None:
             return None
         if not variables_in(argument) and argument != str(value):
             return None
-    return ", ".join(substitute(own.text, binding) for own in sensing.conditions)
+    return ", ".join(substitute(condition.text, binding) for condition in sensing.conditions)
 
 
 class Sensors:
@@ -116,7 +116,8 @@ class Sensors:
     >>> domain = load_planning_domain("robot_assistant")
     >>> sensors = Sensors(domain.knowledge, domain.sensing)
     >>> in_library = frozenset({clingo.parse_term("loc(rob1,library)")})
-    >>> sorted(str(own) for own, error in sensors.sensed(in_library) if own.name == "closed")
+    >>> sensed = [fluent for fluent, error in sensors.sensed(in_library)]
+    >>> sorted(str(fluent) for fluent in sensed if fluent.name == "closed")
     ['closed(bobs_office)', 'closed(johns_office)', 'closed(kitchen)']
     """
 
@@ -124,18 +125,18 @@ class Sensors:
         self.knowledge = knowledge
         self.sensing = sensing
         lines = list(fixed_rules(knowledge))
-        for number, own in enumerate(sensing):
+        for number, entry in enumerate(sensing):
             body = [
                 part
-                for place, condition in enumerate(own.conditions)
+                for place, condition in enumerate(entry.conditions)
                 for part in at_step(condition, knowledge.signature, "0", number=place)
             ]
-            sorts = knowledge.signature.predicates[own.literal.predicate].sorts
+            sorts = knowledge.signature.predicates[entry.literal.predicate].sorts
             body += [
                 f"sort({sort}, {argument})"
-                for argument, sort in zip(own.literal.arguments, sorts, strict=True)
+                for argument, sort in zip(entry.literal.arguments, sorts, strict=True)
             ]
-            lines.append(rule(f"sensed({number}, {own.literal})", body))
+            lines.append(rule(f"sensed({number}, {entry.literal})", body))
         self._program = "\n".join([*lines, "at(0, 0).", "#show sensed/2."])
         self._size = grounding_size(knowledge)
         self._remembered: dict[World, list[tuple[clingo.Symbol, float]]] = {}
@@ -148,7 +149,7 @@ class Sensors:
         return known
 
     def _sensed(self, state: World) -> Iterator[tuple[clingo.Symbol, float]]:
-        facts = " ".join(f"holds({own}, 0)." for own in sorted(state))
+        facts = " ".join(f"holds({literal}, 0)." for literal in sorted(state))
         control = BoundedControl(f"{self._program}\n{facts}", size=self._size)
         errors: dict[clingo.Symbol, float] = {}
         for atom in control.by_signature("sensed", 2):

@@ -42,7 +42,9 @@ class Look:
     @property
     def misread(self) -> tuple[clingo.Symbol, ...]:
         """The fluents that are not as they were read, sorted."""
-        return tuple(sorted(own for own in self.shown if self.shown[own] != self.read[own]))
+        return tuple(
+            sorted(fluent for fluent in self.shown if self.shown[fluent] != self.read[fluent])
+        )
 
 
 class Sight:

@@ -61,7 +61,7 @@ def execution_seconds(domain: PlanningDomain, run: Run) -> float:
     (2, 30.0)
     """
     durations = domain.simulation.durations
-    return float(sum(durations.get(own.name, 1.0) for own in run.actions))
+    return float(sum(durations.get(action.name, 1.0) for action in run.actions))
 
 
 def simulate(

@@ -37,7 +37,7 @@ class Transitions:
     >>> transitions = Transitions(known)
     >>> dark = transitions.complete([])
     >>> press = clingo.Function("press")
-    >>> [str(own) for own in transitions.after(dark, [press])]
+    >>> [str(literal) for literal in transitions.after(dark, [press])]
     ['lit']
     >>> transitions.after(transitions.after(dark, [press]), [press]) is None
     True
@@ -56,11 +56,11 @@ class Transitions:
             atom.symbol.arguments[0]: atom.literal for atom in atoms.by_signature("occurs", 2)
         }
         self._basic = sorted(
-            own.symbol.arguments[1]
-            for own in atoms.by_signature("fluent", 2)
-            if own.symbol.arguments[0].name == "basic"
+            atom.symbol.arguments[1]
+            for atom in atoms.by_signature("fluent", 2)
+            if atom.symbol.arguments[0].name == "basic"
         )
-        self.fluents = sorted(own.symbol.arguments[1] for own in atoms.by_signature("fluent", 2))
+        self.fluents = sorted(atom.symbol.arguments[1] for atom in atoms.by_signature("fluent", 2))
         self.events = sorted(a.symbol.arguments[0] for a in atoms.by_signature("exogenous", 1))
         self.actions = sorted(a.symbol.arguments[0] for a in atoms.by_signature("action", 1))
 
@@ -70,7 +70,7 @@ class Transitions:
         A literal that contradicts the ones before it is left out.
         """
         assumed: list[int] = []
-        for literal in (*wanted, *(complement_of(own) for own in self._basic)):
+        for literal in (*wanted, *(complement_of(fluent) for fluent in self._basic)):
             number = self._holds[0].get(literal)
             if number is not None and self._satisfiable([*assumed, number]):
                 assumed.append(number)
@@ -90,19 +90,23 @@ class Transitions:
                 yield literal
 
     def _satisfiable(self, assumed: list[int]) -> bool:
-        idle = [-own for own in self._occurs.values()]
+        idle = [-number for number in self._occurs.values()]
         return self.control.satisfiable([*assumed, *idle])
 
     def _solve(
         self, assumed: list[int], *, step: int, happening: Collection[clingo.Symbol]
     ) -> World | None:
-        if any(own not in self._occurs for own in happening):
+        if any(action not in self._occurs for action in happening):
             return None
-        occurs = [number if own in happening else -number for own, number in self._occurs.items()]
+        occurs = [
+            number if action in happening else -number for action, number in self._occurs.items()
+        ]
 
         def world(model: clingo.Model) -> World:
             is_true = model.is_true
-            return frozenset(own for own, number in self._holds[step].items() if is_true(number))
+            return frozenset(
+                literal for literal, number in self._holds[step].items() if is_true(number)
+            )
 
         found = self.control.solve([*assumed, *occurs], on_model=world)
         return found[-1] if found else None

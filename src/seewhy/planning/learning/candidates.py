@@ -36,12 +36,13 @@ def usual_candidates(
     >>> from seewhy.planning.learning.relations import Facts
     >>> office = load_planning_domain("robot_assistant").knowledge
     >>> texts = ("loc(sally,sallys_office)", "loc(bob,bobs_office)", "loc(bob,kitchen)")
-    >>> cases = [Case(clingo.parse_term(own), True, 0) for own in texts]
+    >>> cases = [Case(clingo.parse_term(text), True, 0) for text in texts]
     >>> features = features_of(office.signature, Facts(office), cases)
-    >>> vectors = [features.vector(own.fluent) for own in cases] * 20
+    >>> vectors = [features.vector(case.fluent) for case in cases] * 20
     >>> table = scene_table(features.values, vectors, ["yes", "yes", "no"] * 20)
     >>> decide = decide_by_candidates(features.values)
-    >>> [own.conditions for own in usual_candidates(features, table, decide, LearningOptions())]
+    >>> usual = usual_candidates(features, table, decide, LearningOptions())
+    >>> [candidate.conditions for candidate in usual]
     [(PathCondition(feature='work_place(0, 1)', values=('yes',)),)]
     """
     everywhere = Candidate(YES, ())
@@ -49,7 +50,7 @@ def usual_candidates(
         return [everywhere]
     if not features.values:
         return []
-    scenes = [own for row in range(len(table.vectors)) for own in _scenes(table, row)]
+    scenes = [scene for row in range(len(table.vectors)) for scene in _scenes(table, row)]
     learned = learn_axioms(
         features.values,
         [vector for vector, _ in scenes],
@@ -58,11 +59,16 @@ def usual_candidates(
         options=options,
     )
     found = [
-        preferred(_with_usual_things(own.candidate, features, table), features, table)
-        for own in learned.accepted
-        if own.candidate.label == YES
+        preferred(_with_usual_things(judgement.candidate, features, table), features, table)
+        for judgement in learned.accepted
+        if judgement.candidate.label == YES
     ]
-    every = [one for own in found for one in single(own, features) if _is_usual(one, table)]
+    every = [
+        part
+        for candidate in found
+        for part in single(candidate, features)
+        if _is_usual(part, table)
+    ]
     return most_general(every)
 
 
@@ -77,26 +83,26 @@ def _with_usual_things(
         found = tally(opposite, table)
         if found.wrong > found.right:
             conditions = []
-            for own in candidate.conditions:
-                values = features.values[own.feature]
-                allowed = own.values
-                if own.feature == thing.feature:
-                    allowed = tuple(v for v in values if v in (*own.values, *thing.values))
+            for condition in candidate.conditions:
+                values = features.values[condition.feature]
+                allowed = condition.values
+                if condition.feature == thing.feature:
+                    allowed = tuple(v for v in values if v in (*condition.values, *thing.values))
                 if allowed != values:
-                    conditions.append(PathCondition(own.feature, allowed))
+                    conditions.append(PathCondition(condition.feature, allowed))
             candidate = Candidate(candidate.label, tuple(conditions))
     return candidate
 
 
-def _is_usual(one: Candidate, table: SceneTable) -> bool:
+def _is_usual(candidate: Candidate, table: SceneTable) -> bool:
     """Whether an axiom by itself is right more often than not, and than chance explains.
 
     A candidate about several things may owe its evidence to some of them.
     """
-    found = tally(one, table)
+    found = tally(candidate, table)
     if binom.sf(found.right - 1, found.right + found.wrong, 0.5) > _AS_OFTEN_WRONG:
         return False
-    return not one.conditions or chance(one, table, found) <= BY_CHANCE
+    return not candidate.conditions or chance(candidate, table, found) <= BY_CHANCE
 
 
 def exceptions(
@@ -106,14 +112,14 @@ def exceptions(
 
     Chance is judged among what the candidate would speak about, did it leave nothing out.
     """
-    for own, thing in excluded(candidate, features):
-        every = tuple(o for o in own.conditions if o != thing)
+    for opposite, thing in excluded(candidate, features):
+        every = tuple(o for o in opposite.conditions if o != thing)
         rows = np.flatnonzero(table.satisfying(every))
         spoken = [(v, c) for row in rows for v, c in _scenes(table, int(row))]
         among = scene_table(features.values, [v for v, _ in spoken], [c for _, c in spoken])
-        alone = Candidate(own.label, (thing,))
+        alone = Candidate(opposite.label, (thing,))
         if _is_usual(alone, among):
-            yield own
+            yield opposite
 
 
 def _scenes(table: SceneTable, row: int) -> Iterator[tuple[FeatureVector, str]]:

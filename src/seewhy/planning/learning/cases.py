@@ -58,10 +58,10 @@ def cases_of(knowledge: Knowledge, record: Sequence[History]) -> list[Case]:
     ... observed -at(hall) at 1. observed at(attic) at 1. observed -dark(attic) at 1.
     ... observed dark(attic) at 2.
     ... ''', known.signature)
-    >>> [(str(own.fluent), own.holds) for own in cases_of(known, [run])]
+    >>> [(str(case.fluent), case.holds) for case in cases_of(known, [run])]
     [('at(hall)', True), ('dark(hall)', True), ('dark(attic)', False)]
     """
-    effects = _effects(knowledge, {own for run in record for own in run.occurrences})
+    effects = _effects(knowledge, {occurrence for run in record for occurrence in run.occurrences})
     return [
         Case(fluent, holds, number)
         for number, run in enumerate(record)
@@ -72,13 +72,13 @@ def cases_of(knowledge: Knowledge, record: Sequence[History]) -> list[Case]:
 def _first_seen(
     signature: Signature, run: History, effects: dict[str, frozenset[clingo.Symbol]]
 ) -> Iterator[tuple[clingo.Symbol, bool]]:
-    doings = sorted(run.occurrences, key=lambda own: own.step)
+    doings = sorted(run.occurrences, key=lambda occurrence: occurrence.step)
     done: set[clingo.Symbol] = set()
     seen: set[clingo.Symbol] = set()
-    for own in sorted(run.observations, key=lambda own: own.step):
-        while doings and doings[0].step < own.step:
+    for observation in sorted(run.observations, key=lambda observation: observation.step):
+        while doings and doings[0].step < observation.step:
             done |= effects[_term(doings.pop(0))]
-        symbol = clingo.parse_term(str(own.literal))
+        symbol = clingo.parse_term(str(observation.literal))
         fluent = fluent_of(symbol)
         if fluent in seen or signature.kind(fluent.name) is not PredicateKind.FLUENT_BASIC:
             continue
@@ -87,15 +87,15 @@ def _first_seen(
             yield fluent, symbol.positive
 
 
-def _term(own: Occurrence) -> str:
-    return str(clingo.parse_term(str(own.action)))
+def _term(occurrence: Occurrence) -> str:
+    return str(clingo.parse_term(str(occurrence.action)))
 
 
 def _effects(knowledge: Knowledge, doings: set[Occurrence]) -> dict[str, frozenset[clingo.Symbol]]:
     """Action → the fluents that it may change, whatever else is so."""
     signature = knowledge.signature
     actions = sorted(map(_term, doings))
-    lines = [*fixed_rules(knowledge), *(f"done({own})." for own in actions)]
+    lines = [*fixed_rules(knowledge), *(f"done({action})." for action in actions)]
     for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
         lines.append(
             rule(
@@ -113,16 +113,16 @@ def _effects(knowledge: Knowledge, doings: set[Occurrence]) -> dict[str, frozens
                 lines.append(rule(f"brings(A__, {axiom.head})", body))
     lines.append("#defined brings/2. #defined done/1.")
     control = BoundedControl("\n".join(lines), size=grounding_size(knowledge))
-    found: dict[str, set[clingo.Symbol]] = {own: set() for own in actions}
+    found: dict[str, set[clingo.Symbol]] = {action: set() for action in actions}
     for atom in control.by_signature("brings", 2):
         action, effect = atom.symbol.arguments
         found[str(action)].add(fluent_of(effect))
-    return {own: frozenset(fluents) for own, fluents in found.items()}
+    return {action: frozenset(fluents) for action, fluents in found.items()}
 
 
 def _apart_from_fluents(axiom: Axiom, signature: Signature) -> list[str]:
     """An axiom's conditions about what never changes, and the sorts of all its variables."""
-    literals: list[Literal] = [own for own in (axiom.action, axiom.head) if own]
+    literals: list[Literal] = [literal for literal in (axiom.action, axiom.head) if literal]
     body: list[str] = []
     for condition in axiom.body:
         literal = condition.literal

@@ -49,7 +49,9 @@ class FluentFeatures:
 
     def vector(self, fluent: clingo.Symbol) -> FeatureVector:
         """The values of the features of one fluent."""
-        related = (YES if self.facts.hold(own, fluent) else NO for own in self.relations.values())
+        related = (
+            YES if self.facts.hold(relation, fluent) else NO for relation in self.relations.values()
+        )
         things = (str(fluent.arguments[place]) for place in self.places.values())
         return (*related, *things)
 
@@ -65,7 +67,7 @@ def features_of(signature: Signature, facts: Facts, cases: Sequence[Case]) -> Fl
     >>> from seewhy.planning.domain import load_planning_domain
     >>> office = load_planning_domain("robot_assistant").knowledge
     >>> texts = ("loc(sally,kitchen)", "loc(bob,bobs_office)", "loc(bob,library)")
-    >>> cases = [Case(clingo.parse_term(own), True, 0) for own in texts]
+    >>> cases = [Case(clingo.parse_term(text), True, 0) for text in texts]
     >>> features = features_of(office.signature, Facts(office), cases)
     >>> list(features.values)  # doctest: +NORMALIZE_WHITESPACE
     ['work_place(0, 1)', 'printer(1)', 'next_to(1, _)', 'next_to(_, 1)',
@@ -74,18 +76,18 @@ def features_of(signature: Signature, facts: Facts, cases: Sequence[Case]) -> Fl
     ('no', 'no', 'yes', 'yes', 'sally', 'kitchen')
     """
     name = cases[0].fluent.name
-    fluents = sorted({own.fluent for own in cases})
+    fluents = sorted({case.fluent for case in cases})
     told: dict[tuple[bool, ...], Relation] = {}
-    for own in relations(signature, name):
-        pattern = tuple(facts.hold(own, fluent) for fluent in fluents)
+    for relation in relations(signature, name):
+        pattern = tuple(facts.hold(relation, fluent) for fluent in fluents)
         if len(set(pattern)) > 1:
-            told.setdefault(pattern, own)
-    kept = {str(own): own for own in told.values()}
+            told.setdefault(pattern, relation)
+    kept = {str(relation): relation for relation in told.values()}
     values: dict[str, tuple[str, ...]] = dict.fromkeys(kept, (YES, NO))
     places: dict[str, int] = {}
     same: dict[int, str] = {}
     for place in range(len(signature.predicates[name].sorts)):
-        members = sorted({str(own.arguments[place]) for own in fluents})
+        members = sorted({str(fluent.arguments[place]) for fluent in fluents})
         if len(members) > 1:
             feature = f"argument {place}"
             places[feature], values[feature] = place, tuple(members)

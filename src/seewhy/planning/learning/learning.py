@@ -110,7 +110,7 @@ def learn_from_runs(
     >>> robot = office.without("loc(P, L) if work_place(P, L), not -loc(P, L).")
     >>> people, places = ("bob", "john", "sarah", "sally"), ("kitchen", "library")
     >>> seen = [f"observed loc({p}, {p}s_office) at {n}." for n, p in enumerate(people)]
-    >>> seen += [f"observed -loc({p}, {own}) at 5." for p in people for own in places]
+    >>> seen += [f"observed -loc({p}, {place}) at 5." for p in people for place in places]
     >>> run = read_history(" ".join(seen), office.knowledge.signature)
     >>> for axiom in learn_from_runs(robot, [run] * 8).axioms:
     ...     print(axiom.text, "/", axiom, axiom.origin.support)  # doctest: +NORMALIZE_WHITESPACE
@@ -120,7 +120,7 @@ def learn_from_runs(
     names = names or [f"run {number}" for number in range(1, len(record) + 1)]
     check_explained(domain, dict(zip(names, record, strict=True)))
     first = diagnose(domain.knowledge, domain.history).states[0]
-    cases = [own for own in cases_of(domain.knowledge, record) if own.fluent in first.unknown]
+    cases = [case for case in cases_of(domain.knowledge, record) if case.fluent in first.unknown]
     if not cases:
         raise PlanningError(
             "the record shows nothing of which the knowledge leaves open how it is at first, so "
@@ -130,9 +130,9 @@ def learn_from_runs(
     facts = Facts(domain.knowledge)
     found: list[Axiom] = []
     tolerances: dict[str, float] = {}
-    for fluent in sorted({own.fluent.name for own in cases}):
-        some = [own for own in cases if own.fluent.name == fluent]
-        if not any(own.holds for own in some):
+    for fluent in sorted({case.fluent.name for case in cases}):
+        some = [case for case in cases if case.fluent.name == fluent]
+        if not any(case.holds for case in some):
             continue
         features = features_of(domain.knowledge.signature, facts, some)
         options = LearningOptions(support=support, tolerance=tolerance or 0.0, seed=seed)
@@ -145,7 +145,7 @@ def learn_from_runs(
     kept, rejected = validated(domain, dict(zip(names, record, strict=True)), first, found)
     return LearnedFromRuns(
         axioms=tuple(
-            replace(own, identifier=f"l{number}") for number, own in enumerate(kept, start=1)
+            replace(axiom, identifier=f"l{number}") for number, axiom in enumerate(kept, start=1)
         ),
         rejected=tuple(rejected),
         tolerances=tolerances,
@@ -161,12 +161,14 @@ def _learned(
     options: LearningOptions,
 ) -> list[Axiom]:
     """The axioms about one fluent: what usually holds, then what usually does not."""
-    vectors = [features.vector(own.fluent) for own in cases]
-    labels = [YES if own.holds else NO for own in cases]
+    vectors = [features.vector(case.fluent) for case in cases]
+    labels = [YES if case.holds else NO for case in cases]
     table = scene_table(features.values, vectors, labels)
     usual = usual_candidates(features, table, _by_diagnosis(domain, features, cases), options)
-    denied = dict.fromkeys(o for own in usual for o in exceptions(own, features, table))
-    return [_axiom(own, features, domain, table) for own in (*usual, *denied)]
+    denied = dict.fromkeys(
+        exception for candidate in usual for exception in exceptions(candidate, features, table)
+    )
+    return [_axiom(candidate, features, domain, table) for candidate in (*usual, *denied)]
 
 
 def _axiom(
@@ -194,25 +196,27 @@ def _by_diagnosis(
 
     Candidates by which something usually does not hold become no axioms, and decide nothing.
     """
-    fluents = {features.vector(own.fluent): own.fluent for own in cases}
+    fluents = {features.vector(case.fluent): case.fluent for case in cases}
     table = scene_table(features.values, list(fluents), [YES] * len(fluents))
     remembered: dict[tuple[Candidate, ...], State | None] = {}
 
     def believed(holding: tuple[Candidate, ...]) -> State | None:
         if holding not in remembered:
-            same = [preferred(own, features, table) for own in holding]
+            same = [preferred(candidate, features, table) for candidate in holding]
             text = "\n".join(
-                usual_statement(one, features) for own in same for one in single(own, features)
+                usual_statement(part, features)
+                for candidate in same
+                for part in single(candidate, features)
             )
             axioms = read_axioms(text, domain.knowledge.signature, letter="c")
             remembered[holding] = at_first(domain.knowing(axioms))
         return remembered[holding]
 
     def decide(candidates: Sequence[Candidate], vectors: Sequence[FeatureVector]) -> list[Decision]:
-        state = believed(tuple(own for own in candidates if own.label == YES))
+        state = believed(tuple(candidate for candidate in candidates if candidate.label == YES))
         if state is None:
             return [Decision(None, Verdict.CONTRADICTION)] * len(vectors)
-        labels = {fluent_of(own): YES if own.positive else NO for own in state.holds}
+        labels = {fluent_of(literal): YES if literal.positive else NO for literal in state.holds}
         found = (labels.get(fluents[tuple(vector)]) for vector in vectors)
         return [_decision(label) for label in found]
 

@@ -27,36 +27,39 @@ def preferred(candidate: Candidate, features: FluentFeatures, table: SceneTable)
     >>> from seewhy.planning.learning.relations import Facts
     >>> office = load_planning_domain("robot_assistant").knowledge
     >>> texts = ("loc(sally,sallys_office)", "loc(bob,bobs_office)", "loc(bob,kitchen)")
-    >>> cases = [Case(clingo.parse_term(own), True, 0) for own in texts]
+    >>> cases = [Case(clingo.parse_term(text), True, 0) for text in texts]
     >>> features = features_of(office.signature, Facts(office), cases)
-    >>> table = scene_table(features.values, [features.vector(o.fluent) for o in cases], "yyn")
-    >>> own = PathCondition("argument 1", ("bobs_office", "sallys_office"))
-    >>> preferred(Candidate("yes", (own,)), features, table).conditions
+    >>> vectors = [features.vector(case.fluent) for case in cases]
+    >>> table = scene_table(features.values, vectors, "yyn")
+    >>> offices = PathCondition("argument 1", ("bobs_office", "sallys_office"))
+    >>> preferred(Candidate("yes", (offices,)), features, table).conditions
     (PathCondition(feature='work_place(0, 1)', values=('yes',)),)
     """
-    for place, own in enumerate(candidate.conditions):
+    for place, condition in enumerate(candidate.conditions):
         others = (*candidate.conditions[:place], *candidate.conditions[place + 1 :])
         among = table.satisfying(others)
-        inside = among & table.satisfying([own])
-        asked = {condition.feature for condition in others}
-        for other in _before(own, features, table, among & ~inside):
+        inside = among & table.satisfying([condition])
+        asked = {other.feature for other in others}
+        for other in _before(condition, features, table, among & ~inside):
             if (
                 other.feature not in asked
                 and (table.satisfying([other])[among] == inside[among]).all()
             ):
                 conditions = [*others, other]
                 order = list(features.values)
-                conditions.sort(key=lambda condition: order.index(condition.feature))
+                conditions.sort(key=lambda kept: order.index(kept.feature))
                 return preferred(replace(candidate, conditions=tuple(conditions)), features, table)
     return candidate
 
 
 def _before(
-    own: PathCondition, features: FluentFeatures, table: SceneTable, left_out: Rows
+    condition: PathCondition, features: FluentFeatures, table: SceneTable, left_out: Rows
 ) -> Iterator[PathCondition]:
     """Conditions that are preferred to this one, the best first."""
     for other in _in_order(features, table, left_out):
-        if other == own or (other.feature == own.feature and own.feature in features.places):
+        if other == condition or (
+            other.feature == condition.feature and condition.feature in features.places
+        ):
             return
         yield other
 

@@ -42,13 +42,13 @@ class Relation:
     is_sort: bool = False
 
     def __str__(self) -> str:
-        shown = ", ".join("_" if own is None else str(own) for own in self.places)
+        shown = ", ".join("_" if place is None else str(place) for place in self.places)
         return f"{self.predicate}({shown})"
 
     def of(self, terms: Collection[str]) -> str:
         """Return it over terms, one for each argument of the fluent."""
         every = list(terms)
-        shown = ", ".join("_" if own is None else every[own] for own in self.places)
+        shown = ", ".join("_" if place is None else every[place] for place in self.places)
         return f"{self.predicate}({shown})"
 
 
@@ -59,29 +59,29 @@ def relations(signature: Signature, fluent: str) -> list[Relation]:
     --------
     >>> from seewhy.planning.domain import load_planning_domain
     >>> office = load_planning_domain("robot_assistant").knowledge.signature
-    >>> [str(own) for own in relations(office, "loc")][:4]
+    >>> [str(relation) for relation in relations(office, "loc")][:4]
     ['work_place(0, 1)', 'printer(1)', 'robot(0)', 'person(0)']
     """
-    found = sorted(_relations(signature, fluent), key=lambda own: own.places.count(None))
-    return [own for own in found if any(place is not None for place in own.places)]
+    found = sorted(_relations(signature, fluent), key=lambda relation: relation.places.count(None))
+    return [relation for relation in found if any(place is not None for place in relation.places)]
 
 
 def _relations(signature: Signature, fluent: str) -> Iterator[Relation]:
     sorts = signature.predicates[fluent].sorts
-    members = [set(signature.members(own)) for own in sorts]
-    for name, own in signature.predicates.items():
-        if own.kind is not PredicateKind.STATIC or not own.sorts:
+    members = [set(signature.members(sort)) for sort in sorts]
+    for name, predicate in signature.predicates.items():
+        if predicate.kind is not PredicateKind.STATIC or not predicate.sorts:
             continue
         fitting: list[list[int | None]] = [
             [n for n, theirs in enumerate(members) if theirs & set(signature.members(sort))]
-            for sort in own.sorts
+            for sort in predicate.sorts
         ]
-        if len(own.sorts) > 1:
+        if len(predicate.sorts) > 1:
             fitting = [[*places, None] for places in fitting]
         for places in product(*fitting):
-            used = [own for own in places if own is not None]
+            used = [place for place in places if place is not None]
             if len(used) == len(set(used)):
-                yield Relation(name, places, own.sorts)
+                yield Relation(name, places, predicate.sorts)
     for place, sort in enumerate(sorts):
         for name in signature.sorts:
             if set(signature.members(name)) < set(signature.members(sort)):
@@ -109,8 +109,8 @@ class Facts:
         for atom in control.by_signature("holds", 1):
             literal = atom.symbol.arguments[0]
             if literal.positive:
-                own = self._known.setdefault(literal.name, set())
-                own.add(tuple(map(str, literal.arguments)))
+                tuples = self._known.setdefault(literal.name, set())
+                tuples.add(tuple(map(str, literal.arguments)))
         for atom in control.by_signature("sort", 2):
             sort, member = map(str, atom.symbol.arguments)
             self._known.setdefault(sort, set()).add((member,))
@@ -120,9 +120,9 @@ class Facts:
         """Whether the arguments of a fluent stand in a relation."""
         terms = list(map(str, fluent.arguments))
         asked = tuple(n for n, place in enumerate(relation.places) if place is not None)
-        values = tuple(terms[own] for own in relation.places if own is not None)
+        values = tuple(terms[place] for place in relation.places if place is not None)
         key = relation.predicate, asked
         if key not in self._parts:
             known = self._known.get(relation.predicate, set())
-            self._parts[key] = {tuple(own[n] for n in asked) for own in known}
+            self._parts[key] = {tuple(arguments[n] for n in asked) for arguments in known}
         return values in self._parts[key]

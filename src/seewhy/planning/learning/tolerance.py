@@ -29,12 +29,12 @@ def suggested_tolerance(
 
     What the axioms learned from four fifths of the runs predict is held against the rest.
     """
-    folds = min(_FOLDS, len({own.run for own in cases}))
+    folds = min(_FOLDS, len({case.run for case in cases}))
     if folds < 2:
         return 0.0
-    vectors = [features.vector(own.fluent) for own in cases]
-    labels = [YES if own.holds else NO for own in cases]
-    groups = [own.run for own in cases]
+    vectors = [features.vector(case.fluent) for case in cases]
+    labels = [YES if case.holds else NO for case in cases]
+    groups = [case.run for case in cases]
     scores = []
     for tolerance in TOLERANCES:
         right = []
@@ -51,7 +51,9 @@ def suggested_tolerance(
     means = np.mean(scores, axis=1)
     best = int(np.argmax(means))
     least = means[best] - sem(scores[best])
-    return max(own for own, mean in zip(TOLERANCES, means, strict=True) if mean >= least)
+    return max(
+        tolerance for tolerance, mean in zip(TOLERANCES, means, strict=True) if mean >= least
+    )
 
 
 def _predictor(
@@ -64,8 +66,8 @@ def _predictor(
     by_all = decide_by_candidates(features.values)
 
     def decide(some: Sequence[Candidate], asked: Sequence[FeatureVector]) -> Sequence[Decision]:
-        return by_all([own for own in some if own.label == YES], asked)
+        return by_all([candidate for candidate in some if candidate.label == YES], asked)
 
     table = scene_table(features.values, vectors, labels)
     holding = usual_candidates(features, table, decide, options)
-    return lambda some: [own.label or NO for own in decide(holding, some)]
+    return lambda some: [decision.label or NO for decision in decide(holding, some)]

@@ -33,7 +33,7 @@ def single(candidate: Candidate, features: FluentFeatures) -> Iterator[Candidate
         if condition.feature in features.relations
         or len(condition.values) == 1
         or _is_exclusion(condition, features)
-        else [PathCondition(condition.feature, (own,)) for own in condition.values]
+        else [PathCondition(condition.feature, (value,)) for value in condition.values]
         for condition in candidate.conditions
     ]
     for chosen in product(*ways):
@@ -51,8 +51,8 @@ def excluded(
         if condition.feature in features.places and _is_exclusion(condition, features):
             for thing in things_left_out(condition, features):
                 conditions = list(candidate.conditions)
-                conditions[place] = own = PathCondition(condition.feature, (thing,))
-                yield Candidate(NO if candidate.label == YES else YES, tuple(conditions)), own
+                conditions[place] = named = PathCondition(condition.feature, (thing,))
+                yield Candidate(NO if candidate.label == YES else YES, tuple(conditions)), named
 
 
 def _is_exclusion(condition: PathCondition, features: FluentFeatures) -> bool:
@@ -77,7 +77,7 @@ def usual_statement(candidate: Candidate, features: FluentFeatures) -> str:
     >>> from seewhy.planning.learning.relations import Facts
     >>> office = load_planning_domain("robot_assistant").knowledge
     >>> texts = ("loc(sally,kitchen)", "loc(bob,bobs_office)", "loc(sarah,library)")
-    >>> cases = [Case(clingo.parse_term(own), True, 0) for own in texts]
+    >>> cases = [Case(clingo.parse_term(text), True, 0) for text in texts]
     >>> features = features_of(office.signature, Facts(office), cases)
     >>> at_work = PathCondition("work_place(0, 1)", ("yes",))
     >>> not_bob = PathCondition("argument 0", ("sally", "sarah"))
@@ -97,7 +97,7 @@ def usual_statement(candidate: Candidate, features: FluentFeatures) -> str:
             parts.append(f"{denied}{relation.of(terms)}")
         elif len(condition.values) > 1:
             variable = terms[features.places[condition.feature]]
-            parts += [f"{variable} != {own}" for own in things_left_out(condition, features)]
+            parts += [f"{variable} != {thing}" for thing in things_left_out(condition, features)]
     return f"{head} if {', '.join([*parts, f'not {head.complement}'])}."
 
 
@@ -106,8 +106,8 @@ def _terms(candidate: Candidate, features: FluentFeatures) -> list[str]:
     named = things_named(candidate, features)
     terms: list[str] = []
     for place, sort in enumerate(narrowest_sorts(candidate, features)):
-        letters = [own for own in sort.upper() if own.isalpha()]
-        free = (own for own in (*letters, *_SPARE) if own not in terms)
+        letters = [letter for letter in sort.upper() if letter.isalpha()]
+        free = (letter for letter in (*letters, *_SPARE) if letter not in terms)
         terms.append(named.get(place) or next(free, f"V{place}"))
     return terms
 
@@ -115,9 +115,9 @@ def _terms(candidate: Candidate, features: FluentFeatures) -> list[str]:
 def things_named(candidate: Candidate, features: FluentFeatures) -> dict[int, str]:
     """Return the arguments that are one thing: the only one seen, or the one that is meant."""
     meant = {
-        features.places[own.feature]: own.values[0]
-        for own in candidate.conditions
-        if own.feature in features.places and len(own.values) == 1
+        features.places[condition.feature]: condition.values[0]
+        for condition in candidate.conditions
+        if condition.feature in features.places and len(condition.values) == 1
     }
     return {**features.same, **meant}
 

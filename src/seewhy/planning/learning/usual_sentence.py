@@ -31,7 +31,7 @@ def usual_sentence(candidate: Candidate, features: FluentFeatures, words: Planni
     >>> from seewhy.planning.learning.relations import Facts
     >>> office = load_planning_domain("robot_assistant")
     >>> texts = ("loc(sally,kitchen)", "loc(bob,bobs_office)", "loc(sarah,library)")
-    >>> cases = [Case(clingo.parse_term(own), True, 0) for own in texts]
+    >>> cases = [Case(clingo.parse_term(text), True, 0) for text in texts]
     >>> features = features_of(office.knowledge.signature, Facts(office.knowledge), cases)
     >>> at_work = PathCondition("work_place(0, 1)", ("yes",))
     >>> not_bob = PathCondition("argument 0", ("sally", "sarah"))
@@ -65,9 +65,9 @@ class _Things:
         self.named = things_named(candidate, features)
         self.sorts = narrowest_sorts(candidate, features)
         self.besides = {
-            features.places[own.feature]: things_left_out(own, features)
-            for own in candidate.conditions
-            if own.feature in features.places and len(own.values) > 1
+            features.places[condition.feature]: things_left_out(condition, features)
+            for condition in candidate.conditions
+            if condition.feature in features.places and len(condition.values) > 1
         }
         self.said: set[int] = set()
 
@@ -77,10 +77,12 @@ class _Things:
         if place in self.named:
             return self.words.name(self.named[place])
         noun = _noun(self.sorts[place])
-        alike = [own for own in sorted(self.said) if self.sorts[own] == self.sorts[place]]
+        alike = [
+            earlier for earlier in sorted(self.said) if self.sorts[earlier] == self.sorts[place]
+        ]
         if place in self.said:
             return f"the {'other ' if alike and alike[0] != place else ''}{noun}"
-        other = [self.words.name(own) for own in self.besides.get(place, ())]
+        other = [self.words.name(thing) for thing in self.besides.get(place, ())]
         besides = f" other than {' or '.join(other)}" if other else ""
         article = "another" if alike else "an" if noun[0] in "aeiou" else "a"
         self.said.add(place)
@@ -95,11 +97,11 @@ class _Things:
     ) -> str:
         table = tables.get(predicate)
         if table is None:
-            about = ", ".join(self.say(own) for own in places)
+            about = ", ".join(self.say(place) for place in places)
             said = predicate.replace("_", " ") + (f" ({about})" if about else "")
             return said if holds else f"not: {said}"
         text = table.say if holds or table.deny is None else table.deny
-        said = _ARTICLE_AND_SLOT.sub(lambda own: self.say(places[int(own.group(1))]), text)
+        said = _ARTICLE_AND_SLOT.sub(lambda match: self.say(places[int(match.group(1))]), text)
         return f"it is not so that {said}" if not holds and table.deny is None else said
 
 

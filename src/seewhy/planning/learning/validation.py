@@ -51,12 +51,12 @@ def validated(
     kept: list[Axiom] = []
     rejected: list[Rejected] = []
     for number, axiom in enumerate(found):
-        own = replace(axiom, identifier=f"n{number}")
-        with_it = domain.knowing([*kept, own])
+        numbered = replace(axiom, identifier=f"n{number}")
+        with_it = domain.knowing([*kept, numbered])
         now = at_first(with_it)
         reason = next(_objections(with_it, now, record, first), None)
         if reason is None and now is not None:
-            kept.append(own)
+            kept.append(numbered)
             first = now
         else:
             rejected.append(Rejected(axiom, reason or ""))

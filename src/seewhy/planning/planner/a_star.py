@@ -61,7 +61,8 @@ class Closure:
 
     def __init__(self, problem: GroundProblem) -> None:
         self.strata = [
-            [(*bits(body), 1 << head - 1) for head, body in own] for own in problem.derivations
+            [(*bits(body), 1 << head - 1) for head, body in stratum]
+            for stratum in problem.derivations
         ]
         self.derived = 0
         for stratum in self.strata:
@@ -103,12 +104,12 @@ class _Search:
         self.problem = problem
         self.bounds = [LowerBound(problem, goal) for goal in problem.goals]
         self.goals = [bits(goal) for goal in problem.goals]
-        moves = [Move(number, own) for number, own in enumerate(problem.operators)]
+        moves = [Move(number, operator) for number, operator in enumerate(problem.operators)]
         self.closed = Closure(problem)
         # Most operators ask for one value of the same group: only those of it are looked at.
-        groups = [bits(own)[0] for own in problem.groups]
+        groups = [bits(group)[0] for group in problem.groups]
         self.group = max(
-            groups, key=lambda own: sum(bool(move.true & own) for move in moves), default=0
+            groups, key=lambda group: sum(bool(move.true & group) for move in moves), default=0
         )
         self.moves: dict[int, list[Move]] = {}
         for move in moves:
@@ -177,9 +178,9 @@ class _Search:
 def bits(literals: Iterable[int] | Literals) -> tuple[int, int]:
     """The literals as two sets of bits: what is true, and what is false."""
     true = false = 0
-    for own in literals:
-        if own > 0:
-            true |= 1 << own - 1
+    for literal in literals:
+        if literal > 0:
+            true |= 1 << literal - 1
         else:
-            false |= 1 << -own - 1
+            false |= 1 << -literal - 1
     return true, false

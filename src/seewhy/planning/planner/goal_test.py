@@ -29,6 +29,6 @@ def holds_in(knowledge: Knowledge, goal: Goal, literals: Iterable[clingo.Symbol]
         *fixed_rules(aimed),
         rule("reached", body_at(goal.axiom, aimed.signature, "0")),
         "at(0, 0). :- not reached. #defined holds/2.",
-        " ".join(f"holds({own}, 0)." for own in sorted(literals)),
+        " ".join(f"holds({literal}, 0)." for literal in sorted(literals)),
     ]
     return BoundedControl("\n".join(lines), size=grounding_size(aimed)).satisfiable()

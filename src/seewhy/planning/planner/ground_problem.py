@@ -95,28 +95,31 @@ class _Compilation:
     def __init__(self, knowledge: Knowledge, start: State, whole: Knowledge | None) -> None:
         self.knowledge = knowledge
         self.whole = whole
-        self.believed = {own.name for own in start.holds}
+        self.believed = {fluent.name for fluent in start.holds}
         for axiom in knowledge.axioms:
             if axiom.kind is not AxiomKind.DEFAULT and asks_more(axiom, knowledge.signature):
                 raise _refusal(axiom, "asks about several fluents at once, in a count or with '_'")
         self.atoms = instances(knowledge, start)
         self.fluents = sorted(self._first("changing"))
-        self.number = {own: place for place, own in enumerate(self.fluents, start=1)}
-        self.start = frozenset(self.number[own] for own in start.holds if own in self.number)
+        self.number = {fluent: place for place, fluent in enumerate(self.fluents, start=1)}
+        self.start = frozenset(
+            self.number[fluent] for fluent in start.holds if fluent in self.number
+        )
         self.unknown = frozenset(
-            self.number[own]
-            for own in start.unknown
-            if own in self.number
-            and knowledge.signature.kind(own.name) is PredicateKind.FLUENT_BASIC
+            self.number[fluent]
+            for fluent in start.unknown
+            if fluent in self.number
+            and knowledge.signature.kind(fluent.name) is PredicateKind.FLUENT_BASIC
         )
         self.group: dict[int, frozenset[int]] = {}
         for members in self._by_first("member").values():
-            group = frozenset(self.number[own.arguments[1]] for own in members)
+            group = frozenset(self.number[member.arguments[1]] for member in members)
             self.group |= dict.fromkeys(group, group)
         self.exact = {
-            self.group[self.number[own.arguments[1]]] for own in self.atoms.get("exact_member", ())
+            self.group[self.number[member.arguments[1]]]
+            for member in self.atoms.get("exact_member", ())
         }
-        self.axioms = {own.identifier: own for own in knowledge.axioms}
+        self.axioms = {axiom.identifier: axiom for axiom in knowledge.axioms}
         self.constraints: list[tuple[Axiom, int, Literals]] = []
         self.derived: list[tuple[int, Literals]] = []
         self.goals: list[Literals] = []
@@ -128,31 +131,31 @@ class _Compilation:
         can = self._first("can")
         return self._pruned(
             [
-                own
+                operator
                 for action in sorted(laws)
                 if action in can
-                for own in self._operators(
+                for operator in self._operators(
                     action,
                     choices=self._choices(choices.get(action, ())),
-                    required=self._literals(own.arguments[1] for own in needs.get(action, ())),
+                    required=self._literals(atom.arguments[1] for atom in needs.get(action, ())),
                     forbidden=[
-                        self._literals(own.arguments[1].arguments)
-                        for own in forbidden.get(action, ())
+                        self._literals(atom.arguments[1].arguments)
+                        for atom in forbidden.get(action, ())
                     ],
                     laws=[
                         (
-                            self._literals(own.arguments[2].arguments),
-                            self._literal(own.arguments[1]),
+                            self._literals(law.arguments[2].arguments),
+                            self._literal(law.arguments[1]),
                         )
-                        for own in laws[action]
-                        if fluent_of(own.arguments[1]) in self.number
+                        for law in laws[action]
+                        if fluent_of(law.arguments[1]) in self.number
                     ],
                 )
             ]
         )
 
     def _first(self, predicate: str) -> set[clingo.Symbol]:
-        return {own.arguments[0] for own in self.atoms.get(predicate, ())}
+        return {atom.arguments[0] for atom in self.atoms.get(predicate, ())}
 
     def _by_first(self, predicate: str) -> dict[clingo.Symbol, list[clingo.Symbol]]:
         """The atoms of a predicate by their first argument."""
@@ -168,7 +171,7 @@ class _Compilation:
             _, group, value = atom.arguments
             if value in self.number:
                 found.setdefault(group, []).append(self.number[value])
-        return [sorted(own) for _, own in sorted(found.items())]
+        return [sorted(values) for _, values in sorted(found.items())]
 
     def _literal(self, symbol: clingo.Symbol) -> int:
         number = self.number[fluent_of(symbol)]
@@ -176,7 +179,9 @@ class _Compilation:
 
     def _literals(self, symbols: Iterable[clingo.Symbol]) -> Literals:
         """The conditions that may change; the others hold, or there would be no instance."""
-        return frozenset(self._literal(own) for own in symbols if fluent_of(own) in self.number)
+        return frozenset(
+            self._literal(symbol) for symbol in symbols if fluent_of(symbol) in self.number
+        )
 
     def _read_conclusions(self) -> None:
         signature = self.knowledge.signature
@@ -199,7 +204,7 @@ class _Compilation:
 
     def _check_determined(self, axiom: Axiom, body: Literals) -> None:
         """Refuse a constraint by which a basic fluent may change without an action."""
-        changing = {self.fluents[abs(own) - 1].name for own in body}
+        changing = {self.fluents[abs(number) - 1].name for number in body}
         for condition in axiom.body:
             literal = condition.literal
             if literal is None or literal.predicate not in changing:
@@ -239,15 +244,15 @@ class _Compilation:
 
     def _holds_already(self, head: int, before: Literals) -> bool:
         return head in before or any(
-            head == own and body <= before for _, own, body in self.constraints
+            head == conclusion and body <= before for _, conclusion, body in self.constraints
         )
 
     def _known(self, condition: Collection[int]) -> set[int]:
         """The condition with what follows from it: where one value holds, the others do not."""
         known = set(condition)
-        for own in condition:
-            if own > 0 and own in self.group:
-                known |= {-other for other in self.group[own] if other != own}
+        for literal in condition:
+            if literal > 0 and literal in self.group:
+                known |= {-other for other in self.group[literal] if other != literal}
         return known
 
     def _split(self, condition: Literals, forbidden: Sequence[Literals]) -> Iterator[Literals]:
@@ -257,16 +262,18 @@ class _Compilation:
             return
         left = []
         for clause in forbidden:
-            if not any(-own in known for own in clause):
+            if not any(-literal in known for literal in clause):
                 left.append(clause - known)
         if not left:
             yield condition
             return
         clause = min(left, key=len)
-        rest = [own for own in left if own is not clause]
+        rest = [other for other in left if other is not clause]
         if not clause:
             return
-        first = min(clause, key=lambda own: (self.group.get(own) not in self.exact, own))
+        first = min(
+            clause, key=lambda literal: (self.group.get(literal) not in self.exact, literal)
+        )
         group = self.group.get(first)
         if group in self.exact and first > 0 and group is not None:
             for value in sorted(group):
@@ -283,14 +290,14 @@ class _Compilation:
         known = self._known(condition)
         direct: dict[int, set[Literals]] = {}
         for body, head in laws:
-            if not any(-own in known for own in body):
+            if not any(-literal in known for literal in body):
                 _add(direct, head, body - known)
         self._exclude(direct, known)
         effects = direct
         for _ in range(_ROUNDS if self.constraints else 0):
             following = {head: set(bodies) for head, bodies in direct.items()}
             for axiom, head, body in self.constraints:
-                if -head in effects or any(own in effects for own in body):
+                if -head in effects or any(literal in effects for literal in body):
                     for before in self._before(axiom, body, effects, known):
                         _add(following, head, before)
             self._exclude(following, known)
@@ -303,7 +310,7 @@ class _Compilation:
 
     def _exclude(self, effects: dict[int, set[Literals]], known: set[int]) -> None:
         """Of fluents of which one holds, that which becomes true makes the others false."""
-        for head in [own for own in effects if own > 0 and own in self.group]:
+        for head in [literal for literal in effects if literal > 0 and literal in self.group]:
             others = self.group[head] - {head}
             for other in others:
                 if -other not in known or other in effects:
@@ -319,17 +326,17 @@ class _Compilation:
     ) -> Iterator[Literals]:
         """The conditions before an operator under which ``body`` holds after it."""
         ways: list[list[Literals]] = []
-        for own in sorted(body):
+        for literal in sorted(body):
             stays: list[Literals] = []
-            removing = effects.get(-own, set())
+            removing = effects.get(-literal, set())
             if any(len(other) > 1 for other in removing):
                 raise _refusal(axiom, "follows from what changes under several conditions")
             if frozenset() not in removing:
-                stays = [frozenset({own, *(-next(iter(other)) for other in removing)})]
-            ways.append([*effects.get(own, ()), *stays])
+                stays = [frozenset({literal, *(-next(iter(other)) for other in removing)})]
+            ways.append([*effects.get(literal, ()), *stays])
         for together in itertools.product(*ways):
             before = frozenset[int]().union(*together)
-            if _consistent(before) and not any(-own in known for own in before):
+            if _consistent(before) and not any(-literal in known for literal in before):
                 yield before - known
 
     def _conflicts(self, effects: Mapping[int, set[Literals]]) -> list[Literals]:
@@ -344,7 +351,7 @@ class _Compilation:
 
     def _pruned(self, operators: Sequence[Operator]) -> GroundProblem:
         """Leave out what no way to the goal asks about, and check that the rest is known."""
-        asked = {abs(own) for goal in self.goals for own in goal}
+        asked = {abs(literal) for goal in self.goals for literal in goal}
         kept: list[Operator] = []
         left = list(operators)
         size = -1
@@ -352,60 +359,68 @@ class _Compilation:
             size = len(asked)
             for head, body in self.derived:
                 if head in asked:
-                    asked |= {abs(own) for own in body}
+                    asked |= {abs(literal) for literal in body}
             useful: list[Operator] = []
             rest: list[Operator] = []
-            for own in left:
-                (useful if any(abs(e) in asked for _, e in own.effects) else rest).append(own)
+            for operator in left:
+                (useful if any(abs(e) in asked for _, e in operator.effects) else rest).append(
+                    operator
+                )
             left = rest
             kept += useful
-            for own in useful:
-                asked |= {abs(literal) for literal in own.condition}
-                for body, head in own.effects:
+            for operator in useful:
+                asked |= {abs(literal) for literal in operator.condition}
+                for body, head in operator.effects:
                     asked |= {abs(literal) for literal in (*body, head)}
             # Which one of a group holds matters as a whole.
-            for own_group in {self.group[number] for number in asked if number in self.group}:
-                asked |= own_group
-        open_ = sorted(self.fluents[own - 1] for own in asked & self.unknown)
-        if open_ and (self.whole is None or self._said_more({own.name for own in open_})):
+            for group in {self.group[number] for number in asked if number in self.group}:
+                asked |= group
+        open_ = sorted(self.fluents[number - 1] for number in asked & self.unknown)
+        if open_ and (self.whole is None or self._said_more({fluent.name for fluent in open_})):
             raise PlanningError(
                 f"whether '{open_[0]}' holds at the start is unknown, and it matters to the goal; "
                 "observe it, or add a default to the knowledge"
             )
         order = sorted(asked)
-        place = {own: number for number, own in enumerate(order, start=1)}
-        place |= {-own: -number for own, number in place.items()}
+        place = {fluent: number for number, fluent in enumerate(order, start=1)}
+        place |= {-fluent: -number for fluent, number in place.items()}
 
         def renamed(literals: Iterable[int]) -> Literals:
-            return frozenset(place[own] for own in literals)
+            return frozenset(place[literal] for literal in literals)
 
-        groups = {own for own in map(self.group.get, order) if own is not None}
+        groups = {group for group in map(self.group.get, order) if group is not None}
         return GroundProblem(
-            fluents=tuple(self.fluents[own - 1] for own in order),
-            start=renamed(own for own in self.start if own in asked),
+            fluents=tuple(self.fluents[number - 1] for number in order),
+            start=renamed(number for number in self.start if number in asked),
             operators=tuple(
                 Operator(
-                    own.action,
-                    renamed(own.condition),
-                    tuple((renamed(body), place[head]) for body, head in own.effects),
+                    operator.action,
+                    renamed(operator.condition),
+                    tuple((renamed(body), place[head]) for body, head in operator.effects),
                 )
-                for own in sorted(kept, key=lambda own: (own.action, sorted(own.condition)))
+                for operator in sorted(
+                    kept, key=lambda operator: (operator.action, sorted(operator.condition))
+                )
             ),
             derivations=self._strata(
                 [(place[head], renamed(body)) for head, body in self.derived if head in asked]
             ),
-            goals=tuple(renamed(own) for own in self.goals),
+            goals=tuple(renamed(goal) for goal in self.goals),
             groups=tuple(
                 sorted(
-                    (renamed(own) for own in groups if own in self.exact and own <= asked),
+                    (renamed(group) for group in groups if group in self.exact and group <= asked),
                     key=sorted,
                 )
             ),
             open=renamed(asked & self.unknown),
             exclusive=tuple(
-                sorted((renamed(own & asked) for own in groups if own & self.unknown), key=sorted)
+                sorted(
+                    (renamed(group & asked) for group in groups if group & self.unknown), key=sorted
+                )
             ),
-            untold=frozenset(self.fluents[own - 1] for own, _ in self.derived if own not in asked),
+            untold=frozenset(
+                self.fluents[head - 1] for head, _ in self.derived if head not in asked
+            ),
         )
 
     def _said_more(self, names: set[str]) -> bool:
@@ -415,29 +430,29 @@ class _Compilation:
         """
         assert self.whole is not None
         signature = self.whole.signature
-        excluded = {own.axiom.identifier for own in mutexes(self.whole)}
+        excluded = {mutex.axiom.identifier for mutex in mutexes(self.whole)}
         said = [
-            own
-            for own in constraints(self.whole)
-            if own.identifier not in excluded
-            and own.head.predicate != REACHED
-            and not gives_way(own, signature)
+            axiom
+            for axiom in constraints(self.whole)
+            if axiom.identifier not in excluded
+            and axiom.head.predicate != REACHED
+            and not gives_way(axiom, signature)
         ]
         following = set(names)
         size = -1
         while size != len(following):
             size = len(following)
             following |= {
-                own.head.predicate
-                for own in said
-                if signature.kind(own.head.predicate) is PredicateKind.FLUENT_DEFINED
-                and following & fluents_in(own, self.whole)
+                axiom.head.predicate
+                for axiom in said
+                if signature.kind(axiom.head.predicate) is PredicateKind.FLUENT_DEFINED
+                and following & fluents_in(axiom, self.whole)
             }
         matter = self.believed | set(self.knowledge.signature.predicates)
         return bool((following - names) & matter) or any(
-            following & {own.head.predicate, *fluents_in(own, self.whole)}
-            for own in said
-            if signature.kind(own.head.predicate) is not PredicateKind.FLUENT_DEFINED
+            following & {axiom.head.predicate, *fluents_in(axiom, self.whole)}
+            for axiom in said
+            if signature.kind(axiom.head.predicate) is not PredicateKind.FLUENT_DEFINED
         )
 
     def _strata(
@@ -454,29 +469,31 @@ class _Compilation:
                     level[head], changed = least, True
             if max(level.values(), default=0) > len(level):
                 axiom = next(
-                    own
-                    for own in constraints(self.knowledge)
-                    if self.knowledge.signature.kind(own.head.predicate)
+                    axiom
+                    for axiom in constraints(self.knowledge)
+                    if self.knowledge.signature.kind(axiom.head.predicate)
                     is PredicateKind.FLUENT_DEFINED
-                    and own.head.predicate != REACHED
+                    and axiom.head.predicate != REACHED
                 )
                 raise _refusal(axiom, "depends on its own denial")
         strata: list[list[tuple[int, Literals]]] = [[] for _ in range(len(level) + 1)]
-        for head, body in sorted(derived, key=lambda own: (own[0], sorted(own[1]))):
+        for head, body in sorted(
+            derived, key=lambda derivation: (derivation[0], sorted(derivation[1]))
+        ):
             strata[level[head]].append((head, body))
-        return tuple(tuple(own) for own in strata if own)
+        return tuple(tuple(stratum) for stratum in strata if stratum)
 
 
 def _add(effects: dict[int, set[Literals]], head: int, body: Literals) -> None:
     """Add a condition for an effect; of conditions, the weaker ones are kept."""
     bodies = effects.setdefault(head, set())
-    if not any(own <= body for own in bodies):
-        bodies -= {own for own in bodies if body < own}
+    if not any(other <= body for other in bodies):
+        bodies -= {other for other in bodies if body < other}
         bodies.add(body)
 
 
 def _consistent(literals: Collection[int]) -> bool:
-    return not any(-own in literals for own in literals)
+    return not any(-literal in literals for literal in literals)
 
 
 def _order(effect: tuple[Literals, int]) -> tuple[bool, int, list[int]]:

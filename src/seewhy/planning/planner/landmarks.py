@@ -54,10 +54,10 @@ class LowerBound:
         self._weight = {}
         for fact in self._needs:
             numbers = [number for number, _ in adders.get(fact, ())]
-            counted = [own for own in numbers if own is not None and own not in walking]
+            counted = [number for number in numbers if number is not None and number not in walking]
             whole = numbers and len(counted) == len(numbers) and -fact not in self._derived
             # An action that makes several landmarks true is shared out among them.
-            self._weight[fact] = 1 / max(len(added[own]) for own in counted) if whole else 0.0
+            self._weight[fact] = 1 / max(len(added[number]) for number in counted) if whole else 0.0
             if not numbers and -fact not in self._derived:
                 self._weight[fact] = FAR  # nothing makes it true
 
@@ -90,7 +90,11 @@ class LowerBound:
         while waiting:
             fact = waiting.pop()
             if fact not in found:
-                ways = [] if -fact in self._derived else [own for _, own in adders.get(fact, ())]
+                ways = (
+                    []
+                    if -fact in self._derived
+                    else [conditions for _, conditions in adders.get(fact, ())]
+                )
                 found[fact] = frozenset.intersection(*ways) if ways else frozenset()
                 waiting += found[fact]
         return found
@@ -103,7 +107,7 @@ class LowerBound:
             movers = set(_movers(problem, group))
             if movers & walking:
                 continue
-            into: dict[int, set[int]] = {own: set() for own in group}
+            into: dict[int, set[int]] = {value: set() for value in group}
             for number in movers:
                 operator = problem.operators[number]
                 for body, head in operator.effects:
@@ -115,14 +119,14 @@ class LowerBound:
                 if fact not in group
                 for value in needs & group
             }
-            ends = [own for own in self._goal if own in group]
+            ends = [fact for fact in self._goal if fact in group]
             stops = sorted(set(wanted.values()))[:MOST_STOPS]
             if not stops and (not ends or len(group) == 2):
                 continue  # one step, which counts as a landmark
             bits = {value: 1 << number for number, value in enumerate(stops)}
             tours.append(
                 _Tour(
-                    group=sum(1 << own - 1 for own in group),
+                    group=sum(1 << value - 1 for value in group),
                     walks=Walks(into, stops, ends[0] if ends else None),
                     stops={fact: bits[value] for fact, value in wanted.items() if value in bits},
                 )

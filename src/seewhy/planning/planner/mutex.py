@@ -31,9 +31,9 @@ def mutexes(knowledge: Knowledge) -> list[Mutex]:
     Examples
     --------
     >>> from seewhy.knowledge.language import read_knowledge
-    >>> (own,) = mutexes(read_knowledge("#sort place = {a, b}. #fluent basic at(place). "
+    >>> (mutex,) = mutexes(read_knowledge("#sort place = {a, b}. #fluent basic at(place). "
     ...     "-at(P2) if at(P1), P1 != P2."))
-    >>> own.predicate, own.position, own.stays_exact
+    >>> mutex.predicate, mutex.position, mutex.stays_exact
     ('at', 0, True)
     """
     found: dict[str, Mutex] = {}
@@ -42,12 +42,12 @@ def mutexes(knowledge: Knowledge) -> list[Mutex]:
         if position is not None:
             name = axiom.head.predicate
             others = [
-                own
-                for own in knowledge.axioms
-                if own is not axiom
-                and own.head.predicate == name
-                and not own.head.positive
-                and own.kind in (AxiomKind.CAUSAL_LAW, AxiomKind.STATE_CONSTRAINT)
+                other
+                for other in knowledge.axioms
+                if other is not axiom
+                and other.head.predicate == name
+                and not other.head.positive
+                and other.kind in (AxiomKind.CAUSAL_LAW, AxiomKind.STATE_CONSTRAINT)
             ]
             found[name] = Mutex(name, position, axiom, stays_exact=not others)
     return list(found.values())
@@ -57,8 +57,10 @@ def _excluded_position(axiom: Axiom) -> int | None:
     if axiom.kind is not AxiomKind.STATE_CONSTRAINT or len(axiom.body) != 2:
         return None
     head = axiom.head
-    literals = [own.literal for own in axiom.body if own.literal and not own.absent]
-    compared = [match for own in axiom.body if (match := _DIFFER.match(own.text))]
+    literals = [
+        condition.literal for condition in axiom.body if condition.literal and not condition.absent
+    ]
+    compared = [match for condition in axiom.body if (match := _DIFFER.match(condition.text))]
     if len(literals) != 1 or len(compared) != 1 or head.positive:
         return None
     (body,) = literals

@@ -55,9 +55,9 @@ def to_pddl(knowledge: Knowledge, goal: Goal, *, start: State) -> PddlProblem:
     """
     problem = ground_problem(relevant(with_goal(knowledge, goal)), start)
     names = _names(problem.fluents)
-    goals = [_conjunction(own, names) for own in problem.goals]
+    goals = [_conjunction(literals, names) for literals in problem.goals]
     wanted = goals[0] if len(goals) == 1 else f"(or {' '.join(goals)})"
-    predicates = " ".join(f"({own})" for own in [*names, *([] if goals else [_NEVER])])
+    predicates = " ".join(f"({name})" for name in [*names, *([] if goals else [_NEVER])])
     domain = [
         "(define (domain knowledge)",
         f"  (:requirements {' '.join(_requirements(problem))})",
@@ -71,7 +71,7 @@ def to_pddl(knowledge: Knowledge, goal: Goal, *, start: State) -> PddlProblem:
         ")",
     ]
     defined = {head for stratum in problem.derivations for head, _ in stratum}
-    facts = "".join(f" ({names[own - 1]})" for own in sorted(problem.start - defined))
+    facts = "".join(f" ({names[fluent - 1]})" for fluent in sorted(problem.start - defined))
     text = [
         "(define (problem knowledge-problem)",
         "  (:domain knowledge)",
@@ -83,11 +83,13 @@ def to_pddl(knowledge: Knowledge, goal: Goal, *, start: State) -> PddlProblem:
 
 
 def _requirements(problem: GroundProblem) -> Iterator[str]:
-    conditions = [own.condition for own in problem.operators]
-    whens = [body for own in problem.operators for body, _ in own.effects if body]
+    conditions = [operator.condition for operator in problem.operators]
+    whens = [body for operator in problem.operators for body, _ in operator.effects if body]
     bodies = [body for stratum in problem.derivations for _, body in stratum]
     yield ":strips"
-    if any(own < 0 for part in (*conditions, *whens, *bodies, *problem.goals) for own in part):
+    if any(
+        literal < 0 for part in (*conditions, *whens, *bodies, *problem.goals) for literal in part
+    ):
         yield ":negative-preconditions"
     if whens:
         yield ":conditional-effects"
@@ -98,24 +100,27 @@ def _requirements(problem: GroundProblem) -> Iterator[str]:
 
 
 def _actions(problem: GroundProblem, names: Sequence[str]) -> Iterator[str]:
-    titles = _names([own.action for own in problem.operators])
-    for own, title in zip(problem.operators, titles, strict=True):
+    titles = _names([operator.action for operator in problem.operators])
+    for operator, title in zip(problem.operators, titles, strict=True):
         effects = [
             f"(when {_conjunction(body, names)} {_literal(head, names)})"
             if body
             else _literal(head, names)
-            for body, head in own.effects
+            for body, head in operator.effects
         ]
-        yield f"  ; {own.action}"
+        yield f"  ; {operator.action}"
         yield f"  (:action {title}"
         yield "    :parameters ()"
-        yield f"    :precondition {_conjunction(own.condition, names)}"
+        yield f"    :precondition {_conjunction(operator.condition, names)}"
         yield f"    :effect (and {' '.join(effects)}))"
 
 
 def _conjunction(literals: Literals, names: Sequence[str]) -> str:
-    parts = [_literal(own, names) for own in sorted(literals, key=lambda own: (own < 0, abs(own)))]
-    return f"(and{''.join(f' {own}' for own in parts)})"
+    parts = [
+        _literal(literal, names)
+        for literal in sorted(literals, key=lambda literal: (literal < 0, abs(literal)))
+    ]
+    return f"(and{''.join(f' {part}' for part in parts)})"
 
 
 def _literal(literal: int, names: Sequence[str]) -> str:

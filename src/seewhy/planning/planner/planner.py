@@ -40,6 +40,7 @@ from seewhy.planning.planner.mutex import mutexes
 from seewhy.planning.planner.reachability import Reachability, reachable, simplified
 from seewhy.planning.planner.relevance import relevant
 from seewhy.planning.planner.search_with_unknowns import search_open
+from seewhy.text.notebook import html_line, html_list
 
 HORIZON = 50
 _EXPANSIONS = 20_000
@@ -108,6 +109,11 @@ class Plan:
     def found(self) -> bool:
         """Whether the goal can be reached by these actions (none where it holds already)."""
         return self.status in (PlanStatus.FOUND, PlanStatus.ALREADY_TRUE)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: how the search ended, and the actions in order."""
+        said = html_line(f"{self.status.value} ({1000 * self.seconds:.0f} ms)")
+        return said + html_list(str(action) for action in self.actions)
 
     def settles(self, start: State) -> bool:
         """Whether the plan, made from ``start``, takes something to be so that is unknown there.
@@ -202,21 +208,23 @@ def _forwards(
             return Plan(PlanStatus.NOT_WITHIN_HORIZON, horizon=horizon)
         return _by_answer_sets(knowledge, start, horizon=horizon, until=until, least=found.bound)
     status = PlanStatus.FOUND if found.operators else PlanStatus.ALREADY_TRUE
-    actions = tuple(own.action for own in found.operators)
+    actions = tuple(operator.action for operator in found.operators)
     more = len(relevant(knowledge, consequences=True).axioms) > len(relevant(knowledge).axioms)
     if more or problem.untold:
         # What else follows in the states on the way, the problem does not say.
         followed = _Search(knowledge, start, reachable(knowledge, start)).follow(actions)
         return Plan(status, *followed, horizon=horizon)
     numbered = list(enumerate(problem.fluents, start=1))
-    told = {own: complement_of(own) for own in problem.fluents}
+    told = {fluent: complement_of(fluent) for fluent in problem.fluents}
     constant = start.holds.difference(told, told.values())
     states = []
     for true, open_ in itertools.zip_longest(found.states, found.open, fillvalue=frozenset[int]()):
         holds = constant.union(
-            own if number in true else told[own] for number, own in numbered if number not in open_
+            fluent if number in true else told[fluent]
+            for number, fluent in numbered
+            if number not in open_
         )
-        settled = {own for number, own in numbered if number not in open_}
+        settled = {fluent for number, fluent in numbered if number not in open_}
         states.append(State(holds, start.unknown - settled if problem.open else start.unknown))
     return Plan(status, actions, tuple(states), horizon=horizon)
 
@@ -253,7 +261,7 @@ class _Search:
 
     def __init__(self, knowledge: Knowledge, start: State, possible: Reachability) -> None:
         self.rigid = possible.rigid
-        self.fluents = {fluent_of(own) for own in (*start.holds, *start.unknown)}
+        self.fluents = {fluent_of(literal) for literal in (*start.holds, *start.unknown)}
         self.control = BoundedControl(
             "\n".join(_program(knowledge, start, possible)),
             size=grounding_size(knowledge),
@@ -321,8 +329,11 @@ class _Search:
                 elif atom.name == "holds" and atom.arguments[0].name != REACHED:
                     holds[step].add(atom.arguments[0])
         states = [
-            State(frozenset(own), frozenset(self.fluents - {fluent_of(other) for other in own}))
-            for own in holds
+            State(
+                frozenset(literals),
+                frozenset(self.fluents - {fluent_of(other) for other in literals}),
+            )
+            for literals in holds
         ]
         return tuple(actions[step] for step in range(steps)), tuple(states)
 
@@ -330,23 +341,23 @@ class _Search:
 def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iterator[str]:
     signature = knowledge.signature
     untimed = untimed_predicates(knowledge)
-    changing = {fluent_of(own) for own in possible.may - possible.rigid}
-    basic = {own for own in changing if signature.kind(own.name).value.endswith("basic")}
-    always = [own for own in possible.rigid if own.name in untimed]
-    copied = [own for own in possible.rigid if own.name not in untimed]
+    changing = {fluent_of(literal) for literal in possible.may - possible.rigid}
+    basic = {fluent for fluent in changing if signature.kind(fluent.name).value.endswith("basic")}
+    always = [literal for literal in possible.rigid if literal.name in untimed]
+    copied = [literal for literal in possible.rigid if literal.name not in untimed]
     yield from fixed_rules(knowledge)
     yield facts("changes", changing)
     yield facts("inert", basic)
     yield facts("can", possible.can)
-    yield " ".join(f"holds({own}, always)." for own in sorted(always))
-    yield " ".join(f"holds({own}, 0)." for own in sorted(start.holds - possible.rigid))
+    yield " ".join(f"holds({literal}, always)." for literal in sorted(always))
+    yield " ".join(f"holds({literal}, 0)." for literal in sorted(start.holds - possible.rigid))
     yield " ".join(
-        f"1 {{ holds({own}, 0); holds(-{own}, 0) }} 1."
-        for own in sorted(start.unknown)
-        if signature.kind(own.name).value.endswith("basic")
+        f"1 {{ holds({fluent}, 0); holds(-{fluent}, 0) }} 1."
+        for fluent in sorted(start.unknown)
+        if signature.kind(fluent.name).value.endswith("basic")
     )
     yield possible.rules
-    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    excluded = {mutex.axiom.identifier for mutex in mutexes(knowledge)}
     for group in possible.groups:
         yield " ".join(f"next({a}, {b})." for a, b in itertools.pairwise(group))
     for axiom in constraints(knowledge):
@@ -358,7 +369,7 @@ def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iter
     yield _STEP_RULES
     yield f":- query({_NOW}), not holds({REACHED}, {_NOW}), not holds({REACHED}, always)."
     yield f"#program state({_NOW})."
-    yield " ".join(f"holds({own}, {_NOW})." for own in sorted(copied))
+    yield " ".join(f"holds({literal}, {_NOW})." for literal in sorted(copied))
     for axiom in constraints(knowledge):
         if axiom.identifier not in excluded and not gives_way(axiom, signature):
             head = axiom.head
@@ -379,9 +390,9 @@ def _program(knowledge: Knowledge, start: State, possible: Reachability) -> Iter
             yield rule("", [*happens, *body_at(axiom, signature, f"{_NOW}-1")])
         else:
             fluents = [
-                own
-                for own in axiom.body
-                if own.literal and signature.kind(own.literal.predicate).is_fluent
+                condition
+                for condition in axiom.body
+                if condition.literal and signature.kind(condition.literal.predicate).is_fluent
             ]
             if len(fluents) == 2:
                 yield rule("", [*happens, *body_at(axiom, signature, f"{_NOW}-1", always=False)])

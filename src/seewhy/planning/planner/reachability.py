@@ -105,7 +105,7 @@ def reachable(knowledge: Knowledge, state: State) -> Reachability:
         may=frozenset(atom.arguments[0] for atom in sets.get("may", ())),
         can=can,
         rules=" ".join(f"{atom}." for atom in sorted(kept)),
-        groups=tuple(tuple(sorted(own)) for _, own in sorted(groups.items())),
+        groups=tuple(tuple(sorted(fluents)) for _, fluents in sorted(groups.items())),
     )
 
 
@@ -119,7 +119,7 @@ def instances(knowledge: Knowledge, state: State) -> Mapping[str, Sequence[cling
     Conditions on what does not change are left out.
     """
     # What is not believed true, and not unknown, is believed false: that need not be told.
-    positive = (own for own in state.holds if own.positive)
+    positive = (literal for literal in state.holds if literal.positive)
     given = [facts("believed", positive), facts("unknown", state.unknown)]
     return _atoms(knowledge, [*_instance_rules(knowledge), *given, _INSTANCES])
 
@@ -146,7 +146,7 @@ def _rules(knowledge: Knowledge) -> Iterator[str]:
     yield from fixed_rules(knowledge)
     for group in mutexes(knowledge):
         yield from _group(group, signature)
-    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    excluded = {mutex.axiom.identifier for mutex in mutexes(knowledge)}
     for axiom in of_kind(knowledge, AxiomKind.CAUSAL_LAW):
         static = _static_body(axiom, signature)
         yield rule(f"touched({_atom(axiom.head)})", [f"useful({axiom.action})", *static])
@@ -177,18 +177,20 @@ def _rules(knowledge: Knowledge) -> Iterator[str]:
 def _wanted(knowledge: Knowledge) -> Iterator[str]:
     """What the goal asks about, instance by instance, and what an axiom does, whichever it is."""
     signature = knowledge.signature
-    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    excluded = {mutex.axiom.identifier for mutex in mutexes(knowledge)}
     asked: set[str] = set()
     for axiom in knowledge.axioms:
         if axiom.kind is AxiomKind.DEFAULT or axiom.identifier in excluded:
             continue
-        literals = [own.literal for own in _fluents(axiom, signature) if own.literal]
+        literals = [
+            condition.literal for condition in _fluents(axiom, signature) if condition.literal
+        ]
         static = _static_body(axiom, signature) if signature.changes(axiom.head.predicate) else []
         if axiom.head.predicate == REACHED:
             for literal in literals:
                 yield rule(f"wanted({_atom(literal)})", static)
             continue
-        asked |= {own.predicate for own in literals}
+        asked |= {literal.predicate for literal in literals}
         if axiom.kind is AxiomKind.CAUSAL_LAW:
             body = [f"action({axiom.action})", f"wanted({_atom(axiom.head)})", *static]
             yield rule(f"useful({axiom.action})", body)
@@ -203,17 +205,17 @@ def _wanted(knowledge: Knowledge) -> Iterator[str]:
 def _instance_rules(knowledge: Knowledge) -> Iterator[str]:
     signature = knowledge.signature
     yield from _wanted(knowledge)
-    excluded = {own.axiom.identifier for own in mutexes(knowledge)}
+    excluded = {mutex.axiom.identifier for mutex in mutexes(knowledge)}
     for axiom in knowledge.axioms:
         if not signature.changes(axiom.head.predicate) or asks_more(axiom, signature):
             continue
         static = _static_body(axiom, signature)
         terms = [
-            own.literal.complement if own.absent else own.literal
-            for own in _fluents(axiom, signature)
-            if own.literal
+            condition.literal.complement if condition.absent else condition.literal
+            for condition in _fluents(axiom, signature)
+            if condition.literal
         ]
-        possible = [f"may({own})" for own in terms]
+        possible = [f"may({literal})" for literal in terms]
         conditions = f"({', '.join(map(str, terms))}{',' * (len(terms) == 1)})"
         if axiom.kind is AxiomKind.CAUSAL_LAW:
             body = [f"can({axiom.action})", *static, *possible]
@@ -223,7 +225,9 @@ def _instance_rules(knowledge: Knowledge) -> Iterator[str]:
             yield rule(head, [*static, *possible])
         elif axiom.kind is AxiomKind.EXECUTABILITY_CONDITION and len(terms) > 1:
             # One condition that changes, beside others that do not, is in `needs` and `allowed`.
-            changing = [f"touched({_atom(own)})" for own in terms] if len(terms) == 2 else []
+            changing = (
+                [f"touched({_atom(literal)})" for literal in terms] if len(terms) == 2 else []
+            )
             body = [f"can({axiom.action})", *static, *possible, *changing]
             yield rule(f"forbidden({axiom.action}, {conditions})", body)
 
@@ -247,12 +251,12 @@ def _executability(axiom: Axiom, knowledge: Knowledge) -> Iterator[str]:
     signature = knowledge.signature
     static = [f"useful({axiom.action})", *_static_body(axiom, signature)]
     conditions = _fluents(axiom, signature)
-    certain = [_certain(own) for own in conditions]
+    certain = [_certain(condition) for condition in conditions]
     yield rule(f"never({axiom.action})", [*static, *certain])
     for place, condition in enumerate(conditions):
         literal = condition.literal
         assert literal is not None
-        others = [own for number, own in enumerate(certain) if number != place]
+        others = [other for number, other in enumerate(certain) if number != place]
         body = [*static, *others, f"touched({_atom(literal)})"]
         if condition.absent:
             yield rule(f"needs({axiom.action}, {literal})", body)
@@ -306,18 +310,18 @@ def _sorts(literal: Literal, signature: Signature) -> list[str]:
 
 def _fluents(axiom: Axiom, signature: Signature) -> list[Condition]:
     return [
-        own
-        for own in axiom.body
-        if own.literal is not None and signature.kind(own.literal.predicate).is_fluent
+        condition
+        for condition in axiom.body
+        if condition.literal is not None and signature.kind(condition.literal.predicate).is_fluent
     ]
 
 
 def asks_more(axiom: Axiom, signature: Signature) -> bool:
     """Whether a condition asks about several fluents at once: in an aggregate, or with ``_``."""
     return any(
-        _mentions_fluent(own, signature)
-        and (own.literal is None or any(map(_ANYTHING.search, own.literal.arguments)))
-        for own in axiom.body
+        _mentions_fluent(condition, signature)
+        and (condition.literal is None or any(map(_ANYTHING.search, condition.literal.arguments)))
+        for condition in axiom.body
     )
 
 

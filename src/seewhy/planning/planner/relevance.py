@@ -35,7 +35,7 @@ def relevant(knowledge: Knowledge, *, consequences: bool = False) -> Knowledge:
     ['lit', 'press', 'goal__']
     """
     signature = knowledge.signature
-    change = [own for own in knowledge.axioms if signature.changes(own.head.predicate)]
+    change = [axiom for axiom in knowledge.axioms if signature.changes(axiom.head.predicate)]
     asked, touched, done = {REACHED}, set[str](), set[str]()
     size = -1
     while size != len(asked) + len(touched) + len(done):
@@ -64,17 +64,18 @@ def relevant(knowledge: Knowledge, *, consequences: bool = False) -> Knowledge:
         signature=replace(
             signature,
             predicates={
-                name: own
-                for name, own in signature.predicates.items()
+                name: predicate
+                for name, predicate in signature.predicates.items()
                 if name in names or not signature.changes(name)
             },
         ),
         axioms=tuple(
-            own
-            for own in knowledge.axioms
-            if not signature.changes(own.head.predicate)
+            axiom
+            for axiom in knowledge.axioms
+            if not signature.changes(axiom.head.predicate)
             or (
-                own.head.predicate in names and (own.action is None or own.action.predicate in done)
+                axiom.head.predicate in names
+                and (axiom.action is None or axiom.action.predicate in done)
             )
         ),
     )

@@ -44,8 +44,8 @@ class _OpenSearch:
     def __init__(self, problem: GroundProblem) -> None:
         self.problem = problem
         self.goals = [bits(goal) for goal in problem.goals]
-        self.moves = [Move(number, own) for number, own in enumerate(problem.operators)]
-        self.groups = [bits(own)[0] for own in problem.exclusive]
+        self.moves = [Move(number, operator) for number, operator in enumerate(problem.operators)]
+        self.groups = [bits(group)[0] for group in problem.exclusive]
         self.open, _ = bits(problem.open)
         # What is defined follows from what is known alone.
         self.closed = Closure(problem)
@@ -81,7 +81,7 @@ class _OpenSearch:
         """The start, with what is only ever asked for in one way being that way."""
         state = _Known(self.closed(bits(self.problem.start)[0]), self.open)
         wanted = denied = 0
-        for true, false in (*self.goals, *((own.true, own.false) for own in self.moves)):
+        for true, false in (*self.goals, *((move.true, move.false) for move in self.moves)):
             wanted |= true
             denied |= false
         for move in self.moves:
@@ -153,12 +153,13 @@ class _OpenSearch:
             move = self.moves[number]
             known = self._assumed(before, move.true, move.false)
             assert known is not None
-            for own in self._settled(known, move):
+            for candidate in self._settled(known, move):
                 after = _Known(
-                    self.closed(move.after(own.true)), own.open & ~self._changed(own, move)
+                    self.closed(move.after(candidate.true)),
+                    candidate.open & ~self._changed(candidate, move),
                 )
                 if after == state:
-                    known = own
+                    known = candidate
                     break
             kept = settled & before.open
             true = known.true | (settled_true & kept)
@@ -167,11 +168,11 @@ class _OpenSearch:
             numbers.append(number)
             state = before
         return SearchResult(
-            operators=tuple(self.problem.operators[own] for own in reversed(numbers)),
-            states=tuple(self._fluents(own.true) for own in reversed(path)),
+            operators=tuple(self.problem.operators[number] for number in reversed(numbers)),
+            states=tuple(self._fluents(visited.true) for visited in reversed(path)),
             bound=len(numbers),
             exhausted=False,
-            open=tuple(self._fluents(own.open) for own in reversed(path)),
+            open=tuple(self._fluents(visited.open) for visited in reversed(path)),
         )
 
     def _fluents(self, known: int) -> frozenset[int]:

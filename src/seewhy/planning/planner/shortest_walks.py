@@ -73,9 +73,9 @@ def _distances(into: Mapping[int, Iterable[int]], value: int) -> dict[int, int]:
     """The number of steps to a value, from every value from which it can be reached."""
     distance, waiting = {value: 0}, deque([value])
     while waiting:
-        own = waiting.popleft()
-        for before in into.get(own, ()):
+        after = waiting.popleft()
+        for before in into.get(after, ()):
             if before not in distance:
-                distance[before] = distance[own] + 1
+                distance[before] = distance[after] + 1
                 waiting.append(before)
     return distance

@@ -43,9 +43,9 @@ class Built:
         self.names = tuple(sorted(room.names))
         solids = _shell(room, decor)
         owners = [-1] * len(solids)
-        for own in room.placed:
-            owner = self.names.index(own.thing.name) if own.thing.name else -1
-            added = own.solids
+        for placed in room.placed:
+            owner = self.names.index(placed.thing.name) if placed.thing.name else -1
+            added = placed.solids
             solids += added
             owners += [owner] * len(added)
         self.owners = np.array(owners)
@@ -95,7 +95,7 @@ def _shell(room: Room, decor: Decor) -> list[Solid]:
 
 def _camera(view: View, size: int) -> Camera:
     # The camera is told what it aims at, from how far: here it stands still and looks on.
-    x, y, z = (own + ahead for own, ahead in zip(view.eye, view.forward, strict=True))
+    x, y, z = (coordinate + ahead for coordinate, ahead in zip(view.eye, view.forward, strict=True))
     return Camera(
         (x, y, z),
         1.0,

@@ -72,7 +72,7 @@ class Room:
     @property
     def names(self) -> frozenset[str]:
         """The objects and people in the room."""
-        return frozenset(own.thing.name for own in self.placed) - {""}
+        return frozenset(placed.thing.name for placed in self.placed) - {""}
 
 
 def furnished(objects: Collection[str], people: Collection[str], rng: np.random.Generator) -> Room:
@@ -140,14 +140,14 @@ def _laid_out(
 ) -> list[Placed] | None:
     """The things on the floor, the largest first; None where one finds no place."""
     placed: list[Placed] = []
-    for thing in sorted(things, key=lambda own: -own.half[0] * own.half[1]):
+    for thing in sorted(things, key=lambda floor_thing: -floor_thing.half[0] * floor_thing.half[1]):
         for _ in range(_ATTEMPTS):
             if thing.name in _ALONG_WALL:
-                own = _at_wall(thing, width, depth, rng)
+                candidate = _at_wall(thing, width, depth, rng)
             else:
-                own = _anywhere(thing, width, depth, rng)
-            if not any(own.overlaps(other) for other in placed):
-                placed.append(own)
+                candidate = _anywhere(thing, width, depth, rng)
+            if not any(candidate.overlaps(other) for other in placed):
+                placed.append(candidate)
                 break
         else:
             return None
@@ -196,9 +196,9 @@ def _on_top(
     """The small things side by side on the desk or the sideboard; None where one is too narrow."""
     if not small:
         return []
-    below = next(own for own in placed if own.thing.top is not None)
+    below = next(standing for standing in placed if standing.thing.top is not None)
     order = [small[number] for number in rng.permutation(len(small))]
-    spare = 2.0 * below.thing.half[0] - sum(2.0 * own.half[0] for own in order)
+    spare = 2.0 * below.thing.half[0] - sum(2.0 * thing.half[0] for thing in order)
     gaps = rng.dirichlet(np.ones(len(order) + 1)) * (spare - 0.03 * len(order))
     if spare < 0.03 * len(order):
         return None

@@ -94,24 +94,24 @@ class _Landmarks:
     """What should be seen of a room, and what may stand before it."""
 
     def __init__(self, room: Room) -> None:
-        reach = np.array([own.reach for own in room.placed]).reshape(-1, 2)
-        at = np.array([(own.x, own.y, own.z) for own in room.placed]).reshape(-1, 3)
-        high = np.array([own.thing.height for own in room.placed])
+        reach = np.array([placed.reach for placed in room.placed]).reshape(-1, 2)
+        at = np.array([(placed.x, placed.y, placed.z) for placed in room.placed]).reshape(-1, 3)
+        high = np.array([placed.thing.height for placed in room.placed])
         # Few things fill the cuboid around them.
         self.low = np.column_stack([at[:, :2] - 0.75 * reach, at[:, 2] + 0.02])
         self.high = np.column_stack([at[:, :2] + 0.75 * reach, at[:, 2] + 0.95 * high])
         self.framed = np.concatenate(
             [at + share * high[:, None] * (0.0, 0.0, 1.0) for share in (0.3, 0.92)]
-        )[np.tile(np.array([bool(own.thing.name) for own in room.placed], bool), 2)]
+        )[np.tile(np.array([bool(placed.thing.name) for placed in room.placed], bool), 2)]
         targets, owners = [], []
-        for number, own in enumerate(room.placed):
-            if own.thing.name and own.thing.name not in _MAY_BE_BEHIND:
+        for number, placed in enumerate(room.placed):
+            if placed.thing.name and placed.thing.name not in _MAY_BE_BEHIND:
                 middle = at[number] + (0.0, 0.0, 0.55 * high[number])
                 aside = (0.6 * reach[number, 0], 0.0, 0.0)
                 targets += [middle - aside, middle, middle + aside]
                 owners += [number] * 3
         self.targets = np.array(targets).reshape(-1, 3)
-        self.own = np.array(owners, int)[:, None] == np.arange(len(room.placed))
+        self.belongs = np.array(owners, int)[:, None] == np.arange(len(room.placed))
 
     def lacking(self, view: View) -> int:
         """How many places are out of the frame or have a thing before them."""
@@ -125,7 +125,7 @@ class _Landmarks:
         enters, leaves = (self.low - eye) / way, (self.high - eye) / way
         enters, leaves = np.minimum(enters, leaves), np.maximum(enters, leaves)
         first, last = enters.max(axis=2), leaves.min(axis=2)
-        before = (first < last) & (last > 0.0) & (first < 0.99) & ~self.own
+        before = (first < last) & (last > 0.0) & (first < 0.99) & ~self.belongs
         return outside + int(before.any(axis=1).sum())
 
 
@@ -153,7 +153,7 @@ def _any_view(room: Room, rng: np.random.Generator) -> View:
         -room.depth / 2.0 - rng.uniform(0.2, 0.6),
         rng.uniform(1.05, 1.5),
     )
-    bearings = [math.atan2(eye[0] - own.x, own.y - eye[1]) for own in room.placed] or [0.0]
+    bearings = [math.atan2(eye[0] - placed.x, placed.y - eye[1]) for placed in room.placed] or [0.0]
     middle = (min(bearings) + max(bearings)) / 2.0
     # Also by what stands in the room, but not only: a robot has not seen it yet.
     azimuth = rng.uniform(0.4, 1.0) * middle + rng.normal(0.0, math.radians(5.0))

@@ -23,14 +23,14 @@ def _albedo(hits: Hits, structure: Structure, view: View) -> Array:
     rng = np.random.default_rng(view.texture)
     colour = np.zeros((3, len(hits.geom)), np.float32)
     for number, block in enumerate(structure.blocks, start=1):
-        own = np.random.default_rng([view.texture, number])
+        block_rng = np.random.default_rng([view.texture, number])
         rows = np.flatnonzero(hits.geom == number)
         at = hits.local.take(rows, 0).T
         # Under the paint the grain of the wood runs along the width of the block.
-        bent = 0.002 * waves(at, own, wavelength=0.05)
+        bent = 0.002 * waves(at, block_rng, wavelength=0.05)
         grain_at = np.stack([0.06 * at[0], at[1] + bent, at[2] + bent])
-        grain = waves(grain_at, own, wavelength=0.0045, count=5)
-        cloud = waves(at, own, wavelength=0.03)
+        grain = waves(grain_at, block_rng, wavelength=0.0045, count=5)
+        cloud = waves(at, block_rng, wavelength=0.03)
         paint = column(block.colour) ** 2.2
         colour[:, rows] = paint * (1.0 + 0.10 * grain + 0.10 * cloud) + 0.006
     rows = np.flatnonzero(hits.geom == 0)

@@ -130,7 +130,7 @@ def _round_thing(rng: np.random.Generator) -> Face:
 
 def _strange_plate(rng: np.random.Generator) -> Face:
     """A plate whose colours no known sign of this shape has, or the grey back of a sign."""
-    known = {(own["shape"], own["main_color"], own["border_color"]) for own in signs().values()}
+    known = {(sign["shape"], sign["main_color"], sign["border_color"]) for sign in signs().values()}
     shape = str(rng.choice(_SHAPES))
     if rng.random() < 0.25:
         back = {"shape": shape, "main_color": "grey", "border_color": "grey"}
@@ -150,16 +150,18 @@ def _strange_plate(rng: np.random.Generator) -> Face:
 def _unknown_sign(rng: np.random.Generator) -> Face:
     """The plate of a known sign with a symbol that no known sign of these colours has."""
     table = list(signs().values())
-    own = dict(table[int(rng.integers(len(table)))])
-    plate = [key for key in own if not key.endswith("symbol") and key != "cross"]
-    taken = {row["primary_symbol"] for row in table if all(row[key] == own[key] for key in plate)}
-    own |= {"secondary_symbol": "none", "cross": "none", "primary_symbol": "blank"}
+    features = dict(table[int(rng.integers(len(table)))])
+    plate = [key for key in features if not key.endswith("symbol") and key != "cross"]
+    taken = {
+        row["primary_symbol"] for row in table if all(row[key] == features[key] for key in plate)
+    }
+    features |= {"secondary_symbol": "none", "cross": "none", "primary_symbol": "blank"}
     if rng.random() < 0.6 or "blank" in taken:
         while (name := _any_symbol(rng)) in taken:
             pass
-        return face(own | {"primary_symbol": name}, rng=rng)
-    bare = face(own, rng=rng)
-    ink = "black" if "white" in (own["main_color"], own["background_image"]) else "white"
+        return face(features | {"primary_symbol": name}, rng=rng)
+    bare = face(features, rng=rng)
+    ink = "black" if "white" in (features["main_color"], features["background_image"]) else "white"
     return Face(bare.outline, (*bare.patches, *_scribble(paint(ink, rng), rng)))
 
 

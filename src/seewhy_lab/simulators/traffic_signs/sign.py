@@ -266,16 +266,16 @@ def _places(features: Mapping[str, str], rng: np.random.Generator) -> dict[str, 
             kind = "white_triangle"
         elif shape == "circle" and features["border_color"] != "red":
             kind = "ringless_circle"
-        own = _table()[kind]
+        by_symbol = _table()[kind]
         # What a circle without a ring does not place has the place of any circle's symbol.
-        own = {**_table()[shape], **own} if kind == "ringless_circle" else own
-        places = {"primary_symbol": own.get(primary, own["any"])}
+        by_symbol = {**_table()[shape], **by_symbol} if kind == "ringless_circle" else by_symbol
+        places = {"primary_symbol": by_symbol.get(primary, by_symbol["any"])}
     else:
         kind = "two_on_tall_rectangle" if shape == "tall_rectangle" else "two_on_circle"
-        own = _table()["numbers_on_circle" if primary == "numbers" else kind]
+        by_symbol = _table()["numbers_on_circle" if primary == "numbers" else kind]
         places = {
-            "primary_symbol": own["primary"],
-            "secondary_symbol": own.get(secondary, own["any"]),
+            "primary_symbol": by_symbol["primary"],
+            "secondary_symbol": by_symbol.get(secondary, by_symbol["any"]),
         }
     scale = rng.uniform(0.92, 1.08)
     dx, dy = rng.normal(0.0, 0.012, 2)

@@ -1,0 +1,143 @@
+"""What a phrase of a question states: a statement, and whether it is denied."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from seewhy.dialogue.asked import Statement
+from seewhy.dialogue.grammar import Binding, Fold
+
+__all__ = ["Said", "all_said", "folds", "roles", "stated"]
+
+
+@dataclass(frozen=True)
+class Said:
+    """A statement as it was said, and whether it was denied."""
+
+    statement: Statement
+    denied: bool = False
+    forward: bool = False
+    """Whether the "not" stands before the subject ("isn't it …"), which asks the same."""
+    named: bool = False
+    """Whether it was only named, and what is said of it follows."""
+    replaced: bool = False
+    """Whether something else is said instead of it."""
+
+
+_STATEMENTS = (
+    "stated", "asserted", "left", "because", "making", "because_bare", "opposed", "supposed",
+    "supposed_more", "equipment", "unequipped", "other_one", "surely", "located", "group_state",
+    "goal", "avoided", "one_value", "first_existing", "existing_too", "deny_one", "deny_other",
+    "pair_rest", "lacking", "pair_two", "fragment_named", "possessed", "dispossessed",
+    "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class", "supposed_object",
+    "no_object", "half", "inverted",
+    "footing",
+)  # fmt: skip
+
+
+_ROLES: dict[str, Fold] = {
+    name: lambda _, role=role: ((Binding(role, True),),)  # type: ignore[misc]
+    for name, role in {
+        "not": "denied", "none": "denied", "without": "denied", "not_longer": "denied",
+        "gone": "denied", "taking": "denied", "put_back": "denied", "back": "denied",
+        "free_of": "denied", "fore": "forward",
+    }.items()
+}  # fmt: skip
+
+
+def folds() -> dict[str, Fold]:
+    """Return what the bindings inside of a phrase come to, by the phrase's name."""
+    return {
+        **dict.fromkeys(_STATEMENTS, _folded),
+        **_ROLES,
+        "existing_named": _folded_named,
+        "neither_of": _folded_neither,
+        "parts_alike": _folded_parts,
+        "replaced": _folded_replaced,
+    }
+
+
+def stated(fact: object) -> Statement:
+    """Return the statement that a word of the lexicon stands for."""
+    assert isinstance(fact, tuple)
+    feature, value = fact
+    return Statement(feature=feature, value=value)
+
+
+def all_said(bindings: Iterable[Binding]) -> list[Said]:
+    """Return what is stated, in the order in which it is said."""
+    return [binding.meaning for binding in bindings if isinstance(binding.meaning, Said)]
+
+
+def roles(bindings: Iterable[Binding], role: str) -> list[str]:
+    """Return what the bindings of one role mean, in their order."""
+    return [str(binding.meaning) for binding in bindings if binding.role == role]
+
+
+def _folded(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What is stated by a phrase, where its parts go together."""
+    said = _said_in(bindings)
+    rest = tuple(
+        binding for binding in bindings if binding.role in ("feature", "group", "said", "counts")
+    )
+    if said is None:
+        return
+    if said == ():
+        if any(binding.role in ("fact", "label", "about") for binding in bindings):
+            return
+        yield rest
+        return
+    kept = tuple(binding for binding in bindings if binding.role == "said")
+    yield (*kept, *(Binding("said", clause) for clause in said))
+
+
+def _folded_named(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What is named first of two things of which the same is said."""
+    for said in _said_in(bindings) or ():
+        yield (Binding("said", replace(said, named=True)),)
+
+
+def _folded_neither(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What is denied of each by "neither … nor …"."""
+    yield tuple(
+        Binding("said", replace(said, denied=not said.denied)) for said in all_said(bindings)
+    )
+
+
+def _folded_parts(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What is said of several parts at once; the state is read as the first part's."""
+    parts = roles(bindings, "about")
+    denied = any(binding.role == "denied" for binding in bindings)
+    for statement in (stated(binding.meaning) for binding in bindings if binding.role == "fact"):
+        if statement.feature == parts[0]:
+            yield tuple(
+                Binding("said", Said(replace(statement, feature=part), denied)) for part in parts
+            )
+
+
+def _folded_replaced(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What is named behind "instead of"."""
+    for said in _said_in(bindings) or ():
+        yield (Binding("said", replace(said, denied=True, replaced=True)),)
+
+
+def _said_in(bindings: tuple[Binding, ...]) -> tuple[Said, ...] | None:
+    """The one statement of a phrase; () where it states nothing, None where it is none."""
+    facts = [binding.meaning for binding in bindings if binding.role == "fact"]
+    labels = list(dict.fromkeys(binding.meaning for binding in bindings if binding.role == "label"))
+    about = {binding.meaning for binding in bindings if binding.role in ("feature", "about")}
+    denied = sum(binding.role == "denied" for binding in bindings) % 2 == 1
+    forward = any(binding.role == "forward" for binding in bindings)
+    if not facts and not labels:
+        return ()
+    if len(facts) + len(labels) > 1:
+        return None
+    if labels:
+        if about:
+            return None
+        return (Said(Statement(label=str(labels[0])), denied, forward),)
+    statement = stated(facts[0])
+    if about - {statement.feature}:
+        return None
+    return (Said(statement, denied, forward),)

@@ -1,0 +1,81 @@
+"""Whether the words of a question are near enough to a template's to ask the same."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from rapidfuzz import fuzz
+
+from seewhy.planning.dialogue.query import Asks
+from seewhy.planning.dialogue.question_templates import HOLE
+
+_ALIKE = 80.0
+_ALIKE_ACTION = 68.0
+"""An action may be called by another verb of the same meaning: to go is to move."""
+TELLING = frozenset({"why", "what", "where", "who", "if", "not", "no", "how", "which"})
+"""Words of which a question has as many as its template."""
+_FREE = {"is", "does", "do", "did", "has", "have", "in", "at", "on", "of", "for", "to", "with",
+         "from", "by", "that", "it", "there", "you", "your", "would", "will", "happen", "up",
+         HOLE} | TELLING  # fmt: skip
+VERBS = (
+    {"move", "go", "walk", "drive", "travel", "head", "come", "run", "enter"},
+    {"moving", "going", "walking", "driving", "travelling", "heading", "coming", "running",
+     "entering"},
+    {"moved", "gone", "went", "walked", "driven", "travelled", "come", "run", "entered"},
+    {"deliver", "bring", "give", "hand", "take", "carry"},
+    {"delivering", "bringing", "giving", "handing", "taking", "carrying"},
+    {"delivered", "brought", "gave", "given", "handed", "taken", "carried"},
+    {"put", "place", "set", "lay", "stack", "drop"},
+    {"putting", "placing", "setting", "laying", "stacking", "dropping"},
+    {"put", "placed", "set", "laid", "stacked", "dropped"},
+    {"pick", "take", "grab", "grasp", "lift", "raise"},
+    {"picking", "taking", "grabbing", "grasping", "lifting", "raising"},
+    {"picked", "taken", "grabbed", "grasped", "lifted", "raised"},
+)  # fmt: skip
+"""Verbs that may stand for one another where an action is asked about; no other verb may."""
+_ACTIONS = (Asks.WHY_DID, Asks.WHY_NOT, Asks.DID)
+
+
+def likeness(asks: Asks, read: Sequence[str], skeleton: Sequence[str]) -> float | None:
+    """Return how alike a question's words are to a template's, from 0 to 100.
+
+    None where they do not ask the same.
+
+    Examples
+    --------
+    >>> asked = ["why", "did", "you", "go", "to", "§"]
+    >>> likeness(Asks.WHY_DID, asked, ["why", "did", "you", "move", "to", "§"]) > 68
+    True
+    >>> likeness(Asks.WHY_DID, asked, ["why", "did", "you", "not", "go", "to", "§"]) is None
+    True
+    """
+    if telling_words(read) != telling_words(skeleton):
+        return None
+    alike = fuzz.ratio(" ".join(read), " ".join(skeleton))
+    return alike if _near_enough(asks, read, skeleton, alike) else None
+
+
+def telling_words(words: Sequence[str]) -> list[str]:
+    """Return the words of a question without which it asks something else, sorted."""
+    return sorted(word for word in words if word in TELLING)
+
+
+def _near_enough(asks: Asks, read: Sequence[str], skeleton: Sequence[str], alike: float) -> bool:
+    if asks is Asks.DID and read[:2] != skeleton[:2]:
+        return False
+    # A word that the other side lacks may say the opposite: to lose is not to have.
+    lacking = [*_lacking(read, skeleton), *_lacking(skeleton, read)]
+    if asks in _ACTIONS:
+        enough = (alike >= _ALIKE_ACTION and HOLE in read) or alike >= _ALIKE
+        return enough and all(
+            any(word in verbs and verbs.intersection(other) for verbs in VERBS)
+            for word, other in lacking
+        )
+    return alike >= _ALIKE and not lacking
+
+
+def _lacking(words: Sequence[str], others: Sequence[str]) -> Iterator[tuple[str, Sequence[str]]]:
+    """The words that carry meaning and are none of the others, with the others."""
+    for word in words:
+        if word not in _FREE and max(fuzz.ratio(word, other) for other in others) < _ALIKE:
+            yield word, others

@@ -1,0 +1,129 @@
+"""The things of a domain that a question names, and what stands for them, such as "her"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from seewhy.dialogue.question_words import words_of
+from seewhy.planning.dialogue.question_templates import plain_words
+from seewhy.planning.dialogue.whereabouts import places
+from seewhy.planning.domain import PlanningDomain
+
+LOCATION = ("location", "position", "whereabouts")
+_SELF = ("you", "yourself", "me")
+
+
+@dataclass(frozen=True)
+class Thing:
+    """Something named in a question.
+
+    Attributes
+    ----------
+    term : str
+    sorts : frozenset of str
+    located : bool
+        Whether its place is meant.
+    said : str
+        The words that name it.
+    acts : bool
+        Whether it is who is asked.
+    """
+
+    term: str
+    sorts: frozenset[str]
+    located: bool = False
+    said: str = ""
+    acts: bool = False
+
+
+Marked = Sequence[str | Thing]
+"""The words of a question, with things in the place of their names."""
+
+
+class NamedThings:
+    """The names of a domain's things.
+
+    Examples
+    --------
+    >>> from seewhy.planning.domain import load_planning_domain
+    >>> things = NamedThings(load_planning_domain("robot_assistant"))
+    >>> [word if isinstance(word, str) else word.term for word in things.marked(["is", "sally"])]
+    ['is', 'sally']
+    """
+
+    def __init__(self, domain: PlanningDomain) -> None:
+        self.robot = domain.robot
+        self.words = domain.words
+        signature = domain.knowledge.signature
+        self.sorts: dict[str, frozenset[str]] = {}
+        for sort in signature.sorts.values():
+            for term in sort.members or ():
+                self.sorts[term] = self.sorts.get(term, frozenset()) | {sort.name}
+        self._names: dict[tuple[str, ...], str] = {}
+        for term in self.sorts:
+            for name in (domain.words.name(term), term.strip('"').replace("_", " ")):
+                self._names.setdefault(tuple(plain_words(words_of(name))), term)
+        if domain.robot:
+            self._names.update({(word,): domain.robot for word in _SELF})
+        self._names.pop((), None)
+        self._longest = max(map(len, self._names), default=1)
+        self.located = {
+            signature.predicates[place.predicate].sorts[place.place]
+            for place in places(domain)
+            if place.single
+        }
+
+    @property
+    def vocabulary(self) -> set[str]:
+        """The words of all names."""
+        return {word for name in self._names for word in name} | {
+            *LOCATION,
+            "your",
+            *self.words.possessives.values(),
+        }
+
+    def marked(self, words: Sequence[str]) -> list[str | Thing]:
+        """The words with the names in them replaced by the things, the longest first."""
+        marked: list[str | Thing] = []
+        place = 0
+        while place < len(words):
+            thing, length = self._named(words, place) or self._located(words, place) or (None, 1)
+            marked.append(words[place] if thing is None else thing)
+            place += length
+        return marked
+
+    def written_out(self, words: list[str]) -> list[str]:
+        """The words with "her" said as "Sally's", where Sally was named before."""
+        possessives = self.words.possessives
+        for place, word in enumerate(words):
+            if word in possessives.values():
+                for thing in self.marked(words[:place]):
+                    if isinstance(thing, Thing) and possessives.get(thing.term) == word:
+                        name = plain_words(words_of(self.words.name(thing.term)))
+                        words = [*words[:place], *name[:-1], f"{name[-1]}'s", *words[place + 1 :]]
+        return words
+
+    def _named(self, words: Sequence[str], place: int) -> tuple[Thing, int] | None:
+        for length in range(min(self._longest, len(words) - place), 0, -1):
+            term = self._names.get(tuple(words[place : place + length]))
+            if term is not None:
+                said = " ".join(words[place : place + length])
+                thing = Thing(term, self.sorts[term], said=said, acts=term == self.robot)
+                return thing, length
+        return None
+
+    def _located(self, words: Sequence[str], place: int) -> tuple[Thing, int] | None:
+        """What "Sally's location" and "your location" mean, and how many words they are."""
+        for length in range(min(self._longest, len(words) - place - 1), 0, -1):
+            if words[place + length] not in (*LOCATION, *self.located):
+                continue
+            *before, last = words[place : place + length]
+            term = (
+                self.robot
+                if (*before, last) == ("your",)
+                else self._names.get((*before, last.removesuffix("'s")))
+            )
+            if term is not None:
+                return Thing(term, self.sorts[term], located=True), length + 1
+        return None

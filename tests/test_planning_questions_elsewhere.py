@@ -1,0 +1,220 @@
+"""Questions about a run of two robots, and in a domain that has no words but its names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from seewhy.planning.dialogue.replying import answer
+from seewhy.planning.domain import PlanningDomain, load_planning_domain
+from seewhy.planning.execution.execution import Run, execute
+from seewhy.planning.goal import read_goal
+
+TWO_KNOWLEDGE = """
+#sort robot = {rob1, rob2}.
+#sort place = {hall, kitchen, attic}.
+#sort parcel = {letter, crate}.
+#static strong(robot).
+strong(rob2).
+#static heavy(parcel).
+heavy(crate).
+#fluent basic at(robot, place).
+#fluent basic lies(parcel, place).
+#fluent basic carries(robot, parcel).
+#action move(robot, place).
+#action fetch(robot, parcel).
+move(R, P) causes at(R, P).
+fetch(R, C) causes carries(R, C).
+-at(R, P2) if at(R, P1), P1 != P2.
+-lies(C, P) if carries(R, C).
+impossible move(R, P) if at(R, P).
+%% a robot fetches what lies where it is
+impossible fetch(R, C) if at(R, P), not lies(C, P).
+%% only a strong robot lifts what is heavy
+impossible fetch(R, C) if heavy(C), not strong(R).
+default -carries(R, C).
+default -lies(C, P).
+"""
+TWO_HISTORY = """
+observed at(rob1, hall) at 0.
+observed at(rob2, hall) at 0.
+observed lies(letter, kitchen) at 0.
+observed lies(crate, attic) at 0.
+"""
+TWO_WORDS = """
+[planning]
+name = "two"
+title = "Two robots"
+robot = "rob1"
+
+[things]
+rob1 = "the first robot"
+rob2 = "the second robot"
+letter = "the letter"
+crate = "the crate"
+hall = "the hall"
+kitchen = "the kitchen"
+attic = "the attic"
+
+[fluents.at]
+say = "{0} is in {1}"
+deny = "{0} is not in {1}"
+
+[fluents.lies]
+say = "{0} lies in {1}"
+deny = "{0} does not lie in {1}"
+
+[actions.move]
+do = "move to {1}"
+did = "moved to {1}"
+
+[actions.fetch]
+do = "fetch {1}"
+did = "fetched {1}"
+
+[[sensing]]
+literal = "at(R, P)"
+where = "place(P)"
+"""
+
+
+def written(folder: Path, *, knowledge: str, words: str, history: str = "") -> PlanningDomain:
+    for name, text in (("knowledge.al", knowledge), ("planning.toml", words),
+                       ("history.al", history)):  # fmt: skip
+        (folder / name).write_text(text, encoding="utf-8")
+    return load_planning_domain(folder)
+
+
+def run_to(domain: PlanningDomain, goal: str) -> Run:
+    aim = read_goal(goal, domain.knowledge)
+    *_, run = execute(domain, aim, sensed=[], act=lambda _: [])
+    return run
+
+
+@pytest.fixture(scope="module")
+def two(tmp_path_factory: pytest.TempPathFactory) -> tuple[PlanningDomain, Run]:
+    folder = tmp_path_factory.mktemp("two")
+    domain = written(folder, knowledge=TWO_KNOWLEDGE, words=TWO_WORDS, history=TWO_HISTORY)
+    return domain, run_to(domain, "carries(rob2, crate), carries(rob1, letter)")
+
+
+TO_THE_ATTIC = (
+    'because I wanted to {}fetch the crate. Otherwise I could not have done that: "a robot fetches '
+    'what lies where it is", and {} was in the hall and the crate did not lie in the hall.'
+)
+TWO = {
+    "what did you do?": (
+        "I moved to the kitchen and fetched the letter. The second robot moved to the attic "
+        "and fetched the crate. The goal is reached."
+    ),
+    "what did rob2 do?": (
+        "The second robot moved to the attic and fetched the crate. The goal is reached."
+    ),
+    "why did you move to the attic?": (
+        "I did not move to the attic; the second robot did at step 2."
+    ),
+    "why did the second robot move to the attic?": (
+        "The second robot moved to the attic at step 2 "
+        + TO_THE_ATTIC.format("let the second robot ", "the second robot")
+    ),
+    "second robot, why did you move to the attic?": (
+        "I moved to the attic at step 2 " + TO_THE_ATTIC.format("", "I")
+    ),
+    "what did you do, rob2?": (
+        "The first robot moved to the kitchen and fetched the letter. I moved to the attic "
+        "and fetched the crate. The goal is reached."
+    ),
+    "have you fetched the crate?": (
+        "No, I have not fetched the crate; the second robot did at step 3."
+    ),
+    "has rob2 fetched the crate?": "Yes, the second robot fetched the crate at step 3.",
+    "why did the second robot not fetch the letter at step 0?": (
+        'The second robot could not fetch the letter at step 0: "a robot fetches what lies '
+        'where it is", and the second robot was in the hall and the letter did not lie in the'
+        " hall."
+    ),
+    "what was your plan?": (
+        "At step 0 I planned to move to the kitchen, fetch the letter, let the second robot "
+        "move to the attic and let the second robot fetch the crate."
+    ),
+    "rob2, where are you?": (
+        "I am in the attic. I moved to the attic at step 2; nothing that I know of has "
+        "changed it since."
+    ),
+    "rob2, where is the first robot?": (
+        "The first robot is in the kitchen. The first robot moved to the kitchen at step 0; "
+        "nothing that I know of has changed it since."
+    ),
+    "who carries the crate?": "The second robot carries the crate.",
+    "what if the second robot moved to the attic at step 0?": (
+        "If the second robot moved to the attic, I would move to the kitchen, fetch the "
+        "letter and let the second robot fetch the crate: 3 actions instead of 4."
+    ),
+    "why did the second robot fetch the crate rather than the letter?": (
+        "The second robot fetched the crate at step 3 because my goal was that the second "
+        'robot carries the crate. The second robot could not fetch the letter at step 3: "a '
+        'robot fetches what lies where it is", and the second robot was in the attic and the '
+        "letter did not lie in the attic."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", TWO)
+def test_robots_are_named_and_i_is_who_is_asked(
+    two: tuple[PlanningDomain, Run], question: str
+) -> None:
+    domain, run = two
+    assert answer(domain, run, question).text == TWO[question]
+
+
+def test_a_plan_says_which_robot_does_what(two: tuple[PlanningDomain, Run]) -> None:
+    domain, run = two
+    assert [domain.words.do(action) for action in run.actions] == [
+        "move to the kitchen",
+        "fetch the letter",
+        "let the second robot move to the attic",
+        "let the second robot fetch the crate",
+    ]
+
+
+NAMES_KNOWLEDGE = """
+#sort lamp = {lamp1, lamp2}.
+#sort colour = {red, green}.
+#static next_to(lamp, lamp).
+#static paint(lamp, colour).
+#static has_switch(lamp).
+next_to(lamp1, lamp2).
+paint(lamp1, red).
+has_switch(lamp1).
+has_switch(lamp2).
+#fluent basic lit(lamp).
+#action press(lamp).
+press(L) causes lit(L) if has_switch(L).
+default -lit(L).
+"""
+NAMES_WORDS = """
+[planning]
+name = "names"
+title = "Words that are names"
+"""
+NAMED = {
+    "is lamp1 next to lamp2?": "Yes, lamp1 is next to lamp2. I know that from the beginning.",
+    "what is next to lamp2?": "Lamp1 is next to lamp2.",
+    "what is the paint of lamp1?": "The paint of lamp1 is red.",
+    "does lamp2 have switch?": "Yes, lamp2 has switch. I know that from the beginning.",
+    "which lamps have switch?": "Lamp1 and lamp2 have switch.",
+    "was lamp1 lit?": (
+        "Yes, since step 1 I have believed that lamp1 is lit. I pressed lamp1 at step 0."
+    ),
+    "is lamp2 next to lamp1?": (
+        "Not as far as I know: nothing tells me that lamp2 is next to lamp1."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", NAMED)
+def test_without_words_the_names_make_clauses(tmp_path: Path, question: str) -> None:
+    domain = written(tmp_path, knowledge=NAMES_KNOWLEDGE, words=NAMES_WORDS)
+    run = run_to(domain, "lit(lamp1)")
+    assert answer(domain, run, question).text == NAMED[question]
