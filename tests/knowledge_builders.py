@@ -210,7 +210,7 @@ class World:
             inconsistent = self.answer_sets(vector, contradictory=True)
             return None, "contradiction" if inconsistent else "no answer set"
         believed = frozenset.intersection(*sets)
-        names = [name for name, own in CLASSES[self.classes].items() if own in believed]
+        names = [name for name, literal in CLASSES[self.classes].items() if literal in believed]
         if len(names) == 1:
             return names[0], "believed"
         return None, "several classes" if names else "silent"

@@ -140,11 +140,17 @@ def test_the_question_is_read_before_the_picture(agent: Agent) -> None:
 
 def test_a_batch_is_classified_like_single_pictures(agent: Agent, dataset: Dataset) -> None:
     batch = agent.classify_all(dataset.pictures(16))
-    for scene, own in list(zip(dataset.scenes, batch, strict=True))[:8]:
+    for scene, classified in list(zip(dataset.scenes, batch, strict=True))[:8]:
         single = agent.classify(scene.picture)
-        assert (single.label, single.vector, single.method) == (own.label, own.vector, own.method)
+        assert (single.label, single.vector, single.method) == (
+            classified.label,
+            classified.vector,
+            classified.method,
+        )
         for key, reading in single.features.items():
-            assert reading.probability == pytest.approx(own.features[key].probability, abs=1e-5)
+            assert reading.probability == pytest.approx(
+                classified.features[key].probability, abs=1e-5
+            )
     assert agent.classify_all(np.empty((0, 16, 16, 3), dtype=np.uint8)) == []
 
 
@@ -156,7 +162,7 @@ def test_many_answers_at_once_are_those_one_by_one(agent: Agent, dataset: Datase
     questions = [q for q in agent.questions.one_of_each() if q.asks is not Asks.EXPLAIN]
     asked = [(scene, question) for scene in scenes for question in questions]
     assert {"tree", "knowledge"} <= {scene.method for scene in scenes}
-    assert agent.answer_all(asked) == [agent.answer(*own) for own in asked]
+    assert agent.answer_all(asked) == [agent.answer(*pair) for pair in asked]
     assert agent.answer_all([]) == []
 
 

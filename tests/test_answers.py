@@ -395,12 +395,12 @@ def test_values_of_categories_and_numbers(tiles: Domain, structures: Domain) -> 
 def test_the_most_of_many_values_is_said_by_the_others() -> None:
     signs = load_domain("traffic_signs")
     shapes, symbols = (signs.features[key].values for key in ("shape", "primary_symbol"))
-    but_one = [own for own in shapes if own != "circle"]
+    but_one = [shape for shape in shapes if shape != "circle"]
     assert say_values(signs, "shape", but_one) == "the shape of {it} is anything but round"
-    but_two = [own for own in symbols if own not in ("cow", "bump")]
+    but_two = [symbol for symbol in symbols if symbol not in ("cow", "bump")]
     assert say_values(signs, "primary_symbol", but_two) == (
         "the symbol of {it} is anything but a bump or a cow"
     )
-    half = [own for own in shapes if own in shapes[:4]]
+    half = [shape for shape in shapes if shape in shapes[:4]]
     assert "anything but" not in say_values(signs, "shape", half)
     assert "anything but" not in say_values(signs, "shape", shapes)

@@ -258,7 +258,7 @@ def test_oddities_are_told(imported: Importer, tmp_path: Path) -> None:
     assert found.rows_without_file == (f"{home}/00077_00000",)
     assert found.files_without_row == (f"{home}/00099_00000.ppm", f"{home}/stop.jpg")
     assert found.without_pole == (f"{home}/stop.jpg",)
-    assert {own.file: own.reason for own in found.left_out} == {
+    assert {entry.file: entry.reason for entry in found.left_out} == {
         f"{home}/00005_00000.ppm": "has the same name as 00005_00000.png",
         f"{home}/00088_00000.ppm": "is of class 00001 by its row, but lies in 00000",
         f"{home}/00007_00000.ppm": "is damaged or cut short (image file is truncated (3 bytes not "

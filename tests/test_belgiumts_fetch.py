@@ -75,15 +75,18 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
     """A server of both halves, small ones, which here count as the official ones."""
     monkeypatch.setenv("no_proxy", "*")
     monkeypatch.setattr(download, "PHOTOGRAPHS", {"train": 4, "test": 1})
-    own = Server(("127.0.0.1", 0), Handler)
-    own.asked = []
-    own.files = {TRAINING: zipped(tmp_path, training()), TESTING: zipped(tmp_path, other_half())}
-    thread = threading.Thread(target=own.serve_forever, kwargs={"poll_interval": 0.01})
+    running = Server(("127.0.0.1", 0), Handler)
+    running.asked = []
+    running.files = {
+        TRAINING: zipped(tmp_path, training()),
+        TESTING: zipped(tmp_path, other_half()),
+    }
+    thread = threading.Thread(target=running.serve_forever, kwargs={"poll_interval": 0.01})
     thread.start()
-    yield own
-    own.shutdown()
+    yield running
+    running.shutdown()
     thread.join()
-    own.server_close()
+    running.server_close()
 
 
 def zipped(folder: Path, files: Files) -> bytes:
@@ -124,7 +127,9 @@ def test_the_command(run: Run, server: Server, tmp_path: Path) -> None:
 
 def test_progress(server: Server, tmp_path: Path) -> None:
     told: list[tuple[str, int, int | None]] = []
-    fetch_archives(tmp_path, address=server.address, on_progress=lambda *own: told.append(own))
+    fetch_archives(
+        tmp_path, address=server.address, on_progress=lambda *progress: told.append(progress)
+    )
     sizes = {name: len(content) for name, content in server.files.items()}
     assert {name: (here, total) for name, here, total in told} == {
         name: (size, size) for name, size in sizes.items()

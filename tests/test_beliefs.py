@@ -198,7 +198,7 @@ def test_the_class_of_the_tree_is_the_basis_of_what_follows(signs: Agent) -> Non
 
 def test_what_follows_from_the_class_is_not_learned(signs: Agent) -> None:
     assert signs.answerer is not None
-    forms = {AnswerType.parse(own).form for own in signs.answerer.answer_types}
+    forms = {AnswerType.parse(text).form for text in signs.answerer.answer_types}
     assert not forms & {"belief", "no_belief"}
     assert "difference" in forms
 
@@ -356,8 +356,8 @@ FORMS = tomllib.loads(
 
 @pytest.mark.parametrize("form", FORMS)
 def test_every_form_can_be_reworded(tmp_path: Path, form: str) -> None:
-    own = f'[answers]\n{form} = "as {{asked}} goes, {{it}} it is"\n'
-    agent = Agent(load_domain(write_signs(tmp_path / "signs", answers=own)))
+    reworded = f'[answers]\n{form} = "as {{asked}} goes, {{it}} it is"\n'
+    agent = Agent(load_domain(write_signs(tmp_path / "signs", answers=reworded)))
     asks = Question(asks=Asks.IS_CLASS, text="", words=(), label="stop_sign")
     if form == "explain":
         reply = ask(agent, FOUR["stop_sign"], "explain")
@@ -396,12 +396,12 @@ def test_why_many_classes_are_not_decided_shows_the_nearest(many: Agent) -> None
         literal = many.domain.classes[label].literal
         refused = why_not(many.reasoner, row, literal)
         conditions = refused.children[0].children if refused.children else ()
-        return sum(not own.holds for own in conditions) if conditions else 99
+        return sum(not condition.holds for condition in conditions) if conditions else 99
 
     shown = {child.literal for child in nearest}
     ranked = sorted(MANY, key=failed)
     least = sorted(map(failed, ranked[:3]))
-    chosen = [own for own in MANY if str(many.domain.classes[own].literal) in shown]
+    chosen = [label for label in MANY if str(many.domain.classes[label].literal) in shown]
     assert sorted(map(failed, chosen)) == least
 
 
@@ -419,9 +419,9 @@ def test_questions_that_are_drawn_leave_no_query_out(many: Agent) -> None:
     assert {scene for scene, _ in drawn} == set(range(40))
     for scene, queries in drawn:
         assert len(set(queries)) == len(queries)
-        own = {query for query in by_query if query[1] == labels[scene]}
-        assert own <= set(queries)
+        of_class = {query for query in by_query if query[1] == labels[scene]}
+        assert of_class <= set(queries)
     # More scenes than examples, and few enough questions to ask them all.
-    assert sum(len(own) for _, own in dealt(by_query, labels, most=7, seed=0)) == 7
+    assert sum(len(queries) for _, queries in dealt(by_query, labels, most=7, seed=0)) == 7
     every = list(dealt(by_query, labels[:2], most=MOST_EXAMPLES, seed=0))
     assert every == [(0, list(by_query)), (1, list(by_query))]

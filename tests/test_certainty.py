@@ -228,7 +228,9 @@ def test_a_word_says_so_exactly_where_something_is_unsure(
         "probably": Certainty.PROBABLY,
         "perhaps": Certainty.PERHAPS,
     }
-    found = {certainty for word, certainty in told.items() if any(word in own for own in words)}
+    found = {
+        certainty for word, certainty in told.items() if any(word in spoken for spoken in words)
+    }
     if reply.certainty in (None, Certainty.SURE):
         assert not found
         assert question.asks is Asks.EXPLAIN or reply.text == sure.text
@@ -245,11 +247,11 @@ def test_a_word_says_so_exactly_where_something_is_unsure(
     assert reply.certainty is not Certainty.PROBABLY or least >= PROBABLE_FROM
     if reply.least_sure is not None:
         assert reply.certainty in (None, certainty_of(reply.least_sure))
-        own = reply.least_sure
-        expected = class_probability if own.feature == "class" else unsure[own.feature]
-        assert own.probability == expected
-        assert own.value == (
-            scene.label if own.feature == "class" else scene.features[own.feature].value
+        ground = reply.least_sure
+        expected = class_probability if ground.feature == "class" else unsure[ground.feature]
+        assert ground.probability == expected
+        assert ground.value == (
+            scene.label if ground.feature == "class" else scene.features[ground.feature].value
         )
 
 

@@ -45,12 +45,12 @@ def by_trying(world: World, vector: FeatureVector, label: str) -> list[tuple[int
         if world.decision(candidate)[0] != label:
             continue
         changed = [old != new for old, new in zip(vector, candidate, strict=True)]
-        cost = sum(own for own, differs in zip(world.costs, changed, strict=True) if differs)
+        cost = sum(price for price, differs in zip(world.costs, changed, strict=True) if differs)
         old, new = vector[2], candidate[2]
         moved = abs(int(old) - int(new)) if old is not None and new is not None else 0
         ranked.append((cost, moved, candidate))
-    least = min((own[:2] for own in ranked), default=None)
-    return [(cost, own) for cost, moved, own in ranked if (cost, moved) == least]
+    least = min((entry[:2] for entry in ranked), default=None)
+    return [(cost, candidate) for cost, moved, candidate in ranked if (cost, moved) == least]
 
 
 @given(
@@ -73,7 +73,7 @@ def test_no_vector_is_nearer(world: World, scenes: list[int]) -> None:
         expected = by_trying(world, vector, label)
         found = finder.smallest(vector, label, limit=100)
         assert sorted((c.cost, str(c.vector)) for c in found) == sorted(
-            (cost, str(own)) for cost, own in expected
+            (cost, str(candidate)) for cost, candidate in expected
         )
         for change in found:
             assert change.changes == tuple(

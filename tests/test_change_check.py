@@ -154,7 +154,7 @@ def test_a_history_that_no_state_satisfies_is_refused_with_its_place(tmp_path: P
 
 def notes(folder: Path, text: str, *, history: str = IN_HALL) -> list[str]:
     found = check_change(written(folder, text, history=history))
-    return [own.replace(f"{folder}/", "") for own in found]
+    return [note.replace(f"{folder}/", "") for note in found]
 
 
 def test_rooms_that_cannot_be_reached_are_noted(tmp_path: Path) -> None:

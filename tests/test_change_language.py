@@ -69,7 +69,7 @@ def test_a_sort_made_of_others_has_their_members_once() -> None:
 
 def test_declarations_say_what_a_predicate_is() -> None:
     signature = read_knowledge(HEADER).signature
-    assert {name: own.kind for name, own in signature.predicates.items()} == {
+    assert {name: predicate.kind for name, predicate in signature.predicates.items()} == {
         "open": PredicateKind.STATIC,
         "loc": PredicateKind.FLUENT_BASIC,
         "crowded": PredicateKind.FLUENT_DEFINED,

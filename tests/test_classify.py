@@ -276,7 +276,7 @@ def test_tables(
     named = photos if name == "scenes.csv" else photos / name
     result = run("classify", model_folder, named, "--out", "t.csv", *options)
     assert (result.code, result.err[: len(said)]) == (0, said)
-    assert [row["image"] for row in cells(Path("t.csv"))] == [f"photos/{own}" for own in images]
+    assert [row["image"] for row in cells(Path("t.csv"))] == [f"photos/{image}" for image in images]
 
 
 def test_a_table_may_name_pictures_elsewhere(run: Run, model_folder: Path, photos: Path) -> None:

@@ -201,12 +201,12 @@ def test_ask_for_json(run: Run, model_folder: Path, image: Path) -> None:
     assert reply["question"] == "why is the tile bad?"
     assert reply["text"] == "The tile is blue, and it has corners."
     assert (reply["class"], reply["method"]) == ("bad", "knowledge")
-    assert {name: own["value"] for name, own in reply["features"].items()} == {
+    assert {name: feature["value"] for name, feature in reply["features"].items()} == {
         "colour": "blue",
         "round": "no",
     }
-    for own in reply["features"].values():
-        assert 0.0 <= own["probability"] <= 1.0
+    for feature in reply["features"].values():
+        assert 0.0 <= feature["probability"] <= 1.0
     node = reply["justification"]
     assert node["literal"] == "-good(tile)"
     assert node["axiom"]["text"] == "a blue tile with corners is bad"

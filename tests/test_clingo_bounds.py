@@ -46,7 +46,7 @@ HOLES = "1 { in(P, H) : H = 1..12 } 1 :- P = 1..13. :- in(P, H), in(Q, H), P < Q
 
 def test_a_small_program_is_answered_at_once() -> None:
     control = BoundedControl("1 { a; b } 1. :- a.", size=GroundingSize())
-    assert [list(map(str, own)) for own in control.models()] == [["b"]]
+    assert [list(map(str, model)) for model in control.models()] == [["b"]]
 
 
 def test_a_search_goes_on_beyond_its_first_conflicts(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -57,7 +57,7 @@ def test_a_search_goes_on_beyond_its_first_conflicts(monkeypatch: pytest.MonkeyP
     least = few.replace(":- in", "bad(P, Q) :- in") + " :~ bad(P, Q). [1, P, Q]"
     found = BoundedControl(least, size=GroundingSize()).last_model()
     assert found is not None
-    assert sum(own.name == "bad" for own in found) == 1
+    assert sum(atom.name == "bad" for atom in found) == 1
 
 
 def test_a_search_that_takes_too_long_ends_with_a_sentence(
@@ -186,16 +186,16 @@ def switching() -> Iterator[None]:
 @pytest.mark.usefixtures("switching")
 def test_threads_may_share_a_reasoner(structures: Domain) -> None:
     known, schema = structures.knowledge, structures.schema
-    vectors = [*product(*[[*own, None] for own in schema.features.values()])]
+    vectors = [*product(*[[*values, None] for values in schema.features.values()])]
     alone = Reasoner(known, schema)
-    expected = [(alone.decide(own), alone.believed(own)) for own in vectors]
+    expected = [(alone.decide(vector), alone.believed(vector)) for vector in vectors]
     for _ in range(3):
         shared = Reasoner(known, schema)
 
         def work(first: int, shared: Reasoner = shared) -> bool:
             turned = vectors[first:] + vectors[:first]
             decided = shared.decide_all(turned)
-            believed = [shared.believed(own) for own in turned]
+            believed = [shared.believed(vector) for vector in turned]
             return [*zip(decided, believed, strict=True)] == expected[first:] + expected[:first]
 
         with ThreadPoolExecutor(8) as threads:

@@ -54,16 +54,16 @@ def fires(world: World, rule: Rule, vector: FeatureVector, *, strict: bool) -> b
             for beliefs in world.answer_sets(vector, given_up, contradictory=not strict)
         )
 
-    defaults = [number for number, own in enumerate(world.rules) if own.default]
+    defaults = [number for number, rule in enumerate(world.rules) if rule.default]
     given_up = chain.from_iterable(combinations(defaults, n) for n in range(len(defaults) + 1))
     return any(map(in_one_of, given_up if strict else ((),)))
 
 
 def is_consistent(world: World, vector: FeatureVector) -> bool:
     """Whether a scene has an answer set without contradictions, defaults given up or not."""
-    defaults = [number for number, own in enumerate(world.rules) if own.default]
+    defaults = [number for number, rule in enumerate(world.rules) if rule.default]
     given_up = chain.from_iterable(combinations(defaults, n) for n in range(len(defaults) + 1))
-    return any(world.answer_sets(vector, own, contradictory=False) for own in given_up)
+    return any(world.answer_sets(vector, defaults, contradictory=False) for defaults in given_up)
 
 
 def useless(world: World) -> list[int]:
@@ -72,7 +72,11 @@ def useless(world: World) -> list[int]:
         number
         for number, rule in enumerate(world.rules)
         if not rule.default
-        and (fired := [own for own in world.vectors if fires(world, rule, own, strict=False)])
+        and (
+            fired := [
+                vector for vector in world.vectors if fires(world, rule, vector, strict=False)
+            ]
+        )
         and not any(fires(world, rule, vector, strict=True) for vector in world.vectors)
         and not any(is_consistent(world, vector) for vector in fired)
     ]
@@ -114,7 +118,7 @@ def test_an_axiom_that_never_applies_fires_in_no_scene(world: World) -> None:
 
 def test_what_follows_from_a_class_that_only_a_tree_can_tell_applies() -> None:
     knowledge, schema = domain("goods(S) if good(S).\ngoods(S) if torn(S), not torn(S).")
-    assert [str(own) for own in never_applies(knowledge, schema)] == [
+    assert [str(axiom) for axiom in never_applies(knowledge, schema)] == [
         "goods(S) if torn(S), not torn(S)."
     ]
 

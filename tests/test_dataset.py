@@ -130,7 +130,7 @@ def test_reasons_are_features_with_blanks_between(folder: Path, tiles: Domain) -
     head = "image,class,colour,round,reasons\n"
     rows = ["images/000.png,good,red,yes,colour round colour", "images/001.png,good,red,,"]
     loaded = load(folder, tiles, head + "\n".join(rows))
-    assert [own.reasons for own in loaded.scenes] == [("colour", "round"), ()]
+    assert [scene.reasons for scene in loaded.scenes] == [("colour", "round"), ()]
     assert load(folder, tiles, HEAD + ROW).scenes[0].reasons == ()
 
 

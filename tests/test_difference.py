@@ -170,7 +170,7 @@ def test_a_difference_is_the_smallest_change(reasoning: Agent) -> None:
             kind = reasoning.reasoned.kind(differs(other), vector, label)
             found = finder.smallest(vector, other)
             assert [dict(change) for change in kind.changes] == [
-                {own.feature: own.after for own in change.changes} for change in found
+                {part.feature: part.after for part in change.changes} for change in found
             ]
             changed = {feature for change in kind.changes for feature, _ in change}
             assert kind.mentions == tuple(feature for feature in features if feature in changed)

@@ -19,30 +19,30 @@ QUESTIONS = ("answers", "answers_strict", "explanations_strict", "explanations_s
 
 TABLES: list[tuple[str, str, str, list[tuple[str, str]]]] = [
     ("docs/results.md", "### Structures", "structures/vqa",
-     [*(("accuracy", own) for own in CLASSIFY),
-      *((key, own) for key in QUESTIONS for own in ASKED)]),
+     [*(("accuracy", system) for system in CLASSIFY),
+      *((key, system) for key in QUESTIONS for system in ASKED)]),
     ("docs/results.md", "**How the classes came", "structures/reading",
-     [("accuracy", own) for own in READ]),
+     [("accuracy", system) for system in READ]),
     ("docs/results.md", "### Traffic signs", "signs/vqa-with_class",
-     [*(("accuracy", own) for own in CLASSIFY),
-      *((key, own) for key in QUESTIONS for own in ASKED)]),
+     [*(("accuracy", system) for system in CLASSIFY),
+      *((key, system) for key in QUESTIONS for system in ASKED)]),
     ("docs/results.md", "**As the domain says, H1", "signs/vqa",
-     [*(("accuracy", own) for own in CLASSIFY),
-      *((key, own) for key in QUESTIONS for own in ASKED)]),
+     [*(("accuracy", system) for system in CLASSIFY),
+      *((key, system) for key in QUESTIONS for system in ASKED)]),
     ("docs/results.md", "The ways of reading side by side", "signs/reading",
-     [("accuracy", own) for own in READ]),
+     [("accuracy", system) for system in READ]),
     ("docs/results.md", "## What each coupling", "structures/ablation",
      [("accuracy", "seewhy"), ("accuracy", "no_tree"), ("accuracy", "tree_on_all"),
       ("answers", "seewhy"), ("answers", "no_lstm"), ("answers", "lstm_on_all")]),
     ("docs/results.md", "**A gate of confidence", "structures/confidence",
-     [(key, own) for key in ("accuracy", "answers")
-      for own in ("no_gate", "gate_50", "gate_70", "gate_90")]),
+     [(key, system) for key in ("accuracy", "answers")
+      for system in ("no_gate", "gate_50", "gate_70", "gate_90")]),
     ("docs/results.md", "## Axioms learned again", "structures/axioms",
-     [(key, own) for key in ("accuracy", *QUESTIONS, "by_knowledge", "agreement")
-      for own in KNOWN]),
+     [(key, system) for key in ("accuracy", *QUESTIONS, "by_knowledge", "agreement")
+      for system in KNOWN]),
     ("docs/results.md", "### Signs, a quarter", "signs/axioms",
-     [(key, own) for key in ("accuracy", *QUESTIONS, "by_knowledge", "agreement")
-      for own in KNOWN]),
+     [(key, system) for key in ("accuracy", *QUESTIONS, "by_knowledge", "agreement")
+      for system in KNOWN]),
     ("README.md", "## The paper's claims", "structures/vqa",
      [("accuracy", "seewhy"), ("accuracy", "end_to_end"), ("accuracy", "frozen"),
       ("answers", "believing"), ("answers", "end_to_end")]),
@@ -87,5 +87,5 @@ def test_tables_say_what_the_rows_say(
     lines = documented(document, after)
     assert lines
     for size, numbers in lines.items():
-        found = [100 * fmean(values[size, own][key]) for key, own in columns]
+        found = [100 * fmean(values[size, system][key]) for key, system in columns]
         assert numbers == pytest.approx(found, abs=0.0501), (document, after, size)

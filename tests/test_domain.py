@@ -53,7 +53,7 @@ def line(text: str, file: str = "domain.toml") -> int:
 def test_the_bundled_domain() -> None:
     domain = load_domain(BUNDLED)
     assert (domain.name, domain.scene, domain.subject) == (BUNDLED, "structure", "the structure")
-    assert {key: own.values for key, own in domain.features.items()} == {
+    assert {key: feature.values for key, feature in domain.features.items()} == {
         "num_blocks": ("1", "2", "3", "4", "5"),
         "base": ("wide", "narrow"),
         "lean": ("yes", "no"),
@@ -64,7 +64,7 @@ def test_the_bundled_domain() -> None:
         "no": Literal("lean", ("structure",), positive=False),
     }
     assert domain.features["num_blocks"].literals["3"] == Literal("num_blocks", ("structure", "3"))
-    assert {key: str(own.literal) for key, own in domain.classes.items()} == {
+    assert {key: str(scene_class.literal) for key, scene_class in domain.classes.items()} == {
         "stable": "stable(structure)",
         "unstable": "-stable(structure)",
     }
@@ -76,25 +76,25 @@ def test_the_bundled_domain() -> None:
 def everything(domain: Domain) -> dict[str, object]:
     """What a domain says, without where it stands."""
     return {
-        **{key: own for key, own in vars(domain).items() if key not in ("folder", "knowledge")},
+        **{key: value for key, value in vars(domain).items() if key not in ("folder", "knowledge")},
         "axioms": [
             (str(axiom), axiom.text, axiom.location.line, axiom.location.column)
             for axiom in domain.knowledge.axioms
         ],
-        "sorts": {k: own.members for k, own in domain.knowledge.signature.sorts.items()},
+        "sorts": {k: sort.members for k, sort in domain.knowledge.signature.sorts.items()},
         "schema": domain.schema,
     }
 
 
 @pytest.mark.parametrize("name", bundled_domains())
 def test_a_users_folder_is_worth_as_much_as_a_bundled_domain(name: str, tmp_path: Path) -> None:
-    own = tmp_path / "mine"
-    own.mkdir()
+    folder = tmp_path / "mine"
+    folder.mkdir()
     for file in FILES:
-        shutil.copy(domain_folder(name) / file, own / file)
-    bundled, copied = load_domain(name), load_domain(own)
+        shutil.copy(domain_folder(name) / file, folder / file)
+    bundled, copied = load_domain(name), load_domain(folder)
     assert everything(copied) == everything(bundled)
-    assert load_domain(str(own)).folder == own
+    assert load_domain(str(folder)).folder == folder
     vectors = [bundled.vector({}), *_some_vectors(bundled)]
     assert Reasoner(copied.knowledge, copied.schema).decide_all(vectors) == Reasoner(
         bundled.knowledge, bundled.schema
@@ -103,8 +103,8 @@ def test_a_users_folder_is_worth_as_much_as_a_bundled_domain(name: str, tmp_path
 
 def _some_vectors(domain: Domain) -> list[tuple[str | None, ...]]:
     return [
-        domain.vector({key: own.values[number % len(own.values)]})
-        for key, own in domain.features.items()
+        domain.vector({key: feature.values[number % len(feature.values)]})
+        for key, feature in domain.features.items()
         for number in range(5)
     ]
 

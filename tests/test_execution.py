@@ -76,7 +76,7 @@ def run(
 
 
 def decisions(found: Run) -> list[str]:
-    return [own.decision.value for own in found.steps]
+    return [step.decision.value for step in found.steps]
 
 
 def test_a_plan_that_works_is_persisted_in(environment: PlanningEnvironment) -> None:
@@ -88,14 +88,16 @@ def test_a_plan_that_works_is_persisted_in(environment: PlanningEnvironment) -> 
         "deliver(rob1,m1,sally)",
     ]
     assert found.outcome is Outcome.ACHIEVED
-    assert not any(own.surprises for own in found.steps)
+    assert not any(step.surprises for step in found.steps)
 
 
 def test_somebody_met_on_the_way_makes_the_rest_needless(environment: PlanningEnvironment) -> None:
     found = run(environment, world(environment, "loc(sally,kitchen)"))
     assert decisions(found) == ["plan", "skip", "stop"]
     assert list(map(str, found.steps[1].skipped)) == ["move(rob1,sallys_office)"]
-    assert [str(own.what) for own in found.steps[1].surprises] == ["loc(sally,sallys_office)"]
+    assert [str(surprise.what) for surprise in found.steps[1].surprises] == [
+        "loc(sally,sallys_office)"
+    ]
 
 
 def test_a_goal_reached_by_luck_stops_the_robot() -> None:
@@ -109,9 +111,9 @@ def test_somebody_who_is_away_is_looked_for_where_she_was_not_seen(
 ) -> None:
     found = run(environment, world(environment, "loc(sally,johns_office)"))
     assert found.outcome is Outcome.ACHIEVED
-    visited = [str(own.arguments[1]) for own in found.actions if own.name == "move"]
+    visited = [str(action.arguments[1]) for action in found.actions if action.name == "move"]
     assert visited[-1] == "johns_office"
-    searched = [own for own in visited if own not in ("kitchen", "library")]
+    searched = [place for place in visited if place not in ("kitchen", "library")]
     assert len(searched) == len(set(searched))  # nowhere twice
 
 
@@ -136,7 +138,9 @@ def test_a_lost_message_is_printed_again(environment: PlanningEnvironment) -> No
     found = run(environment, world(environment), lose)
     assert found.outcome is Outcome.ACHIEVED
     assert "print(rob1,m1)" in map(str, found.actions)
-    assert [(str(own.what), own.step) for own in found.steps[1].surprises] == [("lose(m1)", 0)]
+    assert [(str(surprise.what), surprise.step) for surprise in found.steps[1].surprises] == [
+        ("lose(m1)", 0)
+    ]
 
 
 def test_the_most_steps_bound_a_run(environment: PlanningEnvironment) -> None:
@@ -181,7 +185,7 @@ def test_the_goal_truly_reached_ends_an_episode(environment: PlanningEnvironment
 
 
 def test_decisions_have_words_of_their_own() -> None:
-    assert len({own.value for own in Decision}) == len(Decision)
+    assert len({decision.value for decision in Decision}) == len(Decision)
 
 
 def test_a_goal_that_may_hold_already_is_looked_at(environment: PlanningEnvironment) -> None:
@@ -227,7 +231,7 @@ def test_what_a_plan_supposes_is_worked_out_only_where_the_search_left_something
     assert len(worked_out) == supposing
     assert worked_out == [step.supposed for step in found.plans if step.supposed]
     # Were it worked out for every plan, nothing would be otherwise.
-    monkeypatch.setattr(Plan, "settles", lambda own, _: own.found)
+    monkeypatch.setattr(Plan, "settles", lambda plan, _: plan.found)
     whole = run(environment, world(environment, *literals))
     assert len(worked_out) == supposing + len(whole.plans)
     assert [replace(step, planning_seconds=0.0) for step in whole.steps] == [
@@ -252,12 +256,12 @@ def test_the_clock_of_planning_runs_in_looking_for_plans_alone(
     clock, explaining = Counter[str](), list[bool]()
 
     def taking(place: object, name: str, kind: str, seconds: int) -> None:
-        own = getattr(place, name)
+        original = getattr(place, name)
 
         def slow(*arguments: Any, **options: Any) -> Any:
             clock["now"] += seconds
             clock[kind] += not explaining
-            return own(*arguments, **options)
+            return original(*arguments, **options)
 
         monkeypatch.setattr(place, name, slow)
 

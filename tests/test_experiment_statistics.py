@@ -19,7 +19,7 @@ def test_the_t_test_is_its_formula() -> None:
     found = compare(OURS, THEIRS)
     apart = [a - b for a, b in zip(OURS, THEIRS, strict=True)]
     mean = sum(apart) / 7
-    deviation = math.sqrt(sum((own - mean) ** 2 for own in apart) / 6)
+    deviation = math.sqrt(sum((difference - mean) ** 2 for difference in apart) / 6)
     t = mean / (deviation / math.sqrt(7))
     assert found.p_t == pytest.approx(2 * stats.t.sf(t, df=6))
     assert found.difference.mean == pytest.approx(mean)
@@ -31,12 +31,12 @@ def test_the_t_test_is_its_formula() -> None:
 def test_wilcoxon_is_the_share_of_all_signs() -> None:
     ours = [0.03, -0.01, 0.05, 0.07, 0.02, 0.06, 0.045]
     ranks = stats.rankdata(np.abs(ours))
-    observed = sum(rank for rank, own in zip(ranks, ours, strict=True) if own > 0)
+    observed = sum(rank for rank, difference in zip(ranks, ours, strict=True) if difference > 0)
     sums = [
         sum(rank for rank, up in zip(ranks, signs, strict=True) if up)
         for signs in product((False, True), repeat=7)
     ]
-    above = sum(own >= observed for own in sums) / len(sums)
+    above = sum(total >= observed for total in sums) / len(sums)
     found = compare(ours, [0.0] * 7)
     assert found.p_wilcoxon == pytest.approx(2 * above)
 

@@ -169,8 +169,8 @@ def test_a_run_adds_only_what_is_missing(
         assert [name for name in before if after[name] != before[name]] == ["30-1.json"]
         assert (finished / "vqa" / "rows.csv").read_bytes() == table
     findings = json.loads(result.out)["findings"]
-    assert [own["measure"] for own in findings][:2] == ["accuracy", "answers"]
-    assert [own["size"] for own in findings[0]["sizes"]] == ["20", "30"]
+    assert [finding["measure"] for finding in findings][:2] == ["accuracy", "answers"]
+    assert [entry["size"] for entry in findings[0]["sizes"]] == ["20", "30"]
 
 
 def test_asking_for_less_loses_nothing(
@@ -226,8 +226,8 @@ def test_other_experiments_use_what_networks_saw(
     result = run(*command, "--out", finished, *few)
     assert (result.code, result.err) == (0, "")
     rows = rows_of(finished / name)
-    own = experiment(name)
-    assert [row["system"] for row in rows] == list(own.systems)
+    chosen = experiment(name)
+    assert [row["system"] for row in rows] == list(chosen.systems)
     assert result.out.splitlines()[-1] == f"page: {finished / name / 'index.html'}"
     if name == "ablation":
         whole = next(row for row in rows_of(finished / "vqa") if row["size"] == "30")
@@ -249,11 +249,11 @@ def test_another_way_of_reading_has_a_folder_of_its_own(
     seen = {file.name for file in (finished / "networks").iterdir()}
     vqa = (finished / "vqa" / "rows.csv").read_bytes()
     result = run(*command, *few, "--reading", "with_class")
-    own = finished / "vqa-with_class"
-    assert result.out.splitlines()[-1] == f"page: {own / 'index.html'}"
-    page = (own / "index.html").read_text(encoding="utf-8")
+    folder = finished / "vqa-with_class"
+    assert result.out.splitlines()[-1] == f"page: {folder / 'index.html'}"
+    page = (folder / "index.html").read_text(encoding="utf-8")
     assert "Features are read with_class, otherwise than the domain says." in page
-    theirs, ours = rows_of(finished / "vqa"), rows_of(own)
+    theirs, ours = rows_of(finished / "vqa"), rows_of(folder)
     assert ours[2] == theirs[2]  # end to end, which reads nothing
     assert int(ours[0]["weights"]) > int(theirs[0]["weights"])
     assert {file.name for file in (finished / "networks").iterdir()} == seen
@@ -328,12 +328,14 @@ def test_trials_are_run_from_any_folder(
         "vqa", hasty.name, Path("out"), data=data, trials=1, sizes=[20], tested=15
     )
     calls: list[Any] = []
-    monkeypatch.setattr(running, "run_all", lambda _, own, **__: calls.extend(own) or ())
+    monkeypatch.setattr(
+        running, "run_all", lambda _, arguments, **__: calls.extend(arguments) or ()
+    )
     running.run_missing(given, jobs=1)
-    ((own, trial),) = calls
+    ((prepared, trial),) = calls
     monkeypatch.chdir(tmp_path)
     load_pictures.cache_clear()
-    running._run_one(own, trial)
+    running._run_one(prepared, trial)
     assert trial_file(hasty.parent / "out" / "vqa", trial).is_file()
     assert list(tmp_path.iterdir()) == []
 
@@ -612,18 +614,18 @@ def test_settings_that_are_damaged(
 
 
 def test_trials_draw_anew_and_test_on_others(dataset: Dataset, tmp_path: Path) -> None:
-    own = setting(dataset, tmp_path)
+    prepared = setting(dataset, tmp_path)
     drawn = {}
     for size in (10, 20, ALL):
         for seed in (0, 1):
-            train, test = divide(own, Trial(seed, size))
+            train, test = divide(prepared, Trial(seed, size))
             assert len(train) == (size or 40)
             assert len(test) == 20
             assert not {s.picture for s in train.scenes} & {s.picture for s in test.scenes}
             drawn[seed, size] = [s.picture for s in train.scenes], [s.picture for s in test.scenes]
     assert drawn[0, 10][1] == drawn[0, 20][1] != drawn[1, 10][1]
     assert not set(drawn[0, 10][0]) <= set(drawn[0, 20][0])
-    assert divide(own, Trial(0, 10))[0].scenes == divide(own, Trial(0, 10))[0].scenes
+    assert divide(prepared, Trial(0, 10))[0].scenes == divide(prepared, Trial(0, 10))[0].scenes
 
 
 def test_groups_stay_whole_and_all_are_tested(dataset: Dataset, tmp_path: Path) -> None:
@@ -631,16 +633,16 @@ def test_groups_stay_whole_and_all_are_tested(dataset: Dataset, tmp_path: Path) 
     scenes = replace(dataset, scenes=grouped)
     folds = np.array([in_fold(scenes, fold) for fold in range(5)])
     assert (folds.sum(axis=0) == 1).all()
-    own = replace(setting(dataset, tmp_path), scenes=scenes)
-    train, test = divide(own, Trial(3, ALL))
+    prepared = replace(setting(dataset, tmp_path), scenes=scenes)
+    train, test = divide(prepared, Trial(3, ALL))
     # A group is one of a class: what differs in class is no one thing.
     pairs = {(s.label, s.group) for s in train.scenes} & {(s.label, s.group) for s in test.scenes}
     assert not pairs
     for seed in range(5):
-        left = len(divide(own, Trial(seed, ALL))[0])
-        require_enough(own, Trial(seed, left))
+        left = len(divide(prepared, Trial(seed, ALL))[0])
+        require_enough(prepared, Trial(seed, left))
         with pytest.raises(ExperimentError, match=f"too few to train on {left + 1} and test on"):
-            require_enough(own, Trial(seed, left + 1))
+            require_enough(prepared, Trial(seed, left + 1))
 
 
 # Questions ---------------------------------------------------------------------------------------
@@ -652,13 +654,13 @@ def test_questions_suit_the_class(dataset: Dataset) -> None:
     assert asked == draw_questions(agent.questions, dataset.labels, seed=0, count=5)
     assert asked != draw_questions(agent.questions, dataset.labels, seed=1, count=5)
     assert len(asked) == 5 * len(dataset)
-    for own in asked:
-        assert suitable(own.question, dataset.labels[own.picture])
+    for drawn in asked:
+        assert suitable(drawn.question, dataset.labels[drawn.picture])
     for number in range(len(dataset)):
-        queries = [own.question.query for own in asked if own.picture == number]
+        queries = [drawn.question.query for drawn in asked if drawn.picture == number]
         assert len(set(queries)) == 5
-    assert Asks.EXPLAIN not in {own.question.asks for own in asked}
-    assert {Asks.WHY_CLASS, Asks.CHANGE_TO_CLASS} <= {own.question.asks for own in asked}
+    assert Asks.EXPLAIN not in {drawn.question.asks for drawn in asked}
+    assert {Asks.WHY_CLASS, Asks.CHANGE_TO_CLASS} <= {drawn.question.asks for drawn in asked}
 
 
 def test_the_network_end_to_end_learns_from_such_questions_as_it_is_tested_on(
@@ -668,17 +670,17 @@ def test_the_network_end_to_end_learns_from_such_questions_as_it_is_tested_on(
     asked = questions_to_learn(questions, labels, seed=0)
     assert asked == questions_to_learn(questions, labels, seed=0)
     assert asked != questions_to_learn(questions, labels, seed=1)
-    for own in asked:
-        assert suitable(own.question, labels[own.picture])
+    for drawn in asked:
+        assert suitable(drawn.question, labels[drawn.picture])
     # A domain with many classes has hundreds of questions about classes, and one that asks for
     # the class: the network would hardly meet it if every question were as likely as every other.
-    kinds = Counter(own.question.asks for own in asked)
-    tested = Counter(own.question.asks for own in draw_questions(questions, labels, seed=0))
+    kinds = Counter(drawn.question.asks for drawn in asked)
+    tested = Counter(drawn.question.asks for drawn in draw_questions(questions, labels, seed=0))
     for kind in kinds | tested:
         assert kinds[kind] / len(asked) == pytest.approx(tested[kind] / tested.total(), abs=0.03)
     # Every picture is asked as often as every other, as often as every question twice.
-    (often,) = set(Counter(own.picture for own in asked).values())
-    fitting = {own.question.query for own in asked if labels[own.picture] == labels[0]}
+    (often,) = set(Counter(drawn.picture for drawn in asked).values())
+    fitting = {drawn.question.query for drawn in asked if labels[drawn.picture] == labels[0]}
     assert often == pytest.approx(2 * len(fitting), rel=0.2)
     few = questions_to_learn(questions, labels, seed=0, most=3 * len(labels) + 1)
     assert len(few) == 3 * len(labels)
@@ -689,18 +691,20 @@ def test_right_answers_score_one(dataset: Dataset) -> None:
     reference = annotator(dataset)
     asked = draw_questions(Agent(dataset.domain).questions, dataset.labels, seed=0, count=4)
     right = [
-        reference.answer(own.question, dataset.vectors[own.picture], dataset.labels[own.picture])
-        for own in asked
+        reference.answer(
+            drawn.question, dataset.vectors[drawn.picture], dataset.labels[drawn.picture]
+        )
+        for drawn in asked
     ]
     seen = {
-        "vectors": [dataset.vectors[own.picture] for own in asked],
-        "labels": [dataset.labels[own.picture] for own in asked],
+        "vectors": [dataset.vectors[drawn.picture] for drawn in asked],
+        "labels": [dataset.labels[drawn.picture] for drawn in asked],
     }
     scores = answer_scores(asked, right, dataset, reference, **seen)
     # That it is red is the author's reason for a round tile, but worn red tiles are bad.
     assert 0.8 < scores.pop("explanations_sufficient") < 1.0
     assert set(scores.values()) == {1.0}
-    more = [replace(own, mentions=("colour", "round")) for own in right]
+    more = [replace(answer, mentions=("colour", "round")) for answer in right]
     scores = answer_scores(asked, more, dataset, reference, **seen)
     assert scores["answers"] == 1.0 > scores["answers_strict"]
     assert scores["explanations_sufficient"] > scores["explanations_strict"]
@@ -751,10 +755,10 @@ def made(ours: list[float], theirs: list[float], *, size: int = 100) -> list[Row
 def test_conclusions_are_drawn_from_the_numbers() -> None:
     rng = np.random.default_rng(0)
     low = (0.5 + 0.01 * rng.random(12)).tolist()
-    high = [own + 0.1 + 0.001 * n for n, own in enumerate(low)]
+    high = [score + 0.1 + 0.001 * n for n, score in enumerate(low)]
     rows = [*made(high, low, size=100), *made(low, low, size=200), *made(low, high, size=0)]
     finding = conclude("vqa", rows, domain="tiles")[0]
-    assert [own.verdict for own in finding.compared] == ["better", "open", "worse"]
+    assert [comparison.verdict for comparison in finding.compared] == ["better", "open", "worse"]
     assert not finding.supported
     assert finding.text == (
         "classified rightly: SeeWhy against end to end, 12 trials: significantly better at 100 "
@@ -772,15 +776,15 @@ def test_conclusions_are_drawn_from_the_numbers() -> None:
 def test_less_is_claimed_of_some_sizes_and_domains() -> None:
     rng = np.random.default_rng(0)
     low = (0.5 + 0.01 * rng.random(12)).tolist()
-    high = [own + 0.1 + 0.001 * n for n, own in enumerate(low)]
-    mixed = [own + 0.02 * (n % 2) - 0.009 for n, own in enumerate(low)]
+    high = [score + 0.1 + 0.001 * n for n, score in enumerate(low)]
+    mixed = [score + 0.02 * (n % 2) - 0.009 for n, score in enumerate(low)]
     rows = [
         *made(high, low, size=1000),
         *made(mixed, low, size=1001),
-        *made([own - 0.002 for own in mixed], low, size=ALL),
+        *made([score - 0.002 for score in mixed], low, size=ALL),
     ]
     accuracy, answers, *_ = conclude("vqa", rows, domain="traffic_signs")
-    assert [own.verdict for own in accuracy.compared] == ["better", "open", "open"]
+    assert [comparison.verdict for comparison in accuracy.compared] == ["better", "open", "open"]
     assert (accuracy.failed, answers.failed) == ((ALL,), (1001, ALL))
     equal, *_ = conclude("vqa", rows, domain="structure_stability")
     assert equal.supported
@@ -798,13 +802,13 @@ def test_what_it_takes_to_reach_a_level() -> None:
     for row in rows:
         row |= {"trained": row["size"], "seconds_networks": row["size"] / 10, "seconds_test": 9.0}
     found = efforts(rows, ["seewhy", "end_to_end"], "accuracy")
-    assert [own for own in found if own.level in (0.7, 0.8)] == [
+    assert [effort for effort in found if effort.level in (0.7, 0.8)] == [
         Effort("seewhy", 0.7, 120.0, 12.0),
         Effort("end_to_end", 0.7, 180.0, 18.0),
         Effort("seewhy", 0.8, 160.0, 16.0),
         Effort("end_to_end", 0.8, None, None),
     ]
-    assert {own.level for own in found} == {0.7, 0.8, 0.85, 0.9}
+    assert {effort.level for effort in found} == {0.7, 0.8, 0.85, 0.9}
     # Pictures are those of all trials, seconds those of one machine's.
     others = [{**row, "machine": "slow", "seed": row["seed"] + 2} for row in rows]
     for row in others:
@@ -822,7 +826,7 @@ def test_what_it_takes_to_reach_a_level() -> None:
     for row in rows:
         row |= {"seconds_networks": None, "seconds_answers": 1.0}
     found = efforts(rows, ["seewhy", "end_to_end"], "accuracy")
-    assert {own.seconds for own in found} == {None}
+    assert {effort.seconds for effort in found} == {None}
 
 
 def test_one_trial_proves_nothing() -> None:
@@ -850,11 +854,11 @@ def test_one_trial_proves_nothing() -> None:
 def test_an_experiment_is_found_by_name() -> None:
     assert [experiment(name).name for name in NAMES] == list(NAMES)
     for name in NAMES:
-        own = experiment(name)
-        keys = {measure.key for measure in own.measures}
-        for claim in own.claims:
+        chosen = experiment(name)
+        keys = {measure.key for measure in chosen.measures}
+        for claim in chosen.claims:
             assert claim.measure in keys
-            assert {claim.system, claim.against} <= own.systems.keys()
+            assert {claim.system, claim.against} <= chosen.systems.keys()
     with pytest.raises(ExperimentError, match="did you mean 'axioms'"):
         experiment("axiom")
 

@@ -462,15 +462,17 @@ def test_a_training_picture_is_most_like_itself(
     assert len(near) == 3
     assert near[0].picture.name == "images/000.png"
     assert near[0].likeness == pytest.approx(1.0, abs=1e-3)
-    assert [own.likeness for own in near] == sorted((own.likeness for own in near), reverse=True)
+    assert [neighbour.likeness for neighbour in near] == sorted(
+        (neighbour.likeness for neighbour in near), reverse=True
+    )
     # All that is kept was trained on, and is named as it was annotated.
     known = {scenes.name_of(scene): scene for scene in scenes.of_split("train").scenes}
     every = taught.nearest(picture, count=1000)
-    assert {own.picture.name for own in every} == set(known)
-    for own in every:
-        scene = known[own.picture.name]
-        assert own.picture.label == scene.label
-        assert tuple(own.picture.features.values()) == scene.vector
+    assert {neighbour.picture.name for neighbour in every} == set(known)
+    for neighbour in every:
+        scene = known[neighbour.picture.name]
+        assert neighbour.picture.label == scene.label
+        assert tuple(neighbour.picture.features.values()) == scene.vector
     assert Agent.load(saved).nearest(picture) == near
 
 

@@ -35,13 +35,13 @@ def embeddings(count: int, *, seed: int, width: int = 5) -> dict[str, np.ndarray
     }
 
 
-def by_hand(trained: np.ndarray, values: list[str | None], own: np.ndarray, value: str) -> float:
+def by_hand(trained: np.ndarray, values: list[str | None], shown: np.ndarray, value: str) -> float:
     """The greatest cosine with a training picture of the value, one after the other."""
     found = [0.0]
     for other, label in zip(trained, values, strict=True):
-        lengths = np.linalg.norm(own) * np.linalg.norm(other)
+        lengths = np.linalg.norm(shown) * np.linalg.norm(other)
         if label == value and lengths:
-            found.append(float(own @ other / lengths))
+            found.append(float(shown @ other / lengths))
     return max(found)
 
 
@@ -73,8 +73,8 @@ def test_many_pictures_are_compared_as_one_is() -> None:
     together = familiarity.likeness(shown, values)
     for n in (0, 255, 256, 599):
         one = familiarity.likeness(
-            {key: own[n : n + 1] for key, own in shown.items()},
-            {key: own[n : n + 1] for key, own in values.items()},
+            {key: rows[n : n + 1] for key, rows in shown.items()},
+            {key: column[n : n + 1] for key, column in values.items()},
         )
         assert one[0] == pytest.approx(together[n], abs=1e-6)
 
@@ -97,8 +97,8 @@ def test_the_seed_draws_what_is_kept() -> None:
     trained, labels = {"colour": embeddings(100, seed=0)["colour"]}, ["red", "blue"] * 50
 
     def kept(seed: int) -> np.ndarray:
-        own = fit_familiarity(trained, {"colour": labels}, seed=seed, kept=5)
-        return own.known["colour"].directions
+        familiarity = fit_familiarity(trained, {"colour": labels}, seed=seed, kept=5)
+        return familiarity.known["colour"].directions
 
     np.testing.assert_array_equal(kept(1), kept(1))
     assert not np.array_equal(kept(1), kept(2))
@@ -111,8 +111,8 @@ def test_a_feature_with_one_value_only_does_not_count() -> None:
     # Unless there is no other.
     alone = fit_familiarity(trained, {"colour": ["red"] * 8, "round": [None] * 8})
     assert list(alone.known) == ["colour"]
-    own = alone.likeness({"colour": trained["colour"][:2]}, {"colour": ["red", "blue"]})
-    assert own.tolist() == [pytest.approx(1, abs=1e-3), 0.0]
+    likeness = alone.likeness({"colour": trained["colour"][:2]}, {"colour": ["red", "blue"]})
+    assert likeness.tolist() == [pytest.approx(1, abs=1e-3), 0.0]
 
 
 def test_probabilities_and_embeddings_come_from_one_pass(agent: Agent, dataset: Dataset) -> None:
@@ -234,11 +234,11 @@ def test_the_nearest_are_those_with_the_greatest_cosine(seed: int, count: int) -
         if COLOURS[n] is not None
     }
     best = sorted(alone.values(), reverse=True)[:count]
-    np.testing.assert_allclose([own.likeness for own in found], best, atol=2e-3)
-    for own in found:
-        assert own.likeness == pytest.approx(alone[own.picture.name], abs=2e-3)
-        number = int(own.picture.name[len("images/") : -len(".png")])
-        assert own.picture.features == {"colour": COLOURS[number]}
+    np.testing.assert_allclose([near.likeness for near in found], best, atol=2e-3)
+    for near in found:
+        assert near.likeness == pytest.approx(alone[near.picture.name], abs=2e-3)
+        number = int(near.picture.name[len("images/") : -len(".png")])
+        assert near.picture.features == {"colour": COLOURS[number]}
 
 
 def test_which_pictures_they_are_is_kept_on_disk(tmp_path: Path) -> None:
@@ -271,9 +271,9 @@ def test_names_that_are_not_those_of_the_pictures_are_no_names(folder: Path) -> 
 
 
 def test_a_near_picture_as_text_and_json() -> None:
-    own = NearPicture(TrainingPicture("images/7.png", None, {"colour": "blue"}), 0.91236)
-    assert own.to_text() == "images/7.png (0.91): colour blue"
-    assert own.to_dict() == {
+    near = NearPicture(TrainingPicture("images/7.png", None, {"colour": "blue"}), 0.91236)
+    assert near.to_text() == "images/7.png (0.91): colour blue"
+    assert near.to_dict() == {
         "picture": "images/7.png",
         "likeness": 0.9124,
         "class": None,

@@ -32,7 +32,7 @@ go(L) causes at(L). -at(L2) if at(L1), L1 != L2. impossible go(L) if at(L).
 impossible go(L) if shut(L). close(L) causes shut(L).
 """
 LITERALS = ("at(a)", "at(b)", "shut(b)", "shut(c)", "p", "q")
-SIGNED = st.builds(lambda sign, own: sign + own, st.sampled_from(("", "-")),
+SIGNED = st.builds(lambda sign, literal: sign + literal, st.sampled_from(("", "-")),
                    st.sampled_from(LITERALS))  # fmt: skip
 LAWS = st.builds(
     lambda action, head, body: f"{action} causes {head} if {body}.",
@@ -49,7 +49,7 @@ WORLDS = st.tuples(st.lists(LAWS, min_size=1, max_size=4), st.lists(BANS, max_si
     lambda parts: read_knowledge(WORLD + "\n".join(itertools.chain(*parts)))
 )
 SEEN = st.lists(st.tuples(st.sampled_from(LITERALS), st.booleans(), st.integers(0, 3)),
-                max_size=6, unique_by=lambda own: own[0])  # fmt: skip
+                max_size=6, unique_by=lambda entry: entry[0])  # fmt: skip
 
 
 def one_after_the_other(
@@ -59,7 +59,7 @@ def one_after_the_other(
     doubt = Doubt(domain.knowledge)
     found = plan(domain.knowledge, goal, start=now, horizon=domain.horizon)
     doubted = False
-    for before in sorted({0, *(n for own, n in last_seen.items() if own in doubt.fluents)}):
+    for before in sorted({0, *(n for fluent, n in last_seen.items() if fluent in doubt.fluents)}):
         if found.found:
             break
         start = doubt.applied(now, last_seen, before=before)
@@ -75,8 +75,8 @@ def in_the_way(
     doubt = Doubt(domain.knowledge)
     latest = max(last_seen.values(), default=0)
     found = []
-    for fluent in sorted(own for own, step in last_seen.items() if step == latest):
-        less = {own: step for own, step in last_seen.items() if own != fluent}
+    for fluent in sorted(fluent for fluent, step in last_seen.items() if step == latest):
+        less = {other: step for other, step in last_seen.items() if other != fluent}
         start = doubt.applied(now, less, before=latest)
         if fluent in start.unknown:
             other = plan(domain.knowledge, goal, start=start, horizon=domain.horizon)
@@ -91,7 +91,7 @@ def test_what_is_doubted_is_what_trying_every_age_finds(
     known: Knowledge, goal: str, seen: list[tuple[str, bool, int]]
 ) -> None:
     text = "observed at(a) at 0. " + " ".join(
-        f"observed {'' if true else '-'}{own} at {step}." for own, true, step in seen
+        f"observed {'' if true else '-'}{literal} at {step}." for literal, true, step in seen
     )
     try:
         past = read_history(text, known.signature)
@@ -107,8 +107,10 @@ def test_what_is_doubted_is_what_trying_every_age_finds(
     if step.decision is Decision.STOP:
         return
     last_seen = {
-        fluent_of(clingo.parse_term(str(own.literal))): own.step
-        for own in sorted(run.history.observations, key=lambda own: own.step)
+        fluent_of(clingo.parse_term(str(observation.literal))): observation.step
+        for observation in sorted(
+            run.history.observations, key=lambda observation: observation.step
+        )
     }
     doubted, found = one_after_the_other(domain, aim, now, last_seen)
     if found.status is PlanStatus.ALREADY_TRUE:
@@ -121,14 +123,16 @@ def test_what_is_doubted_is_what_trying_every_age_finds(
     else:
         usual = diagnose(known, past).states[0].holds
         blamed = in_the_way(domain, aim, now, last_seen)
-        unusual = [own for own in blamed if complement_of(own) in usual]
+        unusual = [literal for literal in blamed if complement_of(literal) in usual]
         assert list(step.because) == (unusual or blamed)
 
 
 def test_giving_up_takes_no_longer_than_going_on() -> None:
     doors = ("closed(kitchen)", "closed(bobs_office)", "closed(johns_office)")
-    seen = [literal_of(own) for own in (*doors, "loc(rob1, library)", "has(rob1, m1)")]
-    absent = [literal_of(f"-loc({own}, library)") for own in ("sally", "sarah", "bob", "john")]
+    seen = [literal_of(literal) for literal in (*doors, "loc(rob1, library)", "has(rob1, m1)")]
+    absent = [
+        literal_of(f"-loc({person}, library)") for person in ("sally", "sarah", "bob", "john")
+    ]
     aim = read_goal("message_status(m1, sally, delivered)", OFFICE.knowledge)
     begun = time.perf_counter()
     run = next(execute(OFFICE, aim, sensed=[*seen, *absent], act=lambda _: []))

@@ -22,7 +22,7 @@ def write(folder: Path, number: int) -> None:
 
 def test_all_calls_are_made_and_counted(tmp_path: Path) -> None:
     assert list(run_all(write, [(tmp_path, n) for n in range(5)], jobs=2)) == [1, 2, 3, 4, 5]
-    assert sorted(own.name for own in tmp_path.iterdir()) == ["0", "1", "2", "3", "4"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["0", "1", "2", "3", "4"]
     assert list(run_all(write, [], jobs=2)) == []
 
 
@@ -60,7 +60,7 @@ def test_a_cluster_that_is_named_is_used(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setenv(RAY, "auto")
     assert list(run_all(write, [(tmp_path, n) for n in range(2, 4)], jobs=3)) == [1, 2]
     assert Cluster.asked == (3,)
-    assert sorted(own.name for own in tmp_path.iterdir()) == ["1", "2", "3"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["1", "2", "3"]
 
 
 def test_a_cluster_that_is_not_there(

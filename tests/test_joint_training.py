@@ -58,7 +58,11 @@ def fit(
 
 
 def tensors(extractor: FeatureExtractor) -> list[torch.Tensor]:
-    return [tensor for own in extractor.networks.values() for tensor in own.state_dict().values()]
+    return [
+        tensor
+        for network in extractor.networks.values()
+        for tensor in network.state_dict().values()
+    ]
 
 
 def assert_same_weights(one: FeatureExtractor, other: FeatureExtractor) -> None:
@@ -82,7 +86,7 @@ def test_together_they_read_the_vectors() -> None:
     pictures, labels = scenes(200, seed=1)
     truth = list(zip(*labels.values(), strict=True))
     read = vectors_read(extractor, pictures)
-    assert np.mean([own == true for own, true in zip(read, truth, strict=True)]) > 0.95
+    assert np.mean([vector == true for vector, true in zip(read, truth, strict=True)]) > 0.95
     record = extractor.records["colour"]
     assert (record.depth, record.epochs, record.training_pictures) == (2, 40, 255)
 
@@ -112,7 +116,7 @@ def test_an_interrupted_training_goes_on_where_it_was(tmp_path: Path, after: int
     whole = fit()
     assert_same_weights(resumed, whole)
     assert resumed.summary() == whole.summary()
-    assert [own.epoch for own in events if own.kind == "epoch"] == list(range(after + 1, 17))
+    assert [event.epoch for event in events if event.kind == "epoch"] == list(range(after + 1, 17))
     again = fit(checkpoints=tmp_path, on_progress=lambda event: pytest.fail(event.message))
     assert_same_weights(again, whole)
     assert again.summary() == whole.summary()
@@ -126,7 +130,7 @@ def test_other_data_begin_anew(tmp_path: Path) -> None:
 def test_progress_names_the_pass_and_the_accuracy() -> None:
     events: list[TrainingEvent] = []
     fit(on_progress=events.append)
-    assert {own.feature for own in events} == {TOGETHER}
+    assert {event.feature for event in events} == {TOGETHER}
     assert events[-1].kind == "done"
     shown = events[0].message
     assert shown.startswith("all features together: ")
@@ -136,8 +140,8 @@ def test_progress_names_the_pass_and_the_accuracy() -> None:
 def test_unknown_values_are_left_out() -> None:
     pictures, labels = scenes(80)
     gaps: Labels = {
-        "colour": [None if n % 3 == 0 else own for n, own in enumerate(labels["colour"])],
-        "light": [None if n % 3 == 1 else own for n, own in enumerate(labels["light"])],
+        "colour": [None if n % 3 == 0 else value for n, value in enumerate(labels["colour"])],
+        "light": [None if n % 3 == 1 else value for n, value in enumerate(labels["light"])],
     }
     extractor = fit_extractor(
         LabelledPictures(pictures, gaps, VALUES),
@@ -154,8 +158,8 @@ def test_unknown_values_are_left_out() -> None:
 def test_no_scene_whose_values_are_all_known() -> None:
     pictures, labels = scenes(40)
     halves: Labels = {
-        "colour": [own if n % 2 else None for n, own in enumerate(labels["colour"])],
-        "light": [None if n % 2 else own for n, own in enumerate(labels["light"])],
+        "colour": [value if n % 2 else None for n, value in enumerate(labels["colour"])],
+        "light": [None if n % 2 else value for n, value in enumerate(labels["light"])],
     }
     extractor = fit_extractor(
         LabelledPictures(pictures, halves, VALUES),
@@ -177,7 +181,7 @@ def test_a_feature_of_one_value_only_stays_possible_otherwise() -> None:
 def test_networks_that_have_to_grow_grow_by_themselves_first() -> None:
     events: list[TrainingEvent] = []
     extractor = fit(options=dataclasses.replace(OPTIONS, depth=1), on_progress=events.append)
-    names = [own.feature for own in events]
+    names = [event.feature for event in events]
     assert set(names) == {"colour", "light", TOGETHER}
     first = names.index(TOGETHER)
     assert TOGETHER not in names[:first]
@@ -194,10 +198,12 @@ def test_earlier_networks_are_trained_on_and_left_as_they_are() -> None:
         40,
         labels={name: column[:40] for name, column in labels.items()},
         start_from=earlier,
-        rehearsal=Rehearsal(pictures, {k: [str(v) for v in own] for k, own in labels.items()}),
+        rehearsal=Rehearsal(
+            pictures, {k: [str(v) for v in column] for k, column in labels.items()}
+        ),
         on_progress=events.append,
     )
-    assert {own.feature for own in events} == {TOGETHER}
+    assert {event.feature for event in events} == {TOGETHER}
     assert events[-1].epochs == 8  # half as many
     assert all(torch.equal(a, b) for a, b in zip(kept, tensors(earlier), strict=True))
     assert not all(torch.equal(a, b) for a, b in zip(kept, tensors(found), strict=True))

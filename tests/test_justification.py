@@ -93,25 +93,25 @@ def test_a_justification_is_sound(world: World) -> None:
             assert node is not None
             given_facts: set[str] = set()
             supporting = list(_supporting(node))
-            for own in supporting:
-                literal = own.literal.replace(", ", ",")
-                assert own.basis is not Basis.FACT, "nothing is believed for no reason"
-                if own.basis is Basis.FEATURE:
-                    assert own.value == shown[own.feature or ""]
+            for reason in supporting:
+                literal = reason.literal.replace(", ", ",")
+                assert reason.basis is not Basis.FACT, "nothing is believed for no reason"
+                if reason.basis is Basis.FEATURE:
+                    assert reason.value == shown[reason.feature or ""]
                     if not literal.startswith("not "):
                         assert literal in facts(vector)
                         given_facts.add(literal)
-                elif own.basis is Basis.COMPARISON:
+                elif reason.basis is Basis.COMPARISON:
                     assert comparison_holds(literal)
-                elif own.basis is Basis.EXCEPTION:
-                    assert own.axiom is not None
-                    assert own.axiom.identifier in dict(found.exceptions)
+                elif reason.basis is Basis.EXCEPTION:
+                    assert reason.axiom is not None
+                    assert reason.axiom.identifier in dict(found.exceptions)
                     given_facts.add(literal.removeprefix("not "))
                 elif not literal.startswith("not "):
                     assert literal in beliefs
                 if literal.startswith("not "):
                     assert literal[4:] not in beliefs
-            named = {own.axiom.identifier for own in supporting if own.axiom}
+            named = {reason.axiom.identifier for reason in supporting if reason.axiom}
             rules = [world.rule(name) for name in named]
             assert belief in world.derived(given_facts, rules, beliefs)
             for path in path_literals(node):
@@ -144,36 +144,40 @@ def test_a_justification_gives_every_reason(world: World) -> None:
         for rule in world.rules:
             belief = rule.concludes
             node = why(reasoner, vector, read_literal(belief))
-            shared = {str(own) for own in reasoner.believed(vector)}
+            shared = {str(literal) for literal in reasoner.believed(vector)}
             assert (node is not None) == (belief in shared)
             if len(reasoner.answer_sets(vector)) > 1:
                 continue
             if node is None:
                 continue
             reasons = node.children if node.basis is Basis.REASONS else (node,)
-            others = [own for own in world.rules if own.concludes != belief]
+            others = [other for other in world.rules if other.concludes != belief]
             without = world.derived((set(facts(vector)) | given_up) - {belief}, others, beliefs)
             expected = {
                 number
-                for number, own in enumerate(world.rules, start=1)
-                if own.concludes == belief
-                and belief in world.derived(without - {belief}, [own], beliefs)
+                for number, candidate in enumerate(world.rules, start=1)
+                if candidate.concludes == belief
+                and belief in world.derived(without - {belief}, [candidate], beliefs)
             }
             told = {
-                int(own.axiom.identifier[1:])
-                for own in reasons
-                if own.axiom and own.basis is not Basis.EXCEPTION
+                int(reason.axiom.identifier[1:])
+                for reason in reasons
+                if reason.axiom and reason.basis is not Basis.EXCEPTION
             }
             # What something else is absent for may rest on the belief itself.
             weakly = {
                 number
                 for number in expected
                 if world.rules[number - 1].default
-                or any(own.startswith("not ") for own in world.rules[number - 1].body)
+                or any(condition.startswith("not ") for condition in world.rules[number - 1].body)
             }
             assert expected - weakly <= told <= expected
-            assert any(own.basis is Basis.FEATURE for own in reasons) == (belief in facts(vector))
-            assert any(own.basis is Basis.EXCEPTION for own in reasons) == (belief in given_up)
+            assert any(reason.basis is Basis.FEATURE for reason in reasons) == (
+                belief in facts(vector)
+            )
+            assert any(reason.basis is Basis.EXCEPTION for reason in reasons) == (
+                belief in given_up
+            )
 
 
 @given(world=worlds())
@@ -203,13 +207,13 @@ def test_why_not_ranks_axioms_by_the_conditions_that_fail(world: World) -> None:
                         failed = 1  # what speaks against the default
                     expected.append((failed, number))
             assert not node.holds
-            assert [int(own.axiom.identifier[1:]) for own in node.children if own.axiom] == [
+            assert [int(child.axiom.identifier[1:]) for child in node.children if child.axiom] == [
                 number for _, number in sorted(expected)
             ]
             for child, (failed, number) in zip(node.children, sorted(expected), strict=True):
                 rule = world.rules[number - 1]
                 against = rule.default and min(rule.failures(beliefs)) == 0
-                assert sum(not own.holds for own in child.children) == failed - against
+                assert sum(not condition.holds for condition in child.children) == failed - against
                 assert len(child.children) == len(rule.body) + (
                     against and opposite(literal) in beliefs
                 )
@@ -226,8 +230,8 @@ def test_a_contradiction_names_both_sides(world: World) -> None:
         assert (node is not None) == (reasoner.decide(vector).verdict.value == "contradiction")
         if node is not None:
             beliefs = set(map(str, reasoner.believed(vector)))
-            both = {own for own in beliefs if opposite(own) in beliefs}
-            assert {own.literal.replace(", ", ",") for own in node.children} == both
+            both = {belief for belief in beliefs if opposite(belief) in beliefs}
+            assert {child.literal.replace(", ", ",") for child in node.children} == both
             assert node.basis is Basis.CONFLICT
 
 

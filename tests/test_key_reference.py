@@ -39,13 +39,13 @@ def models(schema: type[BaseModel]) -> set[type[BaseModel]]:
     """A table and all tables that may lie in it."""
     found, left = set(), [schema]
     while left:
-        own = left.pop()
-        if isinstance(own, type) and issubclass(own, BaseModel):
-            if own not in found:
-                found.add(own)
-                left += [field.annotation for field in own.model_fields.values()]
+        annotation = left.pop()
+        if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+            if annotation not in found:
+                found.add(annotation)
+                left += [field.annotation for field in annotation.model_fields.values()]
         else:
-            left += getattr(own, "__args__", ())
+            left += getattr(annotation, "__args__", ())
     return found
 
 
@@ -65,7 +65,7 @@ def test_every_field_says_what_it_means(schema: type[BaseModel]) -> None:
 
 @pytest.mark.parametrize(("name", "schema"), SCHEMAS.items())
 def test_the_reference_has_every_field_of_every_table(name: str, schema: type[BaseModel]) -> None:
-    (file,) = [own for own in file_references() if own.name == name]
+    (file,) = [reference for reference in file_references() if reference.name == name]
     keys = {key.name for table in file.tables for key in table.keys}
     headers = {part for table in file.tables for part in re.findall(r"\w+", table.header)}
     assert {name for table in models(schema) for name in table.model_fields} == keys | headers - {
@@ -98,7 +98,7 @@ def lines(table: TableReference) -> list[str]:
 
 def test_a_reference_follows_the_tables_that_it_is_made_from() -> None:
     tables = table_references(_Tree)
-    assert {own.header: lines(own) for own in tables} == {
+    assert {table.header: lines(table) for table in tables} == {
         "": ["height: whole number, at least 0 (0)"],
         "[branch.NAME]": ["kind: text, as `^a+$` (needed)"],
         "[branch.NAME.leaves.VALUE]": [
@@ -107,12 +107,12 @@ def test_a_reference_follows_the_tables_that_it_is_made_from() -> None:
         ],
         "[[bird]]": ["share: number, above 0, at most 1 (0.5)", "tags: list of texts (None)"],
     }
-    assert [own.meaning for own in tables[1:]] == [
+    assert [table.meaning for table in tables[1:]] == [
         "Branches.",
         "Leaves. There are at least 2.",
         "Birds.",
     ]
-    assert [own.needed for own in tables[1:]] == [False, True, False]
+    assert [table.needed for table in tables[1:]] == [False, True, False]
 
 
 def test_a_key_without_a_meaning_is_refused() -> None:

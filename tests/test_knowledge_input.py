@@ -161,7 +161,7 @@ def test_an_odd_loop_is_named_and_no_other_axiom(tmp_path: Path) -> None:
     domain = load_domain(write_domain(tmp_path / "tiles", knowledge=KNOWLEDGE + ODD))
     green = domain.vector({"colour": "green", "round": "yes"})
     loops = OddLoops(domain.knowledge, domain.schema)
-    assert [str(own) for own in loops.of(green)] == [
+    assert [str(axiom) for axiom in loops.of(green)] == [
         "dull(T) if colour(T, green), not faded(T), round(T).",
         "faded(T) if dull(T).",
     ]

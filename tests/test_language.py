@@ -146,7 +146,11 @@ def test_the_signature() -> None:
         "n": ("-1", "0", "1", "2"),
         "m": ("f(a,b)", "3", "-2", '"x, y"'),
     }
-    assert [str(own) for own in signature.predicates.values()] == ["p(scene, m)", "q", "r"]
+    assert [str(predicate) for predicate in signature.predicates.values()] == [
+        "p(scene, m)",
+        "q",
+        "r",
+    ]
     assert signature.members("scene") == ()
     assert signature.predicates["p"].location == Location("knowledge.al", 2, 1)
 

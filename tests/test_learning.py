@@ -66,8 +66,8 @@ def scenes(vectors: list[tuple[str | None, ...]], labels: list[str]) -> Annotate
 
 def learned_texts(domain: Domain, some: AnnotatedScenes) -> list[str]:
     learned = learn_for_domain(domain, some)
-    found = axioms_of(domain, [own.candidate for own in learned.accepted], some)
-    return [str(own) for own in found]
+    found = axioms_of(domain, [judgement.candidate for judgement in learned.accepted], some)
+    return [str(axiom) for axiom in found]
 
 
 # Induction ------------------------------------------------------------------------------------
@@ -77,7 +77,7 @@ def test_two_rules_are_found_as_they_are() -> None:
     vectors = SPACE * 10
     labels = ["down" if v[2] == "yes" and int(v[0]) > 2 else "up" for v in vectors]
     learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by)
-    assert {own.candidate for own in learned.accepted} == {
+    assert {judgement.candidate for judgement in learned.accepted} == {
         Candidate("up", (PathCondition("size", ("1", "2")),)),
         Candidate("up", (PathCondition("lean", ("no",)),)),
         Candidate("down", (PathCondition("size", ("3", "4")), PathCondition("lean", ("yes",)))),
@@ -93,12 +93,12 @@ def test_nothing_learned_is_wrong_about_the_scenes_it_was_learned_from(data: st.
     vectors = rows * 3
     learned = learn_axioms(FEATURES, vectors, [of[v] for v in vectors], decide=decide_by)
     table = scene_table(FEATURES, vectors, [of[v] for v in vectors])
-    for own in learned.accepted:
-        assert tally(own.candidate, table).wrong == 0
-        assert own.tally.right >= 1
+    for judgement in learned.accepted:
+        assert tally(judgement.candidate, table).wrong == 0
+        assert judgement.tally.right >= 1
     assert not [
         (one, other)
-        for one, other in combinations([own.candidate for own in learned.accepted], 2)
+        for one, other in combinations([judgement.candidate for judgement in learned.accepted], 2)
         if one.covers(other) or other.covers(one)
     ]
 
@@ -117,7 +117,7 @@ def test_no_condition_can_be_left_out_of_what_is_generalised(data: st.DataObject
     assert general.covers(start)
     assert is_borne_out(general, table, 0.0)
     for left_out in general.conditions:
-        rest = tuple(own for own in general.conditions if own is not left_out)
+        rest = tuple(condition for condition in general.conditions if condition is not left_out)
         assert not is_borne_out(Candidate(general.label, rest), table, 0.0)
 
 
@@ -136,12 +136,14 @@ def test_wrong_annotation_is_tolerated_only_where_that_is_asked() -> None:
     rng = np.random.default_rng(1)
     vectors = SPACE * 150
     truth = ["down" if v[2] == "yes" else "up" for v in vectors]
-    noisy = [("up" if own == "down" else "down") if rng.random() < 0.05 else own for own in truth]
+    noisy = [
+        ("up" if label == "down" else "down") if rng.random() < 0.05 else label for label in truth
+    ]
     assert not learn_axioms(FEATURES, vectors, noisy, decide=decide_by).accepted
     tolerant = learn_axioms(
         FEATURES, vectors, noisy, decide=decide_by, options=LearningOptions(tolerance=0.05)
     )
-    assert {own.candidate for own in tolerant.accepted} == {
+    assert {judgement.candidate for judgement in tolerant.accepted} == {
         Candidate("down", (PathCondition("lean", ("yes",)),)),
         Candidate("up", (PathCondition("lean", ("no",)),)),
     }
@@ -167,7 +169,7 @@ def test_values_that_are_not_known_and_features_that_do_not_vary() -> None:
     vectors = [(n, "red", lean) for n in ("1", None, "3") for lean in ("yes", "no", None)] * 20
     labels = [{"yes": "down", "no": "up"}.get(str(v[2]), "odd") for v in vectors]
     learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by)
-    assert {own.candidate for own in learned.accepted} == {
+    assert {judgement.candidate for judgement in learned.accepted} == {
         Candidate("down", (PathCondition("lean", ("yes",)),)),
         Candidate("up", (PathCondition("lean", ("no",)),)),
     }
@@ -179,7 +181,9 @@ def test_too_few_scenes_are_named() -> None:
     learned = learn_axioms(
         FEATURES, vectors, labels, decide=decide_by, options=LearningOptions(support=0.9)
     )
-    reasons = [own.reason for own in learned.judgements if own.fate is Fate.DROPPED]
+    reasons = [
+        judgement.reason for judgement in learned.judgements if judgement.fate is Fate.DROPPED
+    ]
     assert any("are needed" in reason for reason in reasons)
 
 
@@ -207,13 +211,13 @@ def test_the_paths_that_became_axioms_are_marked() -> None:
     assert marked
     for path in marked:
         assert any(
-            own.candidate.covers(
+            judgement.candidate.covers(
                 Candidate(
                     path.label,
                     tuple(c for f in FEATURES for c in path.conditions if c.feature == f),
                 )
             )
-            for own in learned.accepted
+            for judgement in learned.accepted
         )
 
 
@@ -228,7 +232,7 @@ def test_a_path_that_was_narrowed_is_marked_too() -> None:
         labels,
         decide=lambda candidates, some: decide_by([known, *candidates], some),
     )
-    assert [own.candidate.conditions for own in learned.accepted] == [
+    assert [judgement.candidate.conditions for judgement in learned.accepted] == [
         (PathCondition("lean", ("no",)),)
     ]
     assert len(learned.tree.paths()) == 1
@@ -244,14 +248,14 @@ def test_what_is_named_stays_a_condition() -> None:
     """All that lean are red here: by the classes alone, that it leans suffices."""
     vectors = [v for v in SPACE if v[1] == "red" or v[2] == "no"] * 5
     labels = ["down" if v[2] == "yes" else "up" for v in vectors]
-    reasons = [RED_AND_LEANING if own == "down" else None for own in labels]
+    reasons = [RED_AND_LEANING if label == "down" else None for label in labels]
     down = [
         {
-            own.candidate.conditions
-            for own in learn_axioms(
+            judgement.candidate.conditions
+            for judgement in learn_axioms(
                 FEATURES, vectors, labels, decide=decide_by, reasons=some
             ).accepted
-            if own.candidate.label == "down"
+            if judgement.candidate.label == "down"
         }
         for some in ((), reasons)
     ]
@@ -265,7 +269,10 @@ def test_what_is_explained_otherwise_is_rejected_and_says_so() -> None:
     labels = ["down" if v[2] == "yes" else "up" for v in vectors]
     reasons = [frozenset({"size"} if v[0] == "1" else {"lean"}) for v in vectors]
     learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by, reasons=reasons)
-    said = {own.candidate.conditions: (own.fate, own.reason) for own in learned.judgements}
+    said = {
+        judgement.candidate.conditions: (judgement.fate, judgement.reason)
+        for judgement in learned.judgements
+    }
     assert said[(PathCondition("lean", ("no",)),)] == (
         Fate.REJECTED,
         "15 of 60 are explained by other reasons",
@@ -279,13 +286,15 @@ def test_rules_that_apply_together_are_learned_one_by_one() -> None:
 
     def applying(v: tuple[str, ...]) -> list[set[str]]:
         rules = [({"lean"}, v[2] == "yes"), ({"size", "colour"}, v[0] in "12" and v[1] == "red")]
-        return [own for own, applies in rules if applies]
+        return [features for features, applies in rules if applies]
 
     vectors = SPACE * 5
     labels = ["down" if applying(v) else "up" for v in vectors]
     reasons = [frozenset(set().union(*applying(v))) or None for v in vectors]
     learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by, reasons=reasons)
-    assert {own.candidate for own in learned.accepted if own.candidate.label == "down"} == {
+    assert {
+        judgement.candidate for judgement in learned.accepted if judgement.candidate.label == "down"
+    } == {
         Candidate("down", (PathCondition("lean", ("yes",)),)),
         Candidate("down", (PathCondition("size", ("1", "2")), PathCondition("colour", ("red",)))),
     }
@@ -305,14 +314,17 @@ def test_what_is_learned_asks_nothing_that_no_reason_names(data: st.DataObject) 
         decide=decide_by,
         reasons=[why[v] for v in vectors],
     )
-    for own in learned.accepted:
-        asked = {condition.feature for condition in own.candidate.conditions}
+    for judgement in learned.accepted:
+        asked = {condition.feature for condition in judgement.candidate.conditions}
         spoken = [
             v
             for v in SPACE
-            if all(v[list(FEATURES).index(c.feature)] in c.values for c in own.candidate.conditions)
+            if all(
+                v[list(FEATURES).index(c.feature)] in c.values
+                for c in judgement.candidate.conditions
+            )
         ]
-        assert {of[v] for v in spoken} == {own.candidate.label}
+        assert {of[v] for v in spoken} == {judgement.candidate.label}
         assert all(asked <= (why[v] or asked) for v in spoken)
 
 
@@ -338,7 +350,7 @@ def test_two_scenes_explained_alike_are_enough(
     reasons = [*said, *([LEAN] * len(said))]
     learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by, reasons=reasons)
     conditions = (PathCondition("colour", ("red",)), PathCondition("lean", ("yes",)))
-    fates = {own.candidate: own.fate for own in learned.judgements}
+    fates = {judgement.candidate: judgement.fate for judgement in learned.judgements}
     assert fates[Candidate("down", conditions)] is fate
 
 
@@ -353,8 +365,12 @@ def test_where_one_is_otherwise_two_are_not_enough() -> None:
         reasons=[LEAN, LEAN, None, None, None, None],
         options=LearningOptions(tolerance=0.4),
     )
-    (own,) = [own for own in learned.judgements if own.path.label == "down" and own.tally.wrong]
-    assert (own.fate, own.tally.right, own.tally.wrong) == (Fate.DROPPED, 2, 1)
+    (judgement,) = [
+        judgement
+        for judgement in learned.judgements
+        if judgement.path.label == "down" and judgement.tally.wrong
+    ]
+    assert (judgement.fate, judgement.tally.right, judgement.tally.wrong) == (Fate.DROPPED, 2, 1)
 
 
 def test_a_slip_of_who_says_why_is_tolerated_two_of_a_kind_are_not() -> None:
@@ -362,7 +378,7 @@ def test_a_slip_of_who_says_why_is_tolerated_two_of_a_kind_are_not() -> None:
     labels = ["down" if v[2] == "yes" else "up" for v in vectors]
     down = Candidate("down", (PathCondition("lean", ("yes",)),))
     for slips, tolerance, learned_again in ((1, 0.0, False), (1, 0.05, True), (4, 0.05, False)):
-        reasons = [LEAN if own == "down" else None for own in labels]
+        reasons = [LEAN if label == "down" else None for label in labels]
         ours = [n for n, v in enumerate(vectors) if v == ("1", "red", "yes")]
         for n in ours[:slips]:
             reasons[n] = COLOUR
@@ -374,7 +390,9 @@ def test_a_slip_of_who_says_why_is_tolerated_two_of_a_kind_are_not() -> None:
             reasons=reasons,
             options=LearningOptions(tolerance=tolerance),
         )
-        assert (down in {own.candidate for own in learned.accepted}) == learned_again, slips
+        assert (down in {judgement.candidate for judgement in learned.accepted}) == learned_again, (
+            slips
+        )
 
 
 def test_paths_are_narrowed_around_what_is_explained_otherwise() -> None:
@@ -388,8 +406,8 @@ def test_paths_are_narrowed_around_what_is_explained_otherwise() -> None:
     leaning = frozenset({"lean"})
     reasons = [leaning if v[2] == "yes" and v[1] != "red" else None for v in vectors]
     learned = learn_axioms(FEATURES, vectors, labels, decide=decide_by, reasons=reasons)
-    decided = decide_by([own.candidate for own in learned.accepted], vectors)
-    assert [own.label for own in decided] == labels
+    decided = decide_by([judgement.candidate for judgement in learned.accepted], vectors)
+    assert [decision.label for decision in decided] == labels
 
 
 def test_reasons_are_of_the_scenes_that_they_were_given_for(tiles: Domain, tmp_path: Path) -> None:
@@ -416,7 +434,7 @@ def test_scenes_that_nobody_can_place_propose_nothing() -> None:
         decide=decide_by,
         reasons=[frozenset({"colour"})] * 20 + [None] * 20,
     )
-    assert {own.candidate.label for own in learned.accepted} <= {"up"}
+    assert {judgement.candidate.label for judgement in learned.accepted} <= {"up"}
 
 
 def test_a_column_of_reasons_is_learned_from(tiles: Domain, tmp_path: Path) -> None:
@@ -429,13 +447,13 @@ def test_a_column_of_reasons_is_learned_from(tiles: Domain, tmp_path: Path) -> N
     found = []
     for column, reason in (("", ""), (",reasons", ",colour round")):
         lines = [
-            f"images/{n}.png,{','.join(own)}{reason if own[1] == 'green' else ',' * bool(column)}"
-            for n, own in enumerate(rows)
+            f"images/{n}.png,{','.join(row)}{reason if row[1] == 'green' else ',' * bool(column)}"
+            for n, row in enumerate(rows)
         ]
         table = "\n".join([f"image,class,colour,round{column}", *lines])
         (tmp_path / "scenes.csv").write_text(table, encoding="utf-8")
         learning = Agent(tiles).learn(Dataset.load(tmp_path, tiles), answers=False)
-        found.append({str(own) for own in learning.added})
+        found.append({str(axiom) for axiom in learning.added})
     assert found == [
         {"good(S) if -colour(S, blue)."},
         {"good(S) if colour(S, green), round(S)."},
@@ -449,24 +467,29 @@ def test_with_reasons_the_removed_axioms_themselves_are_found(structures: Domain
     """What is learned decides all scenes as the full knowledge does, and for its reasons."""
     whole = Agent(structures)
     rng = np.random.default_rng(0)
-    space = list(product(*(own.values for own in structures.features.values())))
+    space = list(product(*(feature.values for feature in structures.features.values())))
     decided = [v for v in space if whole.reasoner.decide(v).label]
     vectors = [decided[n] for n in rng.integers(len(decided), size=800)]
     labels = [str(whole.reasoner.decide(v).label) for v in vectors]
     reference = ReferenceAnswers(structures, whole.reasoned, experience_of(vectors, labels))
     reasons = explanations(reference, whole.questions, vectors, labels)
-    why = {own.label: own for own in whole.questions.all if own.asks is Asks.WHY_CLASS}
+    why = {
+        question.label: question
+        for question in whole.questions.all
+        if question.asks is Asks.WHY_CLASS
+    }
     for gone in list(combinations(range(8), 4))[::9]:
-        kept = tuple(own for n, own in enumerate(structures.knowledge.axioms) if n not in gone)
+        kept = tuple(axiom for n, axiom in enumerate(structures.knowledge.axioms) if n not in gone)
         domain = replace(structures, knowledge=replace(structures.knowledge, axioms=kept))
         some = replace(scenes(vectors, labels), reasons=reasons)
         learned = learn_for_domain(domain, some)
-        axioms = axioms_of(domain, [own.candidate for own in learned.accepted], some)
+        axioms = axioms_of(domain, [judgement.candidate for judgement in learned.accepted], some)
         agent = Agent(domain, learned=axioms)
         for vector, label in set(zip(vectors, labels, strict=True)):
             assert agent.reasoner.decide(vector).label == label
             told, meant = (
-                own.kind(why[label], vector, label) for own in (agent.reasoned, whole.reasoned)
+                answerer.kind(why[label], vector, label)
+                for answerer in (agent.reasoned, whole.reasoned)
             )
             assert set(told.mentions) == set(meant.mentions), (gone, vector)
 
@@ -474,18 +497,18 @@ def test_with_reasons_the_removed_axioms_themselves_are_found(structures: Domain
 def test_removed_axioms_are_found_again(structures: Domain) -> None:
     """Every fifth way to remove four of the eight axioms; experiments run all seventy."""
     full = Reasoner(structures.knowledge, structures.schema)
-    space = list(product(*(own.values for own in structures.features.values())))
+    space = list(product(*(feature.values for feature in structures.features.values())))
     truth = {vector: full.decide(vector).label for vector in space}
     rng = np.random.default_rng(0)
     agreed, exact = [], 0
     for gone in list(combinations(range(8), 4))[::5]:
         vectors = [space[n] for n in rng.integers(len(space), size=1000)]
         labels = [truth[v] or ("stable", "unstable")[rng.integers(2)] for v in vectors]
-        kept = tuple(own for n, own in enumerate(structures.knowledge.axioms) if n not in gone)
+        kept = tuple(axiom for n, axiom in enumerate(structures.knowledge.axioms) if n not in gone)
         domain = replace(structures, knowledge=replace(structures.knowledge, axioms=kept))
         learned = learn_for_domain(domain, scenes(vectors, labels))
         knowledge = with_candidates(
-            domain.knowledge, [own.candidate for own in learned.accepted], domain.schema
+            domain.knowledge, [judgement.candidate for judgement in learned.accepted], domain.schema
         )
         reasoner = Reasoner(knowledge, domain.schema)
         settled = [v for v in space if truth[v] is not None and v in set(vectors)]
@@ -503,11 +526,11 @@ def test_an_axiom_that_contradicts_what_is_known_is_not_learned(structures: Doma
     some = scenes([*vectors, *others], ["stable"] * 60 + ["unstable"] * 40)
     learned = learn_for_domain(structures, some)
     assert learned_texts(structures, some) == [
-        str(own)
-        for own in axioms_of(structures, [j.candidate for j in learned.accepted], some)
-        if "-stable" in str(own)
+        str(axiom)
+        for axiom in axioms_of(structures, [j.candidate for j in learned.accepted], some)
+        if "-stable" in str(axiom)
     ]
-    assert any(own.fate is Fate.REJECTED for own in learned.judgements)
+    assert any(judgement.fate is Fate.REJECTED for judgement in learned.judgements)
 
 
 def test_alternatives_become_an_axiom_each_and_what_is_excluded_is_denied() -> None:
@@ -534,10 +557,10 @@ def test_a_statement_says_what_its_candidate_says(structures: Domain, data: st.D
     candidate = Candidate("unstable", tuple(conditions))
     nothing = replace(structures.knowledge, axioms=())
     reasoner = Reasoner(with_candidates(nothing, [candidate], structures.schema), structures.schema)
-    space = list(product(*(own.values for own in structures.features.values())))
-    features = {key: own.values for key, own in structures.features.items()}
+    space = list(product(*(feature.values for feature in structures.features.values())))
+    features = {key: feature.values for key, feature in structures.features.items()}
     table = scene_table(features, space, ["unstable"] * len(space))
-    said = [own.label == "unstable" for own in reasoner.decide_all(table.vectors)]
+    said = [decision.label == "unstable" for decision in reasoner.decide_all(table.vectors)]
     assert said == table.satisfying(candidate.conditions).tolist()
 
 
@@ -553,19 +576,19 @@ def test_learned_axioms_are_read_as_they_were_written(structures: Domain, tmp_pa
         tuple(f"images/{n}.png" for n in range(len(vectors))),
     )
     learned = learn_for_domain(nothing, some)
-    axioms = axioms_of(nothing, [own.candidate for own in learned.accepted], some)
-    assert [own.origin.support for own in axioms] == [40, 40]
+    axioms = axioms_of(nothing, [judgement.candidate for judgement in learned.accepted], some)
+    assert [axiom.origin.support for axiom in axioms] == [40, 40]
     assert axioms[0].origin.pictures[0].startswith("images/")
     text = learned_text(axioms)
     again = parse_learned(text, structures.knowledge.signature)
-    assert [(str(own), own.text, own.origin) for own in again] == [
-        (str(own), own.text, own.origin) for own in axioms
+    assert [(str(axiom), axiom.text, axiom.origin) for axiom in again] == [
+        (str(axiom), axiom.text, axiom.origin) for axiom in axioms
     ]
     (tmp_path / LEARNED).write_text(text, encoding="utf-8")
     assert read_learned(tmp_path / LEARNED, structures.knowledge.signature) == (
         tuple(
-            replace(own, location=replace(own.location, file=str(tmp_path / LEARNED)))
-            for own in again
+            replace(axiom, location=replace(axiom.location, file=str(tmp_path / LEARNED)))
+            for axiom in again
         ),
         (),
     )
@@ -587,63 +610,63 @@ def test_declarations_have_no_place_among_learned_axioms(structures: Domain) -> 
 def test_learning_from_pictures_reasons_with_what_it_learned(
     agent: Agent, model_folder: Path, dataset: Dataset, tmp_path: Path
 ) -> None:
-    own = Agent.load(model_folder)
-    learning = own.learn(dataset)
+    learner = Agent.load(model_folder)
+    learning = learner.learn(dataset)
     assert learning.added
-    assert own.learned == learning.added
-    assert [axiom.identifier for axiom in own.learned] == [
-        f"l{n}" for n in range(1, len(own.learned) + 1)
+    assert learner.learned == learning.added
+    assert [axiom.identifier for axiom in learner.learned] == [
+        f"l{n}" for n in range(1, len(learner.learned) + 1)
     ]
-    for axiom in own.learned:
+    for axiom in learner.learned:
         assert axiom.origin.learned
         assert axiom.origin.things == "tiles"
         assert axiom.origin.pictures
-    assert len(own.given.knowledge.axioms) == len(agent.domain.knowledge.axioms)
-    own.save(tmp_path / "model")
+    assert len(learner.given.knowledge.axioms) == len(agent.domain.knowledge.axioms)
+    learner.save(tmp_path / "model")
     again = Agent.load(tmp_path / "model")
-    assert [str(axiom) for axiom in again.learned] == [str(axiom) for axiom in own.learned]
+    assert [str(axiom) for axiom in again.learned] == [str(axiom) for axiom in learner.learned]
     vectors = dataset.vectors
-    assert again.reasoner.decide_all(vectors) == own.reasoner.decide_all(vectors)
+    assert again.reasoner.decide_all(vectors) == learner.reasoner.decide_all(vectors)
 
 
 def test_a_second_learning_from_the_same_pictures_finds_nothing_new(
     model_folder: Path, dataset: Dataset
 ) -> None:
-    own = Agent.load(model_folder)
-    first = own.learn(dataset)
-    counted = sum(sum(counts.values()) for counts in own.experience.values())
-    second = own.learn(dataset)
+    learner = Agent.load(model_folder)
+    first = learner.learn(dataset)
+    counted = sum(sum(counts.values()) for counts in learner.experience.values())
+    second = learner.learn(dataset)
     assert (second.added, second.withdrawn) == ((), ())
-    assert own.learned == first.added
-    assert sum(sum(counts.values()) for counts in own.experience.values()) == counted
+    assert learner.learned == first.added
+    assert sum(sum(counts.values()) for counts in learner.experience.values()) == counted
 
 
 def test_pictures_that_contradict_an_axiom_withdraw_it(
     tiles: Domain, model_folder: Path, dataset: Dataset, tmp_path: Path
 ) -> None:
-    own = Agent.load(model_folder)
-    own.learn(dataset)
-    before = [str(axiom) for axiom in own.learned]
+    learner = Agent.load(model_folder)
+    learner.learn(dataset)
+    before = [str(axiom) for axiom in learner.learned]
     (tmp_path / "images").mkdir()
     kinds = [(c, r) for c in ("red", "green", "blue") for r in ("yes", "no")]
     rows = ["image,class,colour,round"]
     for number, (colour, is_round) in enumerate(kinds * 3):
         draw_tile(colour, is_round, 1000 + number).save(tmp_path / "images" / f"{number}.png")
-        label = own.decide({"colour": colour, "round": is_round})
+        label = learner.decide({"colour": colour, "round": is_round})
         other = "good" if label == "bad" else "bad"
         rows.append(f"images/{number}.png,{other},{colour},{is_round}")
     (tmp_path / "scenes.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
-    learning = own.learn(Dataset.load(tmp_path, tiles))
+    learning = learner.learn(Dataset.load(tmp_path, tiles))
     assert [gone.statement for gone in learning.withdrawn] == before
     assert all("are otherwise, as images/" in gone.reason for gone in learning.withdrawn)
-    assert own.withdrawn == learning.withdrawn
+    assert learner.withdrawn == learning.withdrawn
 
 
 def test_a_more_general_axiom_takes_the_place_of_a_learned_one(
     tiles: Domain, dataset: Dataset
 ) -> None:
     general = next(
-        own for own in Agent(tiles).learn(dataset, answers=False).added if len(own.body) == 1
+        axiom for axiom in Agent(tiles).learn(dataset, answers=False).added if len(axiom.body) == 1
     )
     value = "round" if "colour" in str(general) else "colour"
     more = {"round": "round(T)", "colour": "colour(T, red)"}[value].replace("T", "S")
@@ -652,20 +675,20 @@ def test_a_more_general_axiom_takes_the_place_of_a_learned_one(
     narrow = dataclasses.replace(narrow, origin=Origin(learned=True, support=3))
     agent = Agent(tiles, learned=[narrow])
     learning = agent.learn(dataset, answers=False)
-    assert str(general) in [str(own) for own in learning.added]
-    assert [str(own) for own in agent.learned].count(text) == 0
+    assert str(general) in [str(axiom) for axiom in learning.added]
+    assert [str(axiom) for axiom in agent.learned].count(text) == 0
     (gone,) = learning.withdrawn
     assert (gone.statement, gone.reason) == (text, f"{general} says it of more scenes")
     assert agent.withdrawn == (gone,)
 
 
 def test_only_what_is_accepted_is_added(model_folder: Path, dataset: Dataset) -> None:
-    own = Agent.load(model_folder)
+    learner = Agent.load(model_folder)
     asked: list[Axiom] = []
-    learning = own.learn(dataset, accept=lambda found: asked.extend(found) or [])
+    learning = learner.learn(dataset, accept=lambda found: asked.extend(found) or [])
     assert tuple(asked) == learning.found
     assert learning.found
-    assert own.learned == ()
+    assert learner.learned == ()
 
 
 def test_a_dataset_of_another_domain(
@@ -684,7 +707,7 @@ def test_an_axiom_learned_with_tolerance_is_not_withdrawn_for_the_same_errors(
     same = scenes(vectors, ["unstable"] * 19 + ["stable"])
     worse = scenes(vectors, ["unstable"] * 18 + ["stable"] * 2)
     assert contradicted(structures, [leans], same) == []
-    assert [own for own, _ in contradicted(structures, [leans], worse)] == [leans]
+    assert [axiom for axiom, _ in contradicted(structures, [leans], worse)] == [leans]
 
 
 # Given axioms that scenes refute ----------------------------------------------------------------
@@ -723,7 +746,7 @@ def test_a_person_may_keep_an_axiom_that_scenes_refute(misled: Domain, dataset: 
     asked: list[str] = []
 
     def keep(refuted: Sequence[Withdrawn]) -> list[Withdrawn]:
-        asked.extend(own.statement for own in refuted)
+        asked.extend(axiom.statement for axiom in refuted)
         return []
 
     learning = agent.learn(dataset, set_aside=keep, answers=False)
@@ -769,11 +792,11 @@ def test_what_is_set_aside_is_kept_in_the_model(
     shown = json.loads(run("learn", model, "--data", tiles_data, "--json").out)
     assert shown["withdrawn"] == []
     result = run("learn", model, "--data", tiles_data, "--yes")
-    line = next(own for own in result.out.splitlines() if own.startswith("set aside"))
+    line = next(line for line in result.out.splitlines() if line.startswith("set aside"))
     assert line.startswith(f"set aside a3: {WRONG} ")
     assert "tiles that it speaks about are otherwise, as images/" in line
     again = Agent.load(model)
-    assert [own.given for own in again.withdrawn] == [True]
+    assert [axiom.given for axiom in again.withdrawn] == [True]
     assert again.reasoner.decide(("red", "no")).label == "good"
     assert "set aside a3: " in run("axioms", model).out
     (gone,) = json.loads(run("axioms", model, "--json").out)["withdrawn"]
@@ -815,7 +838,7 @@ def test_learn_and_axioms(run: Run, model_folder: Path, tiles_data: Path, tmp_pa
     listed = run("axioms", model)
     assert "learned from" in listed.out
     found = json.loads(run("axioms", model, "--json").out)
-    learned = [own for own in found["axioms"] if own["learned"]]
+    learned = [axiom for axiom in found["axioms"] if axiom["learned"]]
     assert learned[0]["identifier"] == "l1"
     assert learned[0]["support"] >= len(learned[0]["pictures"]) > 0
     removed = run("axioms", model, "--remove", "l1")

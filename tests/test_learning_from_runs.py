@@ -28,7 +28,7 @@ OFFICE = load_planning_domain("robot_assistant")
 AT_WORK = "loc(P, L) if work_place(P, L), not -loc(P, L)"
 ROBOT = OFFICE.without(AT_WORK)
 PLACES = OFFICE.knowledge.signature.members("place")
-AT_HOME = {own: f"{own}s_office" for own in ("bob", "john", "sarah", "sally")}
+AT_HOME = {person: f"{person}s_office" for person in ("bob", "john", "sarah", "sally")}
 TO_BOB = "message_status(m1, bob, delivered)"
 
 
@@ -41,7 +41,7 @@ def test_a_run_is_recorded(run: Run, tmp_path: Path) -> None:
     assert lines[0] == (
         f'% seewhy simulate robot_assistant --goal "{TO_BOB}" --seed 6 --without "{AT_WORK}"'
     )
-    assert [own for own in lines if not own.startswith("observed")][1:] == [
+    assert [line for line in lines if not line.startswith("observed")][1:] == [
         "attempted move(rob1, bobs_office) at 0.",
         "attempted deliver(rob1, m1, bob) at 1.",
     ]
@@ -84,9 +84,9 @@ def record(where: Sequence[Mapping[str, str]], *, places: Sequence[Sequence[str]
     return [
         read_history(
             " ".join(
-                f"observed {'' if at[own] == place else '-'}loc({own}, {place}) at {step}."
+                f"observed {'' if at[person] == place else '-'}loc({person}, {place}) at {step}."
                 for step, place in enumerate(seen)
-                for own in at
+                for person in at
             ),
             OFFICE.knowledge.signature,
         )
@@ -107,7 +107,7 @@ def random_record(
 
 
 def said(found: LearnedFromRuns) -> list[str]:
-    return [f"{own.text}: {own}" for own in found.axioms]
+    return [f"{axiom.text}: {axiom}" for axiom in found.axioms]
 
 
 def test_where_people_usually_are_is_learned() -> None:
@@ -149,7 +149,7 @@ def test_who_is_usually_elsewhere_is_an_exception() -> None:
 def test_who_is_usually_absent_is_an_exception() -> None:
     rng = np.random.default_rng(1)
     where = [
-        {own: place if rng.random() < 0.85 else "library" for own, place in AT_HOME.items()}
+        {person: place if rng.random() < 0.85 else "library" for person, place in AT_HOME.items()}
         | {"bob": str(rng.choice(["kitchen", "library", "bathroom", "sallys_office"]))}
         for _ in range(40)
     ]
@@ -176,10 +176,10 @@ def test_from_shuffled_records_nothing_is_learned(seed: int) -> None:
     rng = np.random.default_rng(seed)
     shuffled = []
     for run in random_record(30, usually=AT_HOME, share=0.8):
-        signs = rng.permutation([own.literal.positive for own in run.observations])
+        signs = rng.permutation([observation.literal.positive for observation in run.observations])
         seen = [
-            replace(own, literal=replace(own.literal, positive=bool(sign)))
-            for own, sign in zip(run.observations, signs, strict=True)
+            replace(observation, literal=replace(observation.literal, positive=bool(sign)))
+            for observation, sign in zip(run.observations, signs, strict=True)
         ]
         history = History(tuple(seen))
         if explained(ROBOT.knowledge, history):
@@ -197,7 +197,7 @@ def test_a_stay_is_counted_once_and_what_the_robot_did_not_at_all() -> None:
     observed loc(sally, library) at 2. observed loc(rob1, library) at 2.
     """
     cases = cases_of(ROBOT.knowledge, [read_history(text, ROBOT.knowledge.signature)])
-    assert [(str(own.fluent), own.holds) for own in cases] == [
+    assert [(str(case.fluent), case.holds) for case in cases] == [
         ("loc(sally,library)", True),
         ("loc(rob1,library)", True),
         ("loc(sally,kitchen)", False),
@@ -218,7 +218,7 @@ def test_boxes_teach_the_same_way() -> None:
                 for place in ("table", "b3", "b4")
             )
         )
-    runs = [read_history(own, tower.knowledge.signature) for own in lines]
+    runs = [read_history(line, tower.knowledge.signature) for line in lines]
     found = learn_from_runs(robot, runs)
     assert said(found) == ["usually a box is on a surface: on(B, S) if surface(S), not -on(B, S)."]
     assert (found.axioms[0].origin.support, found.axioms[0].origin.precision) == (36, 33 / 36)
@@ -232,7 +232,7 @@ def test_what_is_usual_need_not_speak_of_relations() -> None:
     """)
     lamps = replace(OFFICE, knowledge=known, history=History(), sensing=())
     seen = [f"observed {'-' * (n % 6 == 0)}dark at 0. observed lit(l1) at 0." for n in range(18)]
-    found = learn_from_runs(lamps, [read_history(own, known.signature) for own in seen])
+    found = learn_from_runs(lamps, [read_history(text, known.signature) for text in seen])
     assert said(found) == [
         "usually dark: dark if not -dark.",
         "usually lit (l1): lit(l1) if not -lit(l1).",
@@ -401,7 +401,7 @@ def test_a_trial_is_the_same_world_and_goal_for_both_arms() -> None:
     )
     rows = trial(seed=3, learned=learned)
     told = [
-        {key: own for key, own in row.items() if not key.startswith("seconds_")} for row in rows
+        {key: value for key, value in row.items() if not key.startswith("seconds_")} for row in rows
     ]
     goal = "message_status(m1, sally, delivered)"
     both = {"seed": 3, "size": 0, "outcome": "achieved", "achieved": True, "goal": goal}
@@ -422,11 +422,11 @@ def test_ratios_come_with_intervals() -> None:
         rows.append({"seed": seed, "system": "before", **dict.fromkeys(MEASURES, 2 * after)})
     rows.append({"seed": 50, "system": "before", **dict.fromkeys(MEASURES, 9.0)})
     found = summary(rows)
-    assert [own.measure for own in found] == list(MEASURES)
-    assert [own.paper for own in found] == [4.0, 2.3, 1.6, 6.0, 1.6]
-    for own in found:
-        assert own.trials == 50
-        assert own.mean_of_ratios == own.ratio_of_means == Interval(2.0, 2.0, 2.0)
+    assert [ratio.measure for ratio in found] == list(MEASURES)
+    assert [ratio.paper for ratio in found] == [4.0, 2.3, 1.6, 6.0, 1.6]
+    for ratio in found:
+        assert ratio.trials == 50
+        assert ratio.mean_of_ratios == ratio.ratio_of_means == Interval(2.0, 2.0, 2.0)
     rows[1] = {**rows[1], "plans": 0, "seconds_per_plan": None}
     plans, *_, per_plan = summary(rows)
     assert (plans.trials, per_plan.trials) == (50, 49)

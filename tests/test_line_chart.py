@@ -23,13 +23,13 @@ def test_a_chart_is_a_whole_picture() -> None:
     lines = [line("SeeWhy", 0.81, 0.9, 0.93), line("<end> to & end", 0.7, 0.88)]
     figure = draw_lines(lines, ["100", "200", "all"], across="pictures", up="right")
     root = ElementTree.fromstring(figure.svg)
-    own = "{http://www.w3.org/2000/svg}"
-    assert len(root.findall(f"{own}polyline")) == 2
-    assert len(root.findall(f"{own}polygon")) == 2
-    circles = root.findall(f"{own}circle")
+    namespace = "{http://www.w3.org/2000/svg}"
+    assert len(root.findall(f"{namespace}polyline")) == 2
+    assert len(root.findall(f"{namespace}polygon")) == 2
+    circles = root.findall(f"{namespace}circle")
     assert len(circles) == 5
     assert circles[0][0].text == "SeeWhy, 100: 81.0 % (79.0 to 83.0 %)"
-    texts = ["".join(text.itertext()) for text in root.iter(f"{own}text")]
+    texts = ["".join(text.itertext()) for text in root.iter(f"{namespace}text")]
     for said in ("100", "200", "all", "pictures", "right", "SeeWhy", "<end> to & end"):
         assert said in texts
     # Higher values are nearer to the top, and all lie on the picture.
@@ -42,7 +42,7 @@ def test_a_line_that_covers_another_lets_it_be_seen() -> None:
     lines = [line("one", 0.5, 0.6), line("two", 0.5, 0.7), line("three", 0.5, 0.6)]
     figure = draw_lines(lines, ["100", "200"], across="", up="right")
     drawn = ElementTree.fromstring(figure.svg).findall("{http://www.w3.org/2000/svg}polyline")
-    assert [own.get("stroke-dasharray") for own in drawn] == [None, None, "8 8"]
+    assert [curve.get("stroke-dasharray") for curve in drawn] == [None, None, "8 8"]
 
 
 def test_a_long_name_of_an_axis_takes_two_lines() -> None:

@@ -151,23 +151,23 @@ def test_whatever_weights_it_has(data: st.DataObject, spoiling: Callable[[], Pat
     tensors = load(file.read_bytes())
     name = data.draw(st.sampled_from(sorted(tensors)))
     kinds: dict[str, Callable[[torch.Tensor], torch.Tensor]] = {
-        "nan": lambda own: torch.full_like(own.float(), float("nan")).to(own.dtype),
-        "infinite": lambda own: torch.full_like(own.float(), float("inf")).to(own.dtype),
-        "large": lambda own: torch.full_like(own.float(), 3e38).to(own.dtype),
+        "nan": lambda tensor: torch.full_like(tensor.float(), float("nan")).to(tensor.dtype),
+        "infinite": lambda tensor: torch.full_like(tensor.float(), float("inf")).to(tensor.dtype),
+        "large": lambda tensor: torch.full_like(tensor.float(), 3e38).to(tensor.dtype),
         "nothing": torch.zeros_like,
-        "double": lambda own: own.double(),
-        "whole": lambda own: own.to(torch.int8),
-        "longer": lambda own: torch.cat([own.flatten(), own.flatten()]),
-        "flat": lambda own: own.flatten(),
-        "empty": lambda own: own.flatten()[:0],
+        "double": lambda tensor: tensor.double(),
+        "whole": lambda tensor: tensor.to(torch.int8),
+        "longer": lambda tensor: torch.cat([tensor.flatten(), tensor.flatten()]),
+        "flat": lambda tensor: tensor.flatten(),
+        "empty": lambda tensor: tensor.flatten()[:0],
     }
     kind = data.draw(st.sampled_from([*kinds, "missing", "renamed"]))
     if kind in kinds:
         tensors[name] = kinds[kind](tensors[name]).contiguous()
     else:
-        own = tensors.pop(name)
+        tensor = tensors.pop(name)
         if kind == "renamed":
-            tensors["other/weight"] = own
+            tensors["other/weight"] = tensor
     file.write_bytes(save(tensors))
     signed(folder)
     works_or_is_refused(folder)

@@ -88,18 +88,27 @@ def lamps(names: dict[str, str]) -> list[object]:
     found = diagnose(known, read_history(seen, signature), sensors_err=True)
     goal = read_goal(named("DEFINED(TWO), FLUENT(X), X != TWO", names), known)
     start = found.states[0]
-    plans = [plan(known, goal, start=start, answer_sets=own) for own in (False, True)]
+    plans = [
+        plan(known, goal, start=start, answer_sets=by_answer_sets)
+        for by_answer_sets in (False, True)
+    ]
     transitions = Transitions(known)
     world = transitions.complete([])
     probe = TransitionProbe(known, following=1)
     return [
-        {(own.step, own.kind.name, own.what, own.certain) for own in found.surprises},
-        [(own.holds, own.unknown) for own in found.states],
-        [(own.status.name, own.actions, [state.holds for state in own.states]) for own in plans],
+        {
+            (surprise.step, surprise.kind.name, surprise.what, surprise.certain)
+            for surprise in found.surprises
+        },
+        [(state.holds, state.unknown) for state in found.states],
+        [
+            (made.status.name, made.actions, [state.holds for state in made.states])
+            for made in plans
+        ],
         {*suppositions(known, goal, plans[0].actions, start=start)},
         holds_in(known, goal, plans[0].states[-1].holds),
-        {(own, transitions.after(world, [own])) for own in transitions.actions},
-        [(own, probe.find(action=own) is None) for own in probe.actions],
+        {(action, transitions.after(world, [action])) for action in transitions.actions},
+        [(action, probe.find(action=action) is None) for action in probe.actions],
         [
             [(one.axiom.head, one.holds, one.absent) for one in Instances(known).of(axiom, world)]
             for axiom in known.axioms[5:]
@@ -110,14 +119,14 @@ def lamps(names: dict[str, str]) -> list[object]:
 def tiles(names: dict[str, str]) -> list[object]:
     """What is believed of the tiles."""
     known = read_knowledge(named(TILES, names))
-    scene, values = names["SCENE"], [names[own] for own in ("ONE", "TWO", "THREE")]
+    scene, values = names["SCENE"], [names[role] for role in ("ONE", "TWO", "THREE")]
     feature, plain, other = names["FEATURE"], names["PLAIN"], names["OTHER"]
     schema = SceneSchema(
         scene=scene,
         features={
-            feature: {own: Literal(feature, (scene, own)) for own in values},
+            feature: {value: Literal(feature, (scene, value)) for value in values},
             plain: {"1": Literal(plain, (scene,)), "0": Literal(plain, (scene,), False)},
-            other: {own: Literal(other, (scene, own)) for own in values},
+            other: {value: Literal(other, (scene, value)) for value in values},
         },
         classes={
             "high": Literal(names["CLASS"], (scene,)),
@@ -132,23 +141,25 @@ def tiles(names: dict[str, str]) -> list[object]:
     finder = ChangeFinder(reasoner)
     some = vectors[::7]
     listed = decided_vectors(reasoner, limit=100)
-    even = [np.log(np.full(len(own), 1 / len(own))) for own in schema.features.values()]
+    even = [
+        np.log(np.full(len(by_value), 1 / len(by_value))) for by_value in schema.features.values()
+    ]
     best = most_probable_decided(reasoner, even, tried=1)
     return [
-        [own.verdict.name for own in together],
-        [own.label for own in together],
-        [alone.decide(own) == one for own, one in zip(vectors, together, strict=True)],
-        [reasoner.believed(own) for own in some],
+        [decision.verdict.name for decision in together],
+        [decision.label for decision in together],
+        [alone.decide(vector) == one for vector, one in zip(vectors, together, strict=True)],
+        [reasoner.believed(vector) for vector in some],
         [
-            {frozenset(map(astuple, one.changes)) for one in finder.smallest(own, "low")}
-            for own in some
+            {frozenset(map(astuple, one.changes)) for one in finder.smallest(vector, "low")}
+            for vector in some
         ],
         {*(listed or ())},
         best is None,
-        [own.identifier for own in never_applies(known, schema)],
-        [len(OddLoops(known, schema).of(own)) for own in some],
+        [axiom.identifier for axiom in never_applies(known, schema)],
+        [len(OddLoops(known, schema).of(vector)) for vector in some],
         [
-            {(name.upper(), *map(tuple, own)) for name, own in found.firings.items()}
+            {(name.upper(), *map(tuple, fired)) for name, fired in found.firings.items()}
             for vector in some
             if (found := alone.answer_set(vector)) is not None
         ],
@@ -182,7 +193,7 @@ def words_of(told: Callable[[dict[str, str]], list[object]], roles: tuple[str, .
 
         patch.setattr(BoundedControl, "__init__", recorded)
         told(names)
-    words = {word for own in programs for word in NAME.findall(own)}
+    words = {word for program in programs for word in NAME.findall(program)}
     words -= {*names.values(), "not"}
     return sorted(word for word in words if not word.endswith("__"))
 

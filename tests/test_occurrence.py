@@ -29,18 +29,20 @@ def test_what_never_goes_together(counts: list[int]) -> None:
     occurrence = Occurrence({v: n for v, n in zip(SPACE, counts, strict=True) if n})
 
     def share(parts: tuple[tuple[int, str], ...]) -> float:
-        return sum(all(own[n] == value for n, value in parts) for own in scenes) / len(scenes)
+        return sum(all(scene[n] == value for n, value in parts) for scene in scenes) / len(scenes)
 
     def missing(parts: tuple[tuple[int, str], ...]) -> bool:
         if not scenes or share(parts) > 0:
             return False
-        rest = [tuple(other for other in parts if other != own) for own in parts]
-        least = min(share((own,)) * share(more) for own, more in zip(parts, rest, strict=True))
+        rest = [tuple(other for other in parts if other != part) for part in parts]
+        least = min(share((part,)) * share(more) for part, more in zip(parts, rest, strict=True))
         return len(scenes) * least >= EXPECTED - 1e-9
 
     for vector in SPACE:
         parts = [(n, value or "") for n, value in enumerate(vector)]
-        expected = not any(missing(own) for size in (2, 3) for own in combinations(parts, size))
+        expected = not any(
+            missing(combined) for size in (2, 3) for combined in combinations(parts, size)
+        )
         assert (occurrence.never_together(vector) is None) == expected
 
 
@@ -58,18 +60,20 @@ def by_trying(
     """The nearest vectors of a class that can occur; where none can, the nearest of all."""
     if world.decision(vector)[0] == label:
         return {vector}
-    space = [own for own in world.vectors if None not in own]  # what is known stays known
-    of_class = [own for own in space if world.decision(own)[0] == label]
-    can = [own for own in of_class if occurrence.never_together(own) is None]
+    space = [
+        candidate for candidate in world.vectors if None not in candidate
+    ]  # what is known stays known
+    of_class = [candidate for candidate in space if world.decision(candidate)[0] == label]
+    can = [candidate for candidate in of_class if occurrence.never_together(candidate) is None]
 
-    def distance(own: FeatureVector) -> tuple[int, int]:
-        changed = zip(world.costs, vector, own, strict=True)
+    def distance(candidate: FeatureVector) -> tuple[int, int]:
+        changed = zip(world.costs, vector, candidate, strict=True)
         cost = sum(price for price, old, new in changed if old != new)
-        moved = 0 if vector[2] is None else abs(int(vector[2]) - int(own[2] or 0))
+        moved = 0 if vector[2] is None else abs(int(vector[2]) - int(candidate[2] or 0))
         return cost, moved
 
     least = min(map(distance, can or of_class), default=None)
-    return {own for own in can or of_class if distance(own) == least}
+    return {candidate for candidate in can or of_class if distance(candidate) == least}
 
 
 @settings(
@@ -88,17 +92,17 @@ def test_the_nearest_that_can_occur_is_proposed(
     world: World, often: list[int], asked: list[int]
 ) -> None:
     """Whatever was asked before: one finder answers all, twice, and in two orders."""
-    space = [own for own in world.vectors if None not in own]
-    occurrence = Occurrence({own: n for own, n in zip(space, often, strict=True) if n})
+    space = [scene for scene in world.vectors if None not in scene]
+    occurrence = Occurrence({scene: n for scene, n in zip(space, often, strict=True) if n})
     reasoner = Reasoner(world.knowledge, world.schema)
     finder = ChangeFinder(reasoner, occurrence)
-    scenes = [*space, *(own for own in world.vectors if None in own)]
+    scenes = [*space, *(scene for scene in world.vectors if None in scene)]
     questions = [
         (scenes[n % len(scenes)], label) for n in asked for label in CLASSES[world.classes]
     ]
     for vector, label in (*questions, *reversed(questions)):
         found = finder.smallest(vector, label, limit=100)
-        assert {own.vector for own in found} == by_trying(world, occurrence, vector, label)
+        assert {change.vector for change in found} == by_trying(world, occurrence, vector, label)
 
 
 def test_a_scene_of_the_class_needs_no_change_though_it_cannot_be(structures: Domain) -> None:
@@ -107,8 +111,8 @@ def test_a_scene_of_the_class_needs_no_change_though_it_cannot_be(structures: Do
     lone: FeatureVector = ("1", "wide", "yes", "yes")
     assert never.never_together(lone) is not None
     assert reasoner.decide(lone).label == "unstable"
-    (own,) = ChangeFinder(reasoner, never).smallest(lone, "unstable")
-    assert (own.changes, own.vector, own.cost) == ((), lone, 0)
+    (change,) = ChangeFinder(reasoner, never).smallest(lone, "unstable")
+    assert (change.changes, change.vector, change.cost) == ((), lone, 0)
 
 
 def test_an_agent_asks_the_scenes_that_it_knows(structures: Domain) -> None:
@@ -117,15 +121,15 @@ def test_an_agent_asks_the_scenes_that_it_knows(structures: Domain) -> None:
         {"num_blocks": "1", "base": "wide", "lean": "no", "block_displaced": "no"}
     )
     axioms = tuple(
-        own
-        for own in structures.knowledge.axioms
-        if str(own) == "-stable(S) if block_displaced(S)."
+        axiom
+        for axiom in structures.knowledge.axioms
+        if str(axiom) == "-stable(S) if block_displaced(S)."
     )
     assert len(axioms) == 1
     little = replace(structures, knowledge=replace(structures.knowledge, axioms=axioms))
     agent = Agent(little)
     displaced = ("1", "wide", "no", "yes")
-    assert [own.vector for own in agent.reasoned.smallest(lone, "unstable")] == [displaced]
+    assert [change.vector for change in agent.reasoned.smallest(lone, "unstable")] == [displaced]
     others: list[FeatureVector] = [
         (number, "wide", "no", shift) for number in "2345" for shift in ("no", "yes")
     ]
@@ -134,7 +138,7 @@ def test_an_agent_asks_the_scenes_that_it_knows(structures: Domain) -> None:
         ["stable"] * 40 + ["stable", "unstable"] * 40,
         answers=False,
     )
-    found = [own.vector for own in agent.reasoned.smallest(lone, "unstable")]
+    found = [change.vector for change in agent.reasoned.smallest(lone, "unstable")]
     assert found == [("2", "wide", "no", "yes")]
     # That it needs another block, no axiom says: how it differs is what an axiom asks alone.
     differs = Question(Asks.DIFFERENCE_TO_CLASS, "", (), label="unstable")

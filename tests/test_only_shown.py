@@ -18,9 +18,9 @@ VECTOR = ("3", "wide", "no", "no")
 @pytest.fixture(scope="module")
 def agent(structures: Domain) -> Agent:
     """All structures that it was shown stand on a wide base; other features nobody named."""
-    own = Agent(structures)
-    own.extractor = trained(structures)
-    return own
+    taught = Agent(structures)
+    taught.extractor = trained(structures)
+    return taught
 
 
 def trained(structures: Domain) -> FeatureExtractor:

@@ -297,8 +297,8 @@ def test_grows_only_as_far_as_it_must() -> None:
     assert (first.depth, first.epoch, first.epochs) == (1, 1, 4)  # few pictures: 4 times as many
     assert first.message.startswith("count: epoch 1 of 4, ")
     settled = next(event for event in events if event.kind == "settled")
-    own = [e.validation_accuracy for e in events[: events.index(settled)] if e.depth == 1]
-    assert (settled.depth, settled.validation_accuracy) == (1, max(own))
+    accuracies = [e.validation_accuracy for e in events[: events.index(settled)] if e.depth == 1]
+    assert (settled.depth, settled.validation_accuracy) == (1, max(accuracies))
     assert settled.epochs == events[-1].epochs == 16
     grown = next(event for event in events if event.kind == "grown")
     assert grown.message.endswith(
@@ -523,8 +523,8 @@ def test_workers_change_neither_weights_nor_events() -> None:
     assert list(two.networks) == list(one.networks) == ["side", "count"]
     assert two.summary() == one.summary()
     for name in VALUES:
-        own = [event for event in alone if event.feature == name]
-        assert [event for event in together if event.feature == name] == own
+        expected = [event for event in alone if event.feature == name]
+        assert [event for event in together if event.feature == name] == expected
     assert workers() == []
 
 
@@ -817,7 +817,7 @@ def test_a_feature_of_one_value_is_saved_at_its_depth(tmp_path: Path) -> None:
     made.save(tmp_path)
     loaded = FeatureExtractor.load(tmp_path)
     assert made.records["light"].depth == loaded.networks["light"].depth == 3
-    seen = [own.probabilities(pictures)["light"] for own in (made, loaded)]
+    seen = [extractor.probabilities(pictures)["light"] for extractor in (made, loaded)]
     assert np.array_equal(*seen)
 
 

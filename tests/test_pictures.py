@@ -254,8 +254,8 @@ def test_who_runs_the_code_of_a_folder_is_told(run: Run, domain: Domain, tmp_pat
         f"{domain.folder}/pictures.py is a program, which now runs with your rights; run only "
         "those of people whom you trust"
     )
-    own = run("data", "make", "structure_stability", "--out", tmp_path / "own", *two)
-    assert "is a program" not in own.err
+    bundled = run("data", "make", "structure_stability", "--out", tmp_path / "own", *two)
+    assert "is a program" not in bundled.err
 
 
 def test_a_source_in_the_domains_own_folder(tmp_path: Path) -> None:

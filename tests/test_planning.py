@@ -37,11 +37,14 @@ def after(text: str) -> Diagnosis:
 
 
 def surprises(text: str) -> list[tuple[int, str, str]]:
-    return [(own.step, own.kind.value, str(own.what)) for own in after(text).surprises]
+    return [
+        (surprise.step, surprise.kind.value, str(surprise.what))
+        for surprise in after(text).surprises
+    ]
 
 
 def places(diagnosis: Diagnosis) -> list[str]:
-    return [str(own) for own in diagnosis.now.positive("loc")]
+    return [str(fluent) for fluent in diagnosis.now.positive("loc")]
 
 
 def planned(goal: str, text: str = IN_LIBRARY) -> Plan:
@@ -65,7 +68,7 @@ def test_people_are_in_their_offices_until_they_are_seen_elsewhere() -> None:
 
 def test_somebody_observed_absent_is_nowhere_that_is_known() -> None:
     gone = after(SALLY_GONE)
-    assert not [own for own in places(gone) if own.startswith("loc(sally,")]
+    assert not [fluent for fluent in places(gone) if fluent.startswith("loc(sally,")]
     assert surprises(SALLY_GONE) == [(0, "exception", "loc(sally,sallys_office)")]
     assert clingo.parse_term("loc(sally,library)") in gone.now.unknown
 
@@ -99,7 +102,7 @@ def test_a_sensor_may_be_wrong_only_where_that_is_allowed() -> None:
     with pytest.raises(PlanningError, match="nothing that may be assumed explains this history"):
         after(text)
     found = diagnose(OFFICE, history(text), sensors_err=True).surprises
-    assert [own.kind.value for own in found] == ["misread"]
+    assert [surprise.kind.value for surprise in found] == ["misread"]
 
 
 def test_what_nothing_explains_is_named() -> None:
@@ -176,7 +179,7 @@ def test_every_error_of_a_history(kind: str) -> None:
 
 def test_the_problem_of_the_paper() -> None:
     found = planned("message_status(m1, sarah, delivered), loc(rob1, L), loc(sally, L)")
-    assert [str(own) for own in found.actions] == [
+    assert [str(action) for action in found.actions] == [
         "move(rob1,kitchen)",
         "move(rob1,sarahs_office)",
         "deliver(rob1,m1,sarah)",
@@ -184,7 +187,7 @@ def test_the_problem_of_the_paper() -> None:
         "move(rob1,sallys_office)",
     ]
     assert len(found.states) == 6
-    assert [str(own) for own in found.states[2].positive("loc") if "rob1" in str(own)] == [
+    assert [str(fluent) for fluent in found.states[2].positive("loc") if "rob1" in str(fluent)] == [
         "loc(rob1,sarahs_office)"
     ]
 
@@ -205,7 +208,10 @@ def test_a_closed_door_makes_what_is_behind_it_unreachable() -> None:
 
 def test_somebody_unknown_is_supposed_where_the_way_is_shortest() -> None:
     found = planned("message_status(m1, sally, delivered)", SALLY_GONE)
-    assert [str(own) for own in found.actions] == ["move(rob1,kitchen)", "deliver(rob1,m1,sally)"]
+    assert [str(action) for action in found.actions] == [
+        "move(rob1,kitchen)",
+        "deliver(rob1,m1,sally)",
+    ]
 
 
 def test_the_horizon_bounds_the_search() -> None:
@@ -270,7 +276,7 @@ def building(edges: list[tuple[str, str]], locked: list[str]) -> Knowledge:
         "impossible go(L) if not open(L).",
         "impossible take if not at(b).",
         *(f"next_to({one}, {other}). next_to({other}, {one})." for one, other in edges),
-        *(f"locked({own})." for own in locked),
+        *(f"locked({place})." for place in locked),
     ]
     text = "\n".join(lines).replace(
         "open(L) if not locked(L).", "open(L) if place(L), not locked(L)."
@@ -377,7 +383,9 @@ def following(knowledge: Knowledge, before: Beliefs, action: clingo.Symbol) -> s
     """The states that may follow when an action is done, as diagnosis sees it."""
     return answer_states(
         knowledge,
-        " ".join([*(f":- not holds({own}, 0)." for own in before), f"happened({action}, 0)."]),
+        " ".join(
+            [*(f":- not holds({literal}, 0)." for literal in before), f"happened({action}, 0)."]
+        ),
         last=1,
     )
 
@@ -389,26 +397,26 @@ def answer_states(knowledge: Knowledge, text: str, *, last: int) -> set[Beliefs]
     found: set[Beliefs] = set()
     with control.solve(yield_=True) as models:
         for model in models:
-            shown = [own for own in model.symbols(shown=True) if own.name == "holds"]
+            shown = [atom for atom in model.symbols(shown=True) if atom.name == "holds"]
             found.add(
-                frozenset(own.arguments[0] for own in shown if own.arguments[1].number == last)
+                frozenset(atom.arguments[0] for atom in shown if atom.arguments[1].number == last)
             )
     return found
 
 
 def least_actions(knowledge: Knowledge, goal: str, start: State, horizon: int) -> int | None:
     aimed = with_goal(knowledge, read_goal(goal, knowledge))
-    facts = " ".join(f":- not holds({own}, 0)." for own in start.holds)
+    facts = " ".join(f":- not holds({literal}, 0)." for literal in start.holds)
     states = answer_states(aimed, facts, last=0)
-    actions = [clingo.parse_term(own) for own in ("go(a)", "go(b)", "go(c)", "x", "y", "z")]
+    actions = [clingo.parse_term(action) for action in ("go(a)", "go(b)", "go(c)", "x", "y", "z")]
     seen = set(states)
     for steps in range(horizon + 1):
-        if any(clingo.Function(REACHED, []) in own for own in states):
+        if any(clingo.Function(REACHED, []) in state for state in states):
             return steps
         states = {
             after
-            for own, action in itertools.product(states, actions)
-            for after in following(aimed, own, action)
+            for state, action in itertools.product(states, actions)
+            for after in following(aimed, state, action)
         } - seen
         seen |= states
     return None
@@ -440,7 +448,7 @@ def test_plans_are_as_short_as_can_be_in_random_worlds(
     known: Knowledge, goal: str, where: str, seen: list[str], signs: tuple[str, str, str]
 ) -> None:
     past = where + " ".join(
-        f"observed {sign}{own} at 0." for own, sign in zip(seen, signs, strict=False)
+        f"observed {sign}{fluent} at 0." for fluent, sign in zip(seen, signs, strict=False)
     )
     try:
         start = diagnose(known, history(past, known)).now
@@ -453,7 +461,7 @@ def test_plans_are_as_short_as_can_be_in_random_worlds(
     assert len(found.states) == (len(found.actions) + 1 if found.found else 0)
     for before, action, after in zip(found.states, found.actions, found.states[1:], strict=False):
         # What stays unknown may be either way.
-        assert any(after.holds <= own for own in following(known, before.holds, action))
+        assert any(after.holds <= state for state in following(known, before.holds, action))
     if found.found and not found.settles(start):
         assert reaches_whatever_is_unknown(known, goal, start, found.actions)
 

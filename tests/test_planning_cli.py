@@ -38,7 +38,7 @@ def test_a_plan_reads_as_a_list(run: Run) -> None:
 
 def test_a_plan_says_what_it_supposes(run: Run) -> None:
     empty = ("sallys_office", "library", "bobs_office", "johns_office")
-    gone = [part for own in empty for part in ("--observed", f"-loc(sally, {own})")]
+    gone = [part for place in empty for part in ("--observed", f"-loc(sally, {place})")]
     done = run("plan", "robot_assistant", "--goal", "message_status(m1, sally, delivered)", *gone)
     assert timeless(done.out) == (
         "  1. move to the kitchen\n"
@@ -168,7 +168,7 @@ def test_the_same_seed_gives_the_same_run(run: Run) -> None:
 
     def steps(seed: str) -> object:
         found = json.loads(run(*arguments, "--seed", seed).out)
-        return [{**own, "planning_seconds": 0} for own in found["steps"]]
+        return [{**step, "planning_seconds": 0} for step in found["steps"]]
 
     assert steps("3") == steps("3")
 
@@ -331,10 +331,10 @@ def test_an_interrupted_run_is_told_as_far_as_it_came(
     done_before = PlanningEnvironment.step
     steps = itertools.count()
 
-    def step(own: PlanningEnvironment, action: int) -> object:
+    def step(environment: PlanningEnvironment, action: int) -> object:
         if next(steps) == 1:
             raise KeyboardInterrupt
-        return done_before(own, action)
+        return done_before(environment, action)
 
     monkeypatch.setattr(PlanningEnvironment, "step", step)
     page = tmp_path / "run.html"

@@ -79,14 +79,15 @@ def test_a_folder_without_mistakes_is_loaded(tmp_path: Path) -> None:
     )
     assert domain.history.last_step == 0
     assert [
-        (str(own.literal), list(map(str, own.conditions)), own.error) for own in domain.sensing
+        (str(sensing.literal), list(map(str, sensing.conditions)), sensing.error)
+        for sensing in domain.sensing
     ] == [("at(R, L)", ["robot(R)"], 0.0), ("closed(L)", ["at(rob1, L)"], 0.25)]
 
 
 def test_bundled_domains_are_loaded_by_name() -> None:
     names = bundled_planning_domains()
     assert {"robot_assistant", "tower_building"} <= {*names}
-    assert [load_planning_domain(own).name for own in names] == list(names)
+    assert [load_planning_domain(name).name for name in names] == list(names)
 
 
 # Wrong lines of planning.toml: what stands there, what is put there instead, the whole error

@@ -98,7 +98,7 @@ def test_a_run_adds_only_what_is_missing(run: Run, finished: Path) -> None:
     (folder / "trials" / "all-3.json").unlink()
     done = run("experiment", "planning", "--out", finished, *SMALL, "--json")
     assert (done.code, done.err) == (0, "")
-    assert [own["measure"] for own in json.loads(done.out)["ratios"]] == list(MEASURES)
+    assert [ratio["measure"] for ratio in json.loads(done.out)["ratios"]] == list(MEASURES)
     # The same seeds make the same record and the same rows.
     assert (lost.read_bytes(), (folder / "rows.csv").read_bytes()) == (record, rows)
     assert (folder / "learned.al").read_bytes() == learned

@@ -84,11 +84,11 @@ def test_no_drawings_come_before_drawings_or_after_a_model(
     drawing: Domain, few: Dataset, tmp_path: Path
 ) -> None:
     made = make_dataset(drawing, tmp_path / "made", count=24, workers=1)
-    own = Dataset.load(made.folder, drawing)
-    assert is_drawn(own)
+    drawings = Dataset.load(made.folder, drawing)
+    assert is_drawn(drawings)
     assert not is_drawn(few)
     counted: list[int] = []
-    agent = Agent(drawing).fit(own, workers=1, on_picture=counted.append)
+    agent = Agent(drawing).fit(drawings, workers=1, on_picture=counted.append)
     Agent(drawing).fit(few, start_from=agent, workers=1, on_picture=counted.append)
     assert counted == []
 
@@ -126,7 +126,7 @@ def test_what_no_photograph_shows_is_learned_from_drawings(drawing: Domain, few:
     agent = Agent(drawing).fit(without_green, workers=1)
     assert agent.decide({"colour": "green", "round": "yes"}) == "good"
     assert agent.decide({"colour": "green", "round": "no"}) == "bad"
-    counted = sum(sum(own.values()) for own in agent.experience.values())
+    counted = sum(sum(counts.values()) for counts in agent.experience.values())
     assert counted == 40 + len(without_green.of_split("train"))
 
 
@@ -188,11 +188,11 @@ def three(tmp_path: Path) -> Domain:
 
 def labelled(scenes: Dataset, domain: Domain, *labels: str) -> Dataset:
     """The scenes with other classes, in turn."""
-    own = [
+    relabelled = [
         replace(scene, label=labels[n % len(labels)], split=None)
         for n, scene in enumerate(scenes.scenes)
     ]
-    return replace(scenes, domain=domain, scenes=tuple(own))
+    return replace(scenes, domain=domain, scenes=tuple(relabelled))
 
 
 def witness(domain: Domain) -> Agent:
@@ -239,8 +239,8 @@ def test_a_class_was_shown_by_drawings_of_which_the_class_was_learned(
     three: Domain, few: Dataset
 ) -> None:
     odd = labelled(few, three, "odd", "bad")
-    own = witness(three).fit(odd, drawn=24, answers=False, workers=1)
-    assert shown(own) == {"good", "bad", "odd"}
+    taught = witness(three).fit(odd, drawn=24, answers=False, workers=1)
+    assert shown(taught) == {"good", "bad", "odd"}
     features = pretrained(three, count=24, course=Course(workers=1))
     assert set(features.labels) == {"good", "bad"}
     later = witness(three).fit(odd, start_from=features, answers=False, workers=1)

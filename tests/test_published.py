@@ -46,11 +46,11 @@ def row(seed: int, system: str = "a", **more: object) -> Row:
 def test_committed_tables_are_taken_up_to_the_byte(name: Path, tmp_path: Path) -> None:
     folder = tmp_path / name.name
     shutil.copytree(RESULTS / name, folder, ignore=UNTRACKED)
-    own = name.name.partition("-")[0]
-    if own == PLANNING:
+    experiment_name = name.name.partition("-")[0]
+    if experiment_name == PLANNING:
         take_up(folder, fault=planning_fault)
     else:
-        take_up(folder, fault=lambda row: fault(row, experiment(own).measures))
+        take_up(folder, fault=lambda row: fault(row, experiment(experiment_name).measures))
     found = [read_trial(folder, trial) for trial in trials_of(folder / ROWS)]
     rows = [row for trial in found for row in trial or ()]
     assert len(rows) == len((folder / ROWS).read_text().splitlines()) - 1

@@ -152,7 +152,7 @@ def test_what_is_not_above_is_not_searched(
     world: World, sure: dict[str, np.ndarray[Any, Any]], above: float
 ) -> None:
     reasoner = Reasoner(world.knowledge, world.schema)
-    logarithms = [np.log(np.maximum(own[0], 1e-300)) for own in sure.values()]
+    logarithms = [np.log(np.maximum(table[0], 1e-300)) for table in sure.values()]
     best = most_probable_decided(reasoner, logarithms)
     for tried in (0, 100):
         found = most_probable_decided(reasoner, logarithms, above=above, tried=tried)
@@ -162,18 +162,20 @@ def test_what_is_not_above_is_not_searched(
 def test_a_batch_is_read_like_single_pictures(tiles: Domain) -> None:
     generator = np.random.default_rng(0)
     sure = {
-        key: generator.dirichlet(np.ones(len(own.values)), size=50)
-        for key, own in tiles.features.items()
+        key: generator.dirichlet(np.ones(len(feature.values)), size=50)
+        for key, feature in tiles.features.items()
     }
     reasoner = Reasoner(tiles.knowledge, tiles.schema)
     reader = ConsistentReading(
         reasoner, [("green", "yes")], label_of=lambda vector: reasoner.decide(vector).label
     )
     whole = reader.read(sure)
-    for n, own in enumerate(whole):
+    for n, reading in enumerate(whole):
         (single,) = reader.read({key: table[n : n + 1] for key, table in sure.items()})
-        assert (single.vector, single.features) == (own.vector, own.features)
-        assert (single.score, single.probability) == pytest.approx((own.score, own.probability))
+        assert (single.vector, single.features) == (reading.vector, reading.features)
+        assert (single.score, single.probability) == pytest.approx(
+            (reading.score, reading.probability)
+        )
     assert reader.read({key: table[:0] for key, table in sure.items()}) == []
 
 
@@ -186,8 +188,10 @@ def test_which_annotated_vectors_are_open(tiles: Domain) -> None:
     ]
     # An annotated vector with an unknown value is nothing that could be read.
     reader = ConsistentReading(reasoner, [("green", None)], label_of=lambda _: None)
-    (own,) = reader.read({"colour": np.array([[0.1, 0.8, 0.1]]), "round": np.array([[0.5, 0.5]])})
-    assert own.vector[0] != "green"
+    (reading,) = reader.read(
+        {"colour": np.array([[0.1, 0.8, 0.1]]), "round": np.array([[0.5, 0.5]])}
+    )
+    assert reading.vector[0] != "green"
 
 
 def test_contradictory_vectors_are_never_read(tmp_path: Path) -> None:
@@ -222,7 +226,7 @@ class Networks:
             self.rows[CLASS] = np.array([classes])
 
     def probabilities(self, pictures: np.ndarray[Any, Any]) -> dict[str, np.ndarray[Any, Any]]:
-        return {key: own.repeat(len(pictures), axis=0) for key, own in self.rows.items()}
+        return {key: row.repeat(len(pictures), axis=0) for key, row in self.rows.items()}
 
     def shown(self, name: str) -> frozenset[str]:
         return self.witnessed if name == CLASS else frozenset()
@@ -271,7 +275,7 @@ def test_argmax_reads_what_the_paper_reads(certain_reds: Domain) -> None:
     agent = agent_seeing(certain_reds, *BLUE_AND_ROUND)
     scene = agent.classify(draw_tile("blue", "no", 0))
     assert scene.vector == ("blue", "yes")
-    assert [own.overruled for own in scene.features.values()] == [None, None]
+    assert [reading.overruled for reading in scene.features.values()] == [None, None]
     assert (scene.method, scene.verdict) == ("tree", "silent")
     # By hand: red, and by the tree green and round, blue and round.
     assert scene.probability == pytest.approx(0.3 + 0.15 * 0.6 + 0.55 * 0.6)
@@ -473,8 +477,10 @@ def test_the_network_of_the_class_is_trained_and_kept(
     assert list(agent_with_class.extractor.networks) == ["colour", "round", "class"]
     assert agent_with_class.extractor.values["class"] == ("good", "bad")
     pictures = dataset.pictures(16)
-    own, plain = (each.extractor.probabilities(pictures) for each in (agent_with_class, agent))
-    assert all(np.array_equal(own[key], plain[key]) for key in plain)
+    with_class, plain = (
+        each.extractor.probabilities(pictures) for each in (agent_with_class, agent)
+    )
+    assert all(np.array_equal(with_class[key], plain[key]) for key in plain)
     agent_with_class.save(tmp_path / "model")
     loaded = Agent.load(tmp_path / "model")
     assert loaded.extractor is not None
@@ -595,7 +601,7 @@ def test_uncertain_training_scenes_train_the_tree(agent: Agent, dataset: Dataset
     again = Agent(agent.domain, seed=3, gate=1.0).fit(dataset, start_from=agent)
     assert sum(path.support for path in again.tree.paths()) == 40
     assert sum(path.support for path in agent.tree.paths()) == 22
-    assert {own.method for own in again.classify_all(dataset.pictures(16))} == {"tree"}
+    assert {scene.method for scene in again.classify_all(dataset.pictures(16))} == {"tree"}
 
 
 # On disk ------------------------------------------------------------------------------------

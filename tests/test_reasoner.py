@@ -55,7 +55,8 @@ SCENE = ("yes", "light", "2")
 @thorough
 def test_every_scene_is_decided_by_the_book(world: World) -> None:
     reasoners = {
-        own: Reasoner(world.knowledge, world.schema, minimality=own) for own in MINIMALITIES
+        minimality: Reasoner(world.knowledge, world.schema, minimality=minimality)
+        for minimality in MINIMALITIES
     }
     for (minimality, reasoner), vector in product(reasoners.items(), world.vectors):
         decision = reasoner.decide(vector)
@@ -92,7 +93,8 @@ def test_deciding_all_is_deciding_each_in_any_order(world: World) -> None:
 @thorough
 def test_the_answer_set_is_a_preferred_one(world: World) -> None:
     reasoners = {
-        own: Reasoner(world.knowledge, world.schema, minimality=own) for own in MINIMALITIES
+        minimality: Reasoner(world.knowledge, world.schema, minimality=minimality)
+        for minimality in MINIMALITIES
     }
     for (minimality, reasoner), vector in product(reasoners.items(), world.vectors[::3]):
         found = reasoner.answer_set(vector)
@@ -111,7 +113,7 @@ def test_the_answer_set_is_a_preferred_one(world: World) -> None:
             assert given_up in world.exceptions(vector, minimality)
         shared = frozenset.intersection(*preferred) if preferred else beliefs
         assert frozenset(map(str, reasoner.believed(vector))) == shared
-        every = {frozenset(map(str, own.holds)) for own in reasoner.answer_sets(vector)}
+        every = {frozenset(map(str, beliefs.holds)) for beliefs in reasoner.answer_sets(vector)}
         assert every == (set(preferred) or {beliefs})
         fired = {name for name, instances in found.firings.items() if instances}
         assert fired == {

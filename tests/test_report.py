@@ -99,14 +99,14 @@ def test_the_tree_as_a_figure(agent: Agent) -> None:
 
 def test_a_tree_with_unknown_values_is_drawn(tiles: Domain) -> None:
     """A branch that only an unknown value takes says so."""
-    tree = DecisionTree({key: own.values for key, own in tiles.features.items()})
+    tree = DecisionTree({key: feature.values for key, feature in tiles.features.items()})
     scenes = [("red", "no"), ("green", "no"), ("blue", "no"), (None, "no")] * 5
     tree.fit(scenes, ["good", "good", "good", "bad"] * 5)
     assert "not known" in texts(draw_tree(tiles, tree))
 
 
 def test_no_tree_as_a_figure(tiles: Domain) -> None:
-    tree = DecisionTree({key: own.values for key, own in tiles.features.items()})
+    tree = DecisionTree({key: feature.values for key, feature in tiles.features.items()})
     assert " ".join(texts(draw_tree(tiles, tree))) == (
         "No training scene is left for it: there is no tree."
     )
@@ -158,8 +158,8 @@ def page(agent: Agent, dataset: Dataset) -> str:
 def _answered(agent: Agent, dataset: Dataset) -> list[tuple[object, list[Reply]]]:
     answered = []
     for scene in dataset.scenes[:3]:
-        own = agent.classify(scene.picture)
-        replies = [agent.answer(own, q) for q in agent.questions.one_of_each()]
+        classified = agent.classify(scene.picture)
+        replies = [agent.answer(classified, q) for q in agent.questions.one_of_each()]
         question = replace(replies[0].question, text="is <b>it</b> & 'that' <script>")
         answered.append((scene, [replace(replies[0], question=question), *replies[1:]]))
     return answered
@@ -212,9 +212,9 @@ def test_a_title_is_escaped(agent: Agent, dataset: Dataset, tmp_path: Path) -> N
     from conftest import DOMAIN
 
     text = DOMAIN.replace('title = "Tiles"', 'title = "<i>Tiles</i> & more"')
-    own = load_domain(write_domain(tmp_path / "tiles", domain=text))
+    titled = load_domain(write_domain(tmp_path / "tiles", domain=text))
     evaluation = evaluate(agent, dataset, questions_per_scene=1)
-    other = Agent(own)
+    other = Agent(titled)
     other.extractor, other.tree = agent.extractor, agent.tree
     page = report_page(other, evaluation, [], command="seewhy")
     assert "<h1>&lt;i&gt;Tiles&lt;/i&gt; &amp; more</h1>" in page

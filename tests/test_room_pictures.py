@@ -45,7 +45,9 @@ def test_shape_type_and_features() -> None:
         assert picture.dtype == np.uint8
         assert tuple(features) == NAMES
         assert set(features.values()) == {"yes", "no"}
-        assert label == ("occupied" if "yes" in [features[own] for own in PEOPLE] else "empty")
+        assert label == (
+            "occupied" if "yes" in [features[person] for person in PEOPLE] else "empty"
+        )
 
 
 def test_a_larger_size_shows_the_same_room() -> None:
@@ -116,21 +118,21 @@ def test_things_stand_beside_each_other_within_the_walls() -> None:
     for seed in range(8):
         room = furnished(OBJECTS, PEOPLE, np.random.default_rng(seed))
         assert room.names == set(NAMES)
-        standing = [own for own in room.placed if own.z == 0.0]
+        standing = [placed for placed in room.placed if placed.z == 0.0]
         assert not any(one.overlaps(other) for one, other in combinations(standing, 2))
-        for own in standing:
-            wide, deep = own.reach
-            assert abs(own.x) + wide <= room.width / 2.0 + 1e-9
-            assert abs(own.y) + deep <= room.depth / 2.0 + 1e-9
+        for placed in standing:
+            wide, deep = placed.reach
+            assert abs(placed.x) + wide <= room.width / 2.0 + 1e-9
+            assert abs(placed.y) + deep <= room.depth / 2.0 + 1e-9
 
 
 def test_small_things_stand_on_the_desk_where_there_is_one() -> None:
     room = furnished({"desk", *ON_TOP}, set(), np.random.default_rng(2))
-    at = {own.thing.name: own for own in room.placed}
+    at = {placed.thing.name: placed for placed in room.placed}
     for name in ON_TOP:
         assert at[name].z == at["desk"].thing.top
     room = furnished({"computer"}, set(), np.random.default_rng(2))
-    assert [own.z > 0.0 for own in room.placed if own.thing.name == "computer"] == [True]
+    assert [placed.z > 0.0 for placed in room.placed if placed.thing.name == "computer"] == [True]
 
 
 def test_views_light_and_looks_differ() -> None:

@@ -168,7 +168,7 @@ def written(folder: Path, **texts: str) -> Path:
         "history.al": "observed at(rob1, hall) at 0.\n",
     }
     names = {"planning": "planning.toml", "domain": "domain.toml", "pictures": "pictures.py"}
-    for name, text in {**files, **{names[key]: own for key, own in texts.items()}}.items():
+    for name, text in {**files, **{names[key]: text for key, text in texts.items()}}.items():
         (folder / name).write_text(text, encoding="utf-8")
     return folder
 
@@ -206,12 +206,12 @@ def term(text: str) -> clingo.Symbol:
 def test_one_folder_sees_and_plans(folder: Path, house: PlanningDomain) -> None:
     assert list(load_domain(folder).features) == ["lit", "cat"]
     assert "view" not in house.knowledge.signature.sorts
-    assert {str(own.literal) for own in house.shows.values()} == {"bright(L)", "cat_in(L)"}
+    assert {str(shown.literal) for shown in house.shows.values()} == {"bright(L)", "cat_in(L)"}
 
 
 def test_a_look_is_about_the_place_where_the_robot_is(sight: Sight) -> None:
     about = sight.about(frozenset({term("at(rob1,cellar)"), term("cat_in(attic)")}))
-    assert {key: str(own) for key, own in about.items()} == {
+    assert {key: str(fluent) for key, fluent in about.items()} == {
         "lit": "bright(cellar)",
         "cat": "cat_in(cellar)",
     }
@@ -246,7 +246,7 @@ class Blinking(Sight):
         self.looks += 1
         if self.looks != 2:
             return look
-        wrong = {own: holds != (own.name == "bright") for own, holds in look.read.items()}
+        wrong = {fluent: holds != (fluent.name == "bright") for fluent, holds in look.read.items()}
         return replace(look, read=wrong)
 
 
@@ -255,13 +255,13 @@ def test_a_wrong_reading_is_diagnosed_asked_about_and_not_recorded(
 ) -> None:
     # The robot does not get away from the hall, whose light changes by nothing.
     stuck = "visit = 0.0\n\n[simulation.failures]\ngo = 1.0"
-    own = written(tmp_path / "stuck", planning=PLANNING.replace("visit = 0.2", stuck))
-    domain = load_planning_domain(own)
+    home = written(tmp_path / "stuck", planning=PLANNING.replace("visit = 0.2", stuck))
+    domain = load_planning_domain(home)
     sight = Blinking(domain, Agent.load(model))
     away = read_goal("at(rob1, cellar)", domain.knowledge)
     *_, last = simulate(domain, away, seed=0, sight=sight, most_steps=2)
     (wrong,) = last.looks[1].misread
-    found = [own for step in last.run.steps for own in step.surprises]
+    found = [surprise for step in last.run.steps for surprise in step.surprises]
     assert (1, SurpriseKind.MISREADING, wrong.name) in {
         (one.step, one.kind, one.what.name) for one in found
     }
@@ -298,22 +298,22 @@ def test_what_pictures_show_is_checked(tmp_path: Path, planning: str, said: str)
 
 def test_only_features_of_yes_and_no_are_fluents(tmp_path: Path) -> None:
     lamp = FEATURE.format(key="lamp").replace("yes = ", "red = ").replace("no = ", "blue = ")
-    own = written(
+    home = written(
         tmp_path / "house",
         domain=DOMAIN + lamp,
         planning=PLANNING.replace('lit = "bright(L)"', 'lamp = "bright(L)"'),
     )
     with pytest.raises(DomainError, match="'lamp' has the values red, blue; only one of yes and"):
-        load_planning_domain(own)
+        load_planning_domain(home)
 
 
 def test_pictures_need_a_domain_of_pictures(tmp_path: Path) -> None:
-    own = written(tmp_path / "house")
-    (own / "domain.toml").unlink()
+    home = written(tmp_path / "house")
+    (home / "domain.toml").unlink()
     text = KNOWLEDGE.replace("#sort view.", "#sort view = {v}.")
-    (own / "knowledge.al").write_text(text, encoding="utf-8")
+    (home / "knowledge.al").write_text(text, encoding="utf-8")
     with pytest.raises(DomainError, match=r"the folder has no domain\.toml"):
-        load_planning_domain(own)
+        load_planning_domain(home)
 
 
 def test_a_model_of_another_domain_cannot_see(house: PlanningDomain, agent: Agent) -> None:
@@ -327,13 +327,13 @@ def test_a_robot_of_which_nothing_says_what_pictures_show_cannot_see(agent: Agen
 
 
 def test_a_picture_of_two_places_is_refused(tmp_path: Path, model: Path) -> None:
-    own = written(
+    home = written(
         tmp_path / "house",
         planning=PLANNING.replace(
             '[pictures]\nwhere = "at(rob1, L)"', '[pictures]\nwhere = "room(L)"'
         ),
     )
-    sight = Sight(load_planning_domain(own), Agent.load(model))
+    sight = Sight(load_planning_domain(home), Agent.load(model))
     with pytest.raises(PlanningError, match="a picture is of one place"):
         sight.about(frozenset({term("at(rob1,hall)")}))
 

@@ -28,8 +28,8 @@ def drawn(**changes: str) -> Face:
     return face({**STOP, **changes}, rng=np.random.default_rng(0))
 
 
-def corners(own: Face) -> NDArray[np.float64]:
-    return np.ptp(own.outline, axis=0)
+def corners(sign: Face) -> NDArray[np.float64]:
+    return np.ptp(sign.outline, axis=0)
 
 
 def test_a_picture_depends_on_its_numbers_only() -> None:
@@ -51,9 +51,9 @@ def test_sixty_two_pictures_show_every_class_once_with_the_features_of_the_table
 def test_the_table_and_the_domain_speak_of_the_same_classes_and_values() -> None:
     domain = load_domain("traffic_signs")
     assert list(signs()) == list(domain.classes)
-    for own in signs().values():
-        assert own.keys() == domain.features.keys()
-        assert all(own[key] in feature.values for key, feature in domain.features.items())
+    for features in signs().values():
+        assert features.keys() == domain.features.keys()
+        assert all(features[key] in feature.values for key, feature in domain.features.items())
 
 
 def test_pictures_are_cut_out_close_around_the_sign() -> None:
@@ -100,8 +100,8 @@ def test_every_symbol_and_every_cross_adds_to_the_face() -> None:
 
 
 def test_symbols_stay_on_the_plate() -> None:
-    for label, own in signs().items():
-        shown = face(own, rng=np.random.default_rng(2), variant=label)
+    for label, features in signs().items():
+        shown = face(features, rng=np.random.default_rng(2), variant=label)
         low, high = shown.outline.min(axis=0), shown.outline.max(axis=0)
         for patch in shown.patches:
             assert (patch.points >= low - 0.03).all(), label

@@ -24,14 +24,14 @@ tables = st.lists(st.tuples(vectors, st.sampled_from(CLASSES)), min_size=1, max_
 
 
 def sufficiency(scenes: Scenes, *, decided: str | None = None) -> Sufficiency:
-    experience = experience_of([own for own, _ in scenes], [label for _, label in scenes])
+    experience = experience_of([vector for vector, _ in scenes], [label for _, label in scenes])
     return Sufficiency(experience, FEATURES, decide=lambda _: decided)
 
 
 def share(scenes: Scenes, values: frozenset[tuple[str, str]], label: str) -> float | None:
     labels = [
-        own
-        for vector, own in scenes
+        annotated
+        for vector, annotated in scenes
         if all(vector[FEATURES.index(feature)] == value for feature, value in values)
     ]
     return labels.count(label) / len(labels) if labels else None
@@ -39,15 +39,15 @@ def share(scenes: Scenes, values: frozenset[tuple[str, str]], label: str) -> flo
 
 def subsets(values: frozenset[tuple[str, str]]) -> Iterator[frozenset[tuple[str, str]]]:
     for kept in product((True, False), repeat=len(values)):
-        yield frozenset(own for own, keep in zip(sorted(values), kept, strict=True) if keep)
+        yield frozenset(value for value, keep in zip(sorted(values), kept, strict=True) if keep)
 
 
 @given(tables, vectors, st.sampled_from(CLASSES))
 def test_what_suffices_is_what_counting_says(
     scenes: Scenes, vector: tuple[str, str, str], label: str
 ) -> None:
-    own = sufficiency(scenes)
-    scene = own.values(vector)
+    judge = sufficiency(scenes)
+    scene = judge.values(vector)
     most, least = share(scenes, scene, label), share(scenes, frozenset(), label)
     for reason in subsets(scene):
         said = share(scenes, reason, label)
@@ -58,26 +58,26 @@ def test_what_suffices_is_what_counting_says(
             and most > least
             and said - least >= ENOUGH * (most - least)
         )
-        assert own.suffices(reason, scene, frozenset({label})) is enough
+        assert judge.suffices(reason, scene, frozenset({label})) is enough
 
 
 @given(tables, vectors)
 def test_all_values_suffice_where_any_do_and_none_never_does(
     scenes: Scenes, vector: tuple[str, str, str]
 ) -> None:
-    own = sufficiency(scenes)
-    scene = own.values(vector)
+    judge = sufficiency(scenes)
+    scene = judge.values(vector)
     for label in CLASSES:
-        some = any(own.suffices(reason, scene, frozenset({label})) for reason in subsets(scene))
-        assert own.suffices(scene, scene, frozenset({label})) is some
-        assert not own.suffices(frozenset(), scene, frozenset({label}))
+        some = any(judge.suffices(reason, scene, frozenset({label})) for reason in subsets(scene))
+        assert judge.suffices(scene, scene, frozenset({label})) is some
+        assert not judge.suffices(frozenset(), scene, frozenset({label}))
 
 
 @given(tables, vectors, vectors, st.sampled_from(CLASSES))
 def test_what_changes_lead_to_is_what_most_scenes_are(
     scenes: Scenes, vector: tuple[str, str, str], after: tuple[str, str, str], decided: str
 ) -> None:
-    own = sufficiency(scenes, decided=decided)
+    judge = sufficiency(scenes, decided=decided)
     changes = tuple(
         (feature, new)
         for feature, old, new in zip(FEATURES, vector, after, strict=True)
@@ -86,7 +86,7 @@ def test_what_changes_lead_to_is_what_most_scenes_are(
     counts = Counter(label for other, label in scenes if other == after)
     for label in CLASSES:
         most = 2 * counts[label] > counts.total() if counts else label == decided
-        assert own.leads_to(vector, changes, label) is (bool(changes) and most)
+        assert judge.leads_to(vector, changes, label) is (bool(changes) and most)
 
 
 # Answers -----------------------------------------------------------------------------------------
@@ -182,7 +182,7 @@ def test_why_not_one_of_many_classes_is_about_that_class() -> None:
         [("circle", "red"), ("circle", "blue"), ("triangle", "red"), ("triangle", "blue")] * 5,
         ["forbidden", "ordered", "danger", "works"] * 5,
     )
-    own = Sufficiency(experience, ("shape", "colour"), decide=lambda _: None)
+    judge = Sufficiency(experience, ("shape", "colour"), decide=lambda _: None)
     seen = {"shape": "circle", "colour": "red"}
 
     def enough(mentions: tuple[str, ...], *, label: str) -> bool:
@@ -190,7 +190,7 @@ def test_why_not_one_of_many_classes_is_about_that_class() -> None:
         kind = AnswerType("against", mentions)
         return answer_suffices(
             kind, kind, question, ("circle", "red"), "forbidden", seen=seen, strict=False,
-            sufficiency=own,
+            sufficiency=judge,
         )  # fmt: skip
 
     assert enough(("shape",), label="danger")

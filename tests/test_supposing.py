@@ -59,17 +59,19 @@ def test_other_classes_are_as_probable_as_all_their_candidates_together(
     names = list(world.schema.classes)
     given_shares: dict[FeatureVector, dict[str, float]] = {}
     for number, vector in enumerate(opened):
-        own = parts[3 * (number % 4) :][: len(names)]
-        if sum(own):
-            given_shares[vector] = {n: p / sum(own) for n, p in zip(names, own, strict=True)}
+        portions = parts[3 * (number % 4) :][: len(names)]
+        if sum(portions):
+            given_shares[vector] = {
+                n: p / sum(portions) for n, p in zip(names, portions, strict=True)
+            }
 
     def shares(vector: FeatureVector) -> dict[str, float]:
         label = reasoner.decide(vector).label
         return {label: 1.0} if label is not None else given_shares.get(vector, {})
 
     def label_of(vector: FeatureVector) -> str | None:
-        own = shares(vector)
-        return max(own, key=lambda name: own[name]) if own else None
+        by_class = shares(vector)
+        return max(by_class, key=lambda name: by_class[name]) if by_class else None
 
     weights = dict(zip(names, seen_classes, strict=False))
     sure = {**sure, CLASS: np.array([[weights[n] / sum(weights.values()) for n in names]])}
@@ -95,21 +97,23 @@ def test_other_classes_are_as_probable_as_all_their_candidates_together(
     if not candidates or total < 1e-200:
         return
     probable = {
-        name: sum(own for (label, _), own in pairs.items() if label == name) / total
+        name: sum(probability for (label, _), probability in pairs.items() if label == name) / total
         for name in names
     }
     read = label_of(found.vector)
     expected = {n: p for n, p in probable.items() if n != read and p >= least * (1 + 1e-9)}
-    certain = {own.label: own for own in found.others if probable[own.label] >= least * (1 + 1e-9)}
+    certain = {
+        other.label: other for other in found.others if probable[other.label] >= least * (1 + 1e-9)
+    }
     assert certain.keys() == expected.keys()
-    for own in certain.values():
-        assert own.probability == pytest.approx(expected[own.label])
-        best = max(p for (label, _), p in pairs.items() if label == own.label)
-        assert pairs[own.label, own.vector] == pytest.approx(best)
-        assert tuple(reading.value for reading in own.features.values()) == own.vector
-    order = [own.probability for own in found.others]
+    for other in certain.values():
+        assert other.probability == pytest.approx(expected[other.label])
+        best = max(p for (label, _), p in pairs.items() if label == other.label)
+        assert pairs[other.label, other.vector] == pytest.approx(best)
+        assert tuple(reading.value for reading in other.features.values()) == other.vector
+    order = [other.probability for other in found.others]
     assert order == sorted(order, reverse=True)
-    assert read not in {own.label for own in found.others}
+    assert read not in {other.label for other in found.others}
 
 
 # Answers ------------------------------------------------------------------------------------
@@ -223,7 +227,7 @@ def test_what_the_tree_is_in_doubt_about_may_be_otherwise(
     doubtful = Agent(agent.given, seed=3, reading=reading)
     vectors = list(dataset.vectors)
     labels = list(dataset.labels)
-    open_ones = [n for n, own in enumerate(vectors) if own == ("green", "yes")]
+    open_ones = [n for n, vector in enumerate(vectors) if vector == ("green", "yes")]
     for n in open_ones[::3]:
         labels[n] = "bad" if labels[n] == "good" else "good"
     doubtful.fit_induction(vectors, labels)
@@ -252,7 +256,7 @@ def test_below_the_gate_the_tree_alone_is_in_doubt(agent: Agent, dataset: Datase
     """The knowledge, which decides blue tiles, is not asked about them."""
     gated = Agent(agent.given, seed=3, gate=1.0)
     vectors, labels = list(dataset.vectors), list(dataset.labels)
-    blue = [n for n, own in enumerate(vectors) if own == ("blue", "no")]
+    blue = [n for n, vector in enumerate(vectors) if vector == ("blue", "no")]
     for n in blue[::3]:
         labels[n] = "good"
     gated.fit_induction(vectors, labels, uncertain=range(len(vectors)))
@@ -260,12 +264,16 @@ def test_below_the_gate_the_tree_alone_is_in_doubt(agent: Agent, dataset: Datase
     scene = gated.classify(draw_tile("blue", "no", 1))
     assert (scene.method, scene.verdict) == ("tree", "uncertain")
     shares = gated.tree.probability(scene.vector)
-    assert {own.label: own.probability for own in scene.otherwise} == {
+    assert {presumed.label: presumed.probability for presumed in scene.otherwise} == {
         label: share for label, share in shares.items() if label != scene.label and share >= 0.1
     }
     assert scene.otherwise
-    for own in scene.otherwise:
-        assert (own.method, own.verdict, own.vector) == ("tree", "uncertain", scene.vector)
+    for presumed in scene.otherwise:
+        assert (presumed.method, presumed.verdict, presumed.vector) == (
+            "tree",
+            "uncertain",
+            scene.vector,
+        )
 
 
 def test_an_evaluation_asks_whatever_the_class_is_and_is_not_believed(
@@ -276,10 +284,10 @@ def test_an_evaluation_asks_whatever_the_class_is_and_is_not_believed(
 
     def doubting(pictures: np.ndarray[Any, Any]) -> list[Classification]:
         found = classify(pictures)
-        other = {own.label: own for own in found}
+        other = {scene.label: scene for scene in found}
         return [
-            replace(own, otherwise=tuple(o for label, o in other.items() if label != own.label))
-            for own in found
+            replace(scene, otherwise=tuple(o for label, o in other.items() if label != scene.label))
+            for scene in found
         ]
 
     monkeypatch.setattr(agent, "classify_all", doubting)
@@ -298,13 +306,13 @@ def test_with_many_classes_little_suffices_for_who_names_one() -> None:
     assert agent.settings.believed_from(agent.domain) == pytest.approx(0.1 / (0.1 + 0.9 * 61))
     structures = load_domain("structure_stability")
     assert Agent(structures).settings.believed_from(structures) == pytest.approx(0.1)
-    first, second, third = (replace(own, probability=0.04) for own in scenes_of(agent)[:3])
+    first, second, third = (replace(decided, probability=0.04) for decided in scenes_of(agent)[:3])
     scene = replace(first, probability=0.92, otherwise=(second, third))
 
     def supposed(question: str) -> Classification | None:
         return agent.answer(scene, agent.questions.understand(question)).supposed
 
-    said = [agent.domain.classes[own.label or ""].say for own in (first, third)]
+    said = [agent.domain.classes[decided.label or ""].say for decided in (first, third)]
     assert supposed(f"why is it {said[1]}?") is third
     assert supposed(f"why is it not {said[0]}?") is None
     scene = replace(scene, otherwise=(replace(second, probability=0.06), third))
@@ -314,7 +322,7 @@ def test_with_many_classes_little_suffices_for_who_names_one() -> None:
 def scenes_of(agent: Agent) -> list[Classification]:
     """Scenes of different classes that the knowledge decides."""
     vectors = decided_vectors(agent.reasoner, limit=1000) or ()
-    found = {own.label: own for own in (seen(agent, *vector) for vector in vectors)}
+    found = {scene.label: scene for scene in (seen(agent, *vector) for vector in vectors)}
     return list(found.values())
 
 
@@ -382,7 +390,7 @@ def class_probabilities(
             found[label] += probability * shares.get(label, 0.0) * weight
             total += probability * shares.get(label, 0.0) * weight
         total += 0.0 if shares else probability
-    return {label: own / total for label, own in found.items()}
+    return {label: portion / total for label, portion in found.items()}
 
 
 @pytest.fixture(scope="module")
@@ -429,7 +437,7 @@ def test_nothing_is_supposed_silently_however_pictures_are_read(
         assert presumed.probability == pytest.approx(probable[presumed.label or ""], abs=2e-3)
         assert (presumed.probability or 0.0) >= agent.settings.believed_from(agent.domain)
     assert scene.probability == pytest.approx(probable[scene.label], abs=2e-3)
-    other = sum(own for label, own in probable.items() if label != scene.label)
+    other = sum(probability for label, probability in probable.items() if label != scene.label)
     presumes_another = (question.asks is Asks.WHY_CLASS and question.label != scene.label) or (
         question.asks in (Asks.WHY_NOT_CLASS, Asks.CHANGE_TO_CLASS, Asks.DIFFERENCE_TO_CLASS)
         and question.label == scene.label
@@ -501,8 +509,8 @@ def test_the_classes_of_a_picture_read_feature_by_feature(data: st.DataObject) -
         return {names[0]: 0.7, names[1]: 0.3} if vector[0] == "yes" else {}
 
     def label_of(vector: FeatureVector) -> str | None:
-        own = shares(vector)
-        return max(own, key=lambda name: own[name]) if own else None
+        by_class = shares(vector)
+        return max(by_class, key=lambda name: by_class[name]) if by_class else None
 
     (alone,) = read_separately(world.schema, sure)
     (found,) = with_class_shares(
@@ -519,7 +527,8 @@ def test_the_classes_of_a_picture_read_feature_by_feature(data: st.DataObject) -
         for name, share in shares(vector).items()
     }
     probable = {
-        name: sum(own for (label, _), own in pairs.items() if label == name) for name in names
+        name: sum(probability for (label, _), probability in pairs.items() if label == name)
+        for name in names
     }
     read = label_of(alone.vector)
     assert (found.vector, found.features, found.score) == (
@@ -531,17 +540,17 @@ def test_the_classes_of_a_picture_read_feature_by_feature(data: st.DataObject) -
         alone.probability if read is None else probable[read], abs=1.1e-3
     )
     expected = {n for n, p in probable.items() if n != read and p >= least + 2e-3 and least < 1.0}
-    others = {own.label: own for own in found.others}
+    others = {other.label: other for other in found.others}
     assert expected <= others.keys() <= {n for n, p in probable.items() if p >= least - 1e-9}
-    for own in found.others:
-        assert own.probability == pytest.approx(probable[own.label], abs=1.1e-3)
-        best = max(p for (label, _), p in pairs.items() if label == own.label)
-        assert pairs[own.label, own.vector] == pytest.approx(best)
-        for (key, reading), value in zip(own.features.items(), own.vector, strict=True):
+    for other in found.others:
+        assert other.probability == pytest.approx(probable[other.label], abs=1.1e-3)
+        best = max(p for (label, _), p in pairs.items() if label == other.label)
+        assert pairs[other.label, other.vector] == pytest.approx(best)
+        for (key, reading), value in zip(other.features.items(), other.vector, strict=True):
             assert reading.value == value
             assert reading.probability == sure[key][0, VALUES[key].index(value or "")]
             assert (reading.overruled is None) == (reading.probability == sure[key].max())
-    order = [own.probability for own in found.others]
+    order = [other.probability for other in found.others]
     assert order == sorted(order, reverse=True)
 
 
@@ -554,4 +563,4 @@ def test_more_vectors_than_are_looked_at_make_no_class_more_probable() -> None:
     }
     (reading,) = agent.reading_by.read(even, "argmax")
     assert reading.probability < 0.05
-    assert sum(own.probability for own in reading.others) < 0.05
+    assert sum(other.probability for other in reading.others) < 0.05

@@ -27,7 +27,10 @@ def after(text: str) -> Diagnosis:
 
 
 def surprises(text: str) -> list[tuple[int, str, str]]:
-    return [(own.step, own.kind.value, str(own.what)) for own in after(text).surprises]
+    return [
+        (surprise.step, surprise.kind.value, str(surprise.what))
+        for surprise in after(text).surprises
+    ]
 
 
 def planned(goal: str, text: str = AT_FIRST, *, horizon: int = 24) -> Plan:
@@ -131,7 +134,7 @@ def test_heavy_boxes_go_below_light_ones() -> None:
 def test_nothing_unstable_stands_on_the_way(goal: str) -> None:
     for state in planned(goal).states:
         assert names(state, "unstable") == set()
-        placed = {str(own.arguments[0]) for own in state.positive("on")}
+        placed = {str(fluent.arguments[0]) for fluent in state.positive("on")}
         assert names(state, "stable") == {f"stable({box})" for box in placed}
 
 
@@ -152,7 +155,7 @@ UNSTABLE = {
 def test_what_would_not_stand_is_known(stack: str) -> None:
     literals, expected = UNSTABLE[stack]
     seen = literals.replace(") ", ")|").split("|")
-    state = after("".join(f"observed {own} at 0. " for own in seen)).now
+    state = after("".join(f"observed {literal} at 0. " for literal in seen)).now
     assert names(state, "unstable") == {f"unstable({box})" for box in expected}
 
 
@@ -206,4 +209,6 @@ def test_the_robot_builds_a_tower_in_the_simulated_world() -> None:
     goal = read_goal("tower_of(3)", KNOWLEDGE)
     *_, last = simulate(DOMAIN, goal, seed=3)
     assert last.achieved
-    assert not any(own.name == "unstable" and own.positive for w in last.worlds for own in w)
+    assert not any(
+        literal.name == "unstable" and literal.positive for w in last.worlds for literal in w
+    )

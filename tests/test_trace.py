@@ -186,7 +186,7 @@ def test_bad_input(traced: Tracing, run: Run, model_folder: Path, tmp_path: Path
 
 
 def part(found: Trace, name: str) -> str:
-    sections = dict(own.split("\n", 1) for own in found.to_text().split("\n\n"))
+    sections = dict(section.split("\n", 1) for section in found.to_text().split("\n\n"))
     return sections[name]
 
 

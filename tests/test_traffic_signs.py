@@ -90,14 +90,17 @@ def classified_vectors() -> dict[FeatureVector, list[str]]:
 
     The knowledge has no defaults and no choices of its own: one answer set for every vector.
     """
-    literals = "; ".join(f"holds({own.literal})" for own in DOMAIN.classes.values())
+    literals = "; ".join(f"holds({scene_class.literal})" for scene_class in DOMAIN.classes.values())
     program = [
         program_text(DOMAIN.knowledge, DOMAIN.schema),
         ":- not strict.",
         f":- observed(_, {UNKNOWN}).",
         f":- not 1 {{ {literals} }} 1.",
         "#show observed/2.",
-        *(f"#show {name} : holds({own.literal})." for name, own in DOMAIN.classes.items()),
+        *(
+            f"#show {name} : holds({scene_class.literal})."
+            for name, scene_class in DOMAIN.classes.items()
+        ),
     ]
     control = clingo.Control(["0", "--warn=none"])
     control.add("base", [], "\n".join(program))
@@ -119,8 +122,8 @@ def classified_vectors() -> dict[FeatureVector, list[str]]:
 
 def test_the_domain_has_the_values_and_classes_of_the_table() -> None:
     assert list(DOMAIN.classes) == list(TABLE)
-    for feature, own in DOMAIN.features.items():
-        assert set(own.values) == {row[feature] for row in TABLE.values()}
+    for feature, declared in DOMAIN.features.items():
+        assert set(declared.values) == {row[feature] for row in TABLE.values()}
     assert len(set(ROWS.values())) == 62
 
 
@@ -152,8 +155,8 @@ def test_an_axiom_rests_on_the_fewest_features_that_tell_its_class(name: str) ->
 def test_a_class_that_is_left_open_has_a_value_of_its_own() -> None:
     """Where all its values occur in other signs, a class is known before it is ever seen."""
     for name in LEFT_OPEN:
-        own = [f for f in FEATURES if of_the_same_look(name, (f,)) == [name]]
-        assert own, name
+        telling = [f for f in FEATURES if of_the_same_look(name, (f,)) == [name]]
+        assert telling, name
 
 
 def test_the_vectors_that_are_classified_are_the_rows_of_the_table() -> None:
@@ -192,7 +195,7 @@ def test_the_smallest_change_gives_the_whole_look_of_a_sign(start: str) -> None:
     changes = ChangeFinder(REASONER)
     for name, row in ROWS.items():
         found = changes.smallest(ROWS[start], name)
-        assert [own.vector for own in found] == ([row] if name in DECIDED else [])
+        assert [change.vector for change in found] == ([row] if name in DECIDED else [])
 
 
 def test_a_sign_that_breaks_a_convention_contradicts_the_knowledge() -> None:
@@ -377,9 +380,9 @@ def names_of(name: str) -> Iterator[str]:
 @pytest.mark.parametrize("asks", ABOUT_A_CLASS)
 def test_a_question_about_a_class_is_understood_for_every_class(asks: str) -> None:
     for name in ROWS:
-        for own in names_of(name):
+        for phrase in names_of(name):
             for pattern in ABOUT_A_CLASS[asks]:
-                text = pattern.format(own)
+                text = pattern.format(phrase)
                 assert QUESTIONS.understand(text).query == (asks, name, None, None), text
 
 

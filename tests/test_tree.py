@@ -49,7 +49,7 @@ def test_classes_that_features_tell_apart_are_not_pruned_together() -> None:
     domain = load_domain("traffic_signs")
     vectors = {name: domain.vector(signs()[name]) for name in OPEN_SIGNS}
     scenes = [(vectors[name], name) for name, count in OPEN_SIGNS.items() for _ in range(count)]
-    tree = DecisionTree({key: own.values for key, own in domain.features.items()})
+    tree = DecisionTree({key: feature.values for key, feature in domain.features.items()})
     tree.fit([vector for vector, _ in scenes], [name for _, name in scenes], seed=2)
     assert {name: tree.classify(vector) for name, vector in vectors.items()} == {
         name: name for name in OPEN_SIGNS
@@ -113,7 +113,7 @@ def test_numbers_are_compared() -> None:
 
 
 def test_noise_is_pruned() -> None:
-    vectors = [(*own,) for own in product(*FEATURES.values())] * 3
+    vectors = [(*vector,) for vector in product(*FEATURES.values())] * 3
     labels = ["down" if vector[2] == "yes" else "up" for vector in vectors]
     labels[5], labels[70] = "down", "up"
     tree = DecisionTree(FEATURES).fit(vectors, labels)
@@ -131,13 +131,13 @@ def test_the_nodes_are_those_of_the_paths() -> None:
     assert root is not None
 
     def leaves(node: TreeNode) -> list[TreeNode]:
-        return [leaf for own in node.branches for leaf in leaves(own)] or [node]
+        return [leaf for branch in node.branches for leaf in leaves(branch)] or [node]
 
     def well_formed(node: TreeNode) -> bool:
         return (node.feature is None) == (not node.branches) and (
             not node.branches
             or (
-                sum(own.support for own in node.branches) == node.support
+                sum(branch.support for branch in node.branches) == node.support
                 and all(map(well_formed, node.branches))
             )
         )
@@ -304,9 +304,9 @@ def test_a_path_as_a_sentence(structures: Domain, path: TreePath, text: str) -> 
 
 def test_a_leaf_of_equal_classes_says_all_of_them(structures: Domain) -> None:
     vector = structures.vector({"base": "wide"})
-    tree = DecisionTree({key: own.values for key, own in structures.features.items()})
+    tree = DecisionTree({key: feature.values for key, feature in structures.features.items()})
     tree.fit([vector, vector], ["unstable", "stable"], seed=0)
     (path,) = tree.paths()
-    assert path.equals == tuple(own for own in ("stable", "unstable") if own != path.label)
+    assert path.equals == tuple(label for label in ("stable", "unstable") if label != path.label)
     said = say_path(structures, path)
     assert f"and as often {path.equals[0]} (0 of 4 features tested, 50 % of 2 structures)" in said

@@ -33,9 +33,9 @@ from seewhy.perception.familiarity import Familiarity, Known
 def test_the_share_is_kept(scores: list[float], known_share: float) -> None:
     """Of pictures that are all alike, any may be the new one: the share is kept on average."""
     refused = 0
-    for n, own in enumerate(scores):
+    for n, score in enumerate(scores):
         threshold = refusal_threshold(scores[:n] + scores[n + 1 :], known_share=known_share)
-        refused += threshold is not None and own < threshold
+        refused += threshold is not None and score < threshold
     assert refused <= (1 - known_share) * len(scores) + 1e-6
 
 
@@ -85,10 +85,10 @@ def noise(count: int) -> np.ndarray[Any, Any]:
 def test_the_threshold_is_that_of_the_validation_pictures(wary_agent: Agent) -> None:
     assert wary_agent.extractor is not None
     records = wary_agent.extractor.records
-    assert {own.validation_pictures for own in records.values()} == {18}
+    assert {record.validation_pictures for record in records.values()} == {18}
     for scores in wary_agent.validation_scores.values():
         assert len(scores) == 18
-        assert all(0 < own < 1 for own in scores)
+        assert all(0 < score < 1 for score in scores)
     assert wary_agent.unknown_below == min(wary_agent.validation_scores["consistent"])
 
 
@@ -101,31 +101,31 @@ def test_no_validation_picture_is_among_those_compared_with(
     for key, known in wary_agent.familiarity.known.items():
         assert sum(known.counts) == wary_agent.extractor.records[key].training_pictures
     trained = wary_agent.classify_all(many.of_split("train").pictures(16))
-    itself = sum(own.score is not None and own.score > 0.999999 for own in trained)
+    itself = sum(scene.score is not None and scene.score > 0.999999 for scene in trained)
     assert itself >= wary_agent.extractor.records["colour"].training_pictures
 
 
 def test_a_network_may_be_sure_of_what_it_never_saw(wary_agent: Agent) -> None:
     """Noise that is read with more certainty than some genuine tile is refused all the same."""
     readings = wary_agent.read(noise(40))
-    least = np.sort([own.score for own in readings])[20]
+    least = np.sort([reading.score for reading in readings])[20]
     found = wary_agent.classify_all(noise(40))
-    sure = [own for own, other in zip(found, readings, strict=True) if other.score >= least]
-    assert {own.verdict for own in sure} == {"unknown"}
+    sure = [scene for scene, other in zip(found, readings, strict=True) if other.score >= least]
+    assert {scene.verdict for scene in sure} == {"unknown"}
 
 
 def test_what_is_like_the_training_is_answered_and_noise_is_not(
     wary_agent: Agent, many: Dataset
 ) -> None:
     genuine = wary_agent.classify_all(many.of_split("test").pictures(16))
-    assert np.mean([own.verdict == "unknown" for own in genuine]) <= 0.2
-    refused = [own for own in wary_agent.classify_all(noise(40)) if own.verdict == "unknown"]
+    assert np.mean([scene.verdict == "unknown" for scene in genuine]) <= 0.2
+    refused = [scene for scene in wary_agent.classify_all(noise(40)) if scene.verdict == "unknown"]
     assert len(refused) >= 30
-    for own in refused:
-        assert (own.label, own.method, own.probability) == (None, "none", None)
-        assert own.score is not None
+    for scene in refused:
+        assert (scene.label, scene.method, scene.probability) == (None, "none", None)
+        assert scene.score is not None
         assert wary_agent.unknown_below is not None
-        assert own.score < wary_agent.unknown_below
+        assert scene.score < wary_agent.unknown_below
 
 
 def test_the_model_keeps_the_threshold(wary_agent: Agent, many: Dataset, tmp_path: Path) -> None:
@@ -145,13 +145,13 @@ def test_the_model_keeps_the_threshold(wary_agent: Agent, many: Dataset, tmp_pat
     assert half.unknown_below == sorted(wary_agent.validation_scores["consistent"])[8]
     never = Agent.load(tmp_path / "model", known_share=1.0)
     assert never.unknown_below is None
-    assert "unknown" not in {own.verdict for own in never.classify_all(noise(40))}
+    assert "unknown" not in {scene.verdict for scene in never.classify_all(noise(40))}
 
 
 def test_a_training_of_a_domain_that_asks_for_nothing_refuses_nothing(agent: Agent) -> None:
     assert (agent.known_share, agent.validation_scores, agent.unknown_below) == (1.0, {}, None)
     assert agent.familiarity is None
-    assert "unknown" not in {own.verdict for own in agent.classify_all(noise(40))}
+    assert "unknown" not in {scene.verdict for scene in agent.classify_all(noise(40))}
 
 
 # Answers ------------------------------------------------------------------------------------
@@ -169,10 +169,10 @@ class Blurred:
         rows = {"colour": [[0.4, 0.3, 0.3]], "round": [[0.5, 0.5]]}
         known = {"colour": [[3.0, 4.0]], "round": [[1.0, 0.0]]}
         return Seen(
-            {key: np.array(own).repeat(len(pictures), axis=0) for key, own in rows.items()},
+            {key: np.array(row).repeat(len(pictures), axis=0) for key, row in rows.items()},
             {
-                key: np.array(own, dtype=np.float32).repeat(len(pictures), axis=0)
-                for key, own in known.items()
+                key: np.array(embedding, dtype=np.float32).repeat(len(pictures), axis=0)
+                for key, embedding in known.items()
             },
         )
 
@@ -240,9 +240,11 @@ class Stub(Agent):
     def classify_all(self, pictures: np.ndarray[Any, Any]) -> list[Classification]:
         found = []
         for n in range(len(pictures)):
-            own = seen(self, "red", "yes")
-            unknown = Classification(None, "none", own.vector, own.features, "unknown", None, 0.1)
-            found.append(unknown if n % 2 else own)
+            known = seen(self, "red", "yes")
+            unknown = Classification(
+                None, "none", known.vector, known.features, "unknown", None, 0.1
+            )
+            found.append(unknown if n % 2 else known)
         return found
 
 

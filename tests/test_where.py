@@ -102,7 +102,7 @@ def test_what_is_lost_is_what_hiding_windows_one_by_one_takes() -> None:
     # In the middle of a window the map is nearly that window's loss alone.
     for (y, x), loss in losses.items():
         middle = found.map[y - 1 : y + 1, x - 1 : x + 1].mean() * found.lost
-        others = [own for (v, w), own in losses.items() if max(abs(v - y), abs(w - x)) <= step]
+        others = [other for (v, w), other in losses.items() if max(abs(v - y), abs(w - x)) <= step]
         low, high = min(*others, 0.0), max(*others, 0.0)
         assert low - 5e-3 <= middle <= high * 1.25 + 5e-3
         if loss == max(losses.values()):
@@ -220,12 +220,12 @@ def test_the_corners_of_a_tile_are_seen_where_the_tile_is(agent: Agent, dataset:
     for scene in cornered:
         found = agent.where(scene.picture)
         assert list(found) == ["colour", "round"]
-        own = found["round"]
-        assert (own.value, own.matters, own.map.shape) == ("no", True, (16, 16))
+        roundness = found["round"]
+        assert (roundness.value, roundness.matters, roundness.map.shape) == ("no", True, (16, 16))
         pixels = np.asarray(Image.open(scene.picture).convert("RGB").resize((16, 16)), dtype=int)
         painted = np.abs(pixels - RGB[scene.vector[0] or ""]).sum(axis=2) < 150
         # More of the map than a map of noise would have there.
-        assert own.map[painted].sum() / own.map.sum() > painted.mean() + 0.02
+        assert roundness.map[painted].sum() / roundness.map.sum() > painted.mean() + 0.02
 
 
 def test_where_follows_what_the_answer_takes_the_picture_to_be(
@@ -233,8 +233,8 @@ def test_where_follows_what_the_answer_takes_the_picture_to_be(
 ) -> None:
     picture = dataset.scenes[0].picture
     scene = agent.classify(picture)
-    assert {name: own.to_dict() for name, own in agent.where(picture).items()} == {
-        name: own.to_dict() for name, own in agent.where(picture, scene=scene).items()
+    assert {name: found.to_dict() for name, found in agent.where(picture).items()} == {
+        name: found.to_dict() for name, found in agent.where(picture, scene=scene).items()
     }
 
 
@@ -270,7 +270,7 @@ def test_networks_that_grew_name_no_pictures(
 def test_an_answer_rests_on_what_it_names_or_needs(
     agent: Agent, dataset: Dataset, question: str, features: set[str]
 ) -> None:
-    blue = next(own for own in dataset.scenes if own.vector == ("blue", "no"))
+    blue = next(scene for scene in dataset.scenes if scene.vector == ("blue", "no"))
     reply = agent.ask(blue.picture, question)
     assert rests_on(reply) == features
     card = draw_card(reply, blue.picture, where=agent.where(blue.picture, scene=reply.scene))
@@ -286,25 +286,27 @@ def test_an_answer_rests_on_what_it_names_or_needs(
     assert len(told) == len(features)
     # Nothing of the card lies below its edge, and the panels are above the reasons.
     assert all(
-        float(own.get("y", "0")) + float(own.get("height", "0")) <= card.height
-        for own in [*images, *root.iter(f"{svg}rect")]
-        if "%" not in own.get("height", "")
+        float(element.get("y", "0")) + float(element.get("height", "0")) <= card.height
+        for element in [*images, *root.iter(f"{svg}rect")]
+        if "%" not in element.get("height", "")
     )
     lowest = max(float(span.get("y", "0")) for span in root.iter(f"{svg}tspan"))
     assert lowest <= card.height
 
 
 def test_many_panels_stand_in_rows(agent: Agent, dataset: Dataset) -> None:
-    blue = next(own for own in dataset.scenes if own.vector == ("blue", "no"))
+    blue = next(scene for scene in dataset.scenes if scene.vector == ("blue", "no"))
     reply = agent.ask(blue.picture, "why is it bad?")
     where = agent.where(blue.picture, scene=reply.scene)
     places = [
         [
-            (own.get("x"), own.get("y"))
-            for own in ElementTree.fromstring(card.svg).iter()
-            if own.tag.endswith("image")
+            (element.get("x"), element.get("y"))
+            for element in ElementTree.fromstring(card.svg).iter()
+            if element.tag.endswith("image")
         ][1:]
-        for card in (draw_card(reply, blue.picture, where=where, width=own) for own in (760, 300))
+        for card in (
+            draw_card(reply, blue.picture, where=where, width=width) for width in (760, 300)
+        )
     ]
     assert places[0][0][1] == places[0][1][1]
     assert places[1][0][0] == places[1][1][0]

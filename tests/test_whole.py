@@ -118,11 +118,11 @@ def test_a_folder_is_whole_wherever_its_writer_is_killed(tmp_path: Path, way: st
                 for name, text in old.items():
                     (temporary / name).write_text(text)
     assert len(found) > 40
-    assert [own for own in found if own not in (old, new)] == []
+    assert [seen for seen in found if seen not in (old, new)] == []
     assert old in found
     assert new in found
     assert content(target) == new
-    assert [own.name for own in tmp_path.iterdir()] == ["model"]
+    assert [path.name for path in tmp_path.iterdir()] == ["model"]
 
 
 def test_a_model_is_whole_wherever_its_writer_is_killed(
@@ -140,7 +140,7 @@ def test_a_model_is_whole_wherever_its_writer_is_killed(
     assert len(found) > 5
     assert {*found} == {77, agent.seed}
     assert Agent.load(target).seed == agent.seed
-    assert [own.name for own in tmp_path.iterdir()] == ["model"]
+    assert [path.name for path in tmp_path.iterdir()] == ["model"]
 
 
 def test_a_file_is_whole_wherever_its_writer_is_killed(tmp_path: Path) -> None:
@@ -152,7 +152,7 @@ def test_a_file_is_whole_wherever_its_writer_is_killed(tmp_path: Path) -> None:
         target.write_text("old")
     assert len(found) > 15
     assert {*found} == {"old", "new" * 1000}
-    assert [own.name for own in tmp_path.iterdir()] == ["note.txt"]
+    assert [path.name for path in tmp_path.iterdir()] == ["note.txt"]
 
 
 def test_two_writers_of_a_file_wait_for_each_other(tmp_path: Path) -> None:
@@ -169,7 +169,7 @@ def test_two_writers_of_a_file_wait_for_each_other(tmp_path: Path) -> None:
         thread.start()
     for thread in threads:
         thread.join()
-    assert [own.name for own in tmp_path.iterdir()] == ["note.txt"]
+    assert [path.name for path in tmp_path.iterdir()] == ["note.txt"]
 
 
 def test_the_second_writer_is_refused(tmp_path: Path) -> None:
@@ -202,7 +202,7 @@ def test_the_lock_of_a_killed_process_is_free(tmp_path: Path) -> None:
             assert not ours
         process.kill()
     assert process.returncode == -signal.SIGKILL
-    assert [own.name for own in tmp_path.iterdir()] == [".result.json.lock"]
+    assert [path.name for path in tmp_path.iterdir()] == [".result.json.lock"]
     with locked(work) as ours:
         assert ours
     assert list(tmp_path.iterdir()) == []
@@ -212,7 +212,7 @@ def test_a_folder_that_is_there_is_not_replaced_unasked(tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
     with pytest.raises(FileExistsError), whole_folder(tmp_path / "mine"):
         pass
-    assert [own.name for own in tmp_path.iterdir()] == ["mine"]
+    assert [path.name for path in tmp_path.iterdir()] == ["mine"]
 
 
 def test_a_link_to_a_folder_stays_one(tmp_path: Path) -> None:
@@ -257,7 +257,7 @@ def test_scratch_folders_of_the_killed_are_removed_and_those_of_the_living_are_n
     assert other.is_dir()
     with scratch_folder():
         assert not other.exists()
-    assert [own.name for own in tmp_path.iterdir()] == ["seewhy-apples"]
+    assert [path.name for path in tmp_path.iterdir()] == ["seewhy-apples"]
 
 
 def test_where_folders_cannot_be_exchanged_they_are_replaced(
@@ -268,4 +268,4 @@ def test_where_folders_cannot_be_exchanged_they_are_replaced(
         with whole_folder(tmp_path / "model", replacing=True) as temporary:
             (temporary / "a").write_text(text)
         assert content(tmp_path / "model") == {"a": text}
-        assert [own.name for own in tmp_path.iterdir()] == ["model"]
+        assert [path.name for path in tmp_path.iterdir()] == ["model"]
