@@ -80,11 +80,11 @@ def test_what_if_and_why(client: TestClient, agent: Agent) -> None:
     assert explained["reasons"] == "The tile is red."
     assert explained["lines"][0].startswith("the tile is good")
     supposed = client.post(
-        "/what-if", files=shown(tile()), data={"change": ["colour=blue", "is_round=no"]}
+        "/what-if", files=shown(tile()), data={"change": ["colour=blue", "round=no"]}
     ).json()
-    then = agent.classify_values({"colour": "blue", "is_round": "no"})
+    then = agent.classify_values({"colour": "blue", "round": "no"})
     assert (supposed["class"], supposed["then"]) == ("good", then.label)
-    assert supposed["changes"] == {"colour": "blue", "is_round": "no"}
+    assert supposed["changes"] == {"colour": "blue", "round": "no"}
 
 
 def test_many_at_once_are_answered_as_one_by_one(client: TestClient) -> None:
