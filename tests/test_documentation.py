@@ -28,7 +28,8 @@ _LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
 def test_tutorials_print_what_they_say(page: str, tmp_path: Path) -> None:
     tutorial = tutorials.read_tutorial(DOCS / "start" / f"{page}.md")
     assert len(tutorial.parts) > 4
-    assert not list(tutorials.run_tutorial(tutorial, tmp_path, until=TUTORIALS[page]))
+    differences = list(tutorials.run_tutorial(tutorial, tmp_path, until=TUTORIALS[page]))
+    assert not differences, differences[0]
 
 
 def test_a_tutorial_that_says_otherwise_is_found_out(tmp_path: Path) -> None:
