@@ -6,6 +6,7 @@ import re
 import sys
 import tomllib
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,7 @@ ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 ROOMS = DOCS / "architecture.md"
 sys.path.insert(0, str(DOCS / "site"))
-
-import tutorials  # type: ignore[import-not-found]  # noqa: E402
+tutorials = import_module("tutorials")
 
 # Training the backbone takes minutes: `make tutorials` runs all of this page.
 TUTORIALS = {"your_own_pictures": "seewhy train", "your_own_rules": None, "your_own_robot": None}
@@ -28,7 +28,8 @@ _LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
 def test_tutorials_print_what_they_say(page: str, tmp_path: Path) -> None:
     tutorial = tutorials.read_tutorial(DOCS / "start" / f"{page}.md")
     assert len(tutorial.parts) > 4
-    assert not list(tutorials.run_tutorial(tutorial, tmp_path, until=TUTORIALS[page]))
+    differences = list(tutorials.run_tutorial(tutorial, tmp_path, until=TUTORIALS[page]))
+    assert not differences, differences[0]
 
 
 def test_a_tutorial_that_says_otherwise_is_found_out(tmp_path: Path) -> None:

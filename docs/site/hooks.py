@@ -1,8 +1,7 @@
 """What the site has beside the pages of this folder: the commands, and files of the repository.
 
 A page may link to a file of the repository (``../results/…``), so that the link works where the
-page is read in the repository. The site takes such a file along, under ``repository/``, and links
-there.
+page is read there. The site takes such a file along, under ``repository/``, and links to that.
 """
 
 from __future__ import annotations
@@ -22,6 +21,14 @@ TAKEN = "repository"
 """The folder of the site for files that lie outside of docs/."""
 COMPARISON = "results/comparison/report.md"
 SECURITY = "SECURITY.md"
+_ABOVE_COMMANDS = """\
+# Commands
+
+    seewhy --help
+
+Every command says the same with `--help`. With `--json` it prints its result for a program. Wrong
+input ends with one sentence and exit code 2.
+"""
 _LINK = re.compile(r"(?<=\]\()([^)#\s]*\.\./[^)#\s]+)")
 
 
@@ -39,7 +46,7 @@ def on_files(files: Files, *, config: Any) -> Files:
 
 
 def on_page_markdown(markdown: str, *, page: Any, files: Files, **_: Any) -> str:
-    """Let links out of docs/ lead to what was taken along; others stay, and are refused."""
+    """Let links that lead out of docs/ lead to what was taken along; mkdocs refuses the others."""
     folder = posixpath.dirname(page.file.src_uri)
     for link, path in _outside(page.file.src_uri, markdown):
         target = f"{TAKEN}/{path}"
@@ -67,8 +74,6 @@ def _commands(root: Path) -> str:
         capture_output=True,
         text=True,
     ).stdout
-    _, _, rest = unescape(told).partition("\n")
-    return (
-        "# Commands\n\nEvery command says the same with `--help`. With `--json` it prints its "
-        "result for a program. Wrong input ends\nwith one sentence and exit code 2.\n" + rest
-    )
+    # What stands above the first command lists them all with their sentences cut short.
+    _, heading, commands = unescape(told).partition("\n## ")
+    return f"{_ABOVE_COMMANDS}{heading}{commands}"

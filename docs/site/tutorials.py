@@ -1,9 +1,10 @@
-"""A tutorial as it stands on its page: write its files, run its commands, compare what they print.
+"""A tutorial as it stands on its page: write its files, run its commands, compare what is printed.
 
-On a page, a fence with a title is a file, one of ``sh`` holds commands, and one of ``text``
-directly behind it is what they print (with the title ``for instance``: what they may print).
-Pictures of the page that the commands make are put beside it. python docs/site/tutorials.py
-docs/start/your_own_rules.md --folder runs/tutorials/rules
+On a page, a fence with a title is a file, one of ``sh`` holds commands, and one of ``text`` behind
+it is what they print (with the title ``for instance``: what they may print). Pictures of the
+page that the commands make are put beside it.
+
+    python docs/site/tutorials.py docs/start/your_own_rules.md --folder runs/tutorials/rules
 """
 
 from __future__ import annotations
