@@ -99,7 +99,7 @@ def test_a_training_is_watched(
     write_tiles(tmp_path / "data", count=24)
     dataset = Dataset.load(tmp_path / "data", tiles)
     callbacks: dict[str, Any] = {}
-    for program in programs("how-to/watch_training.md"):
+    for program in programs("howto/watch_training.md"):
         exec(program, callbacks)
 
     def both(event: Any) -> None:
