@@ -14,7 +14,6 @@ FOLDERS = ("src", "benchmarks", "tests")
 REFUSED = "own"
 NOT_YET_CLEAN = (
     "src/seewhy/agent",
-    "src/seewhy/knowledge",
     "src/seewhy/planning",
     "tests",
 )
