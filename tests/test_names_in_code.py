@@ -14,7 +14,6 @@ FOLDERS = ("src", "benchmarks", "tests")
 REFUSED = "own"
 NOT_YET_CLEAN = (
     "src/seewhy/agent",
-    "src/seewhy/planning",
     "tests",
 )
 """Folders in which the name still stands; one that is clean leaves this list."""
