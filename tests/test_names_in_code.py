@@ -14,9 +14,6 @@ FOLDERS = ("src", "benchmarks", "tests")
 REFUSED = "own"
 NOT_YET_CLEAN = (
     "src/seewhy/agent",
-    "src/seewhy/dialogue",
-    "src/seewhy/knowledge",
-    "src/seewhy/planning",
     "tests",
 )
 """Folders in which the name still stands; one that is clean leaves this list."""

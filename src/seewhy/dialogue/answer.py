@@ -221,7 +221,7 @@ def word_supposed(
 def _say_asked(domain: Domain, question: Question) -> str:
     if question.label:
         return domain.classes[question.label].say
-    classes = [own.say for own in domain.classes.values()]
+    classes = [scene_class.say for scene_class in domain.classes.values()]
     if len(classes) > _MOST_CLASSES_NAMED:
         classes = [*classes[:2], f"one of {len(classes) - 2} others"]
     return join_words(classes, word="or")
@@ -247,13 +247,13 @@ def _say_required(domain: Domain, alternatives: tuple[Changes, ...], *, subject:
 
 
 def _say_belief(domain: Domain, question: Question, kind: AnswerType) -> dict[str, str]:
-    own = domain.beliefs.get(question.predicate or "")
-    if own is None:
+    belief = domain.beliefs.get(question.predicate or "")
+    if belief is None:
         name = domain.features[question.feature].name if question.feature else ""
         return {"belief": "", "name": name, "value": ""}
-    value = join_words([own.words.get(value, value) for value in kind.values])
-    said = filled(own.say, {"it": domain.subject, "value": value})
-    return {"belief": said, "name": own.name, "value": value}
+    value = join_words([belief.words.get(value, value) for value in kind.values])
+    said = filled(belief.say, {"it": domain.subject, "value": value})
+    return {"belief": said, "name": belief.name, "value": value}
 
 
 def _say_changes(domain: Domain, alternatives: tuple[Changes, ...]) -> str:
@@ -265,9 +265,9 @@ def _say_changes(domain: Domain, alternatives: tuple[Changes, ...]) -> str:
 
 
 def _say_change(domain: Domain, feature: str, value: str) -> str:
-    own = domain.features[feature]
+    declared = domain.features[feature]
     said = value.replace("_", " ")
-    return own.change.get(value, f"let the {own.name} be {said}").replace("{it}", "it")
+    return declared.change.get(value, f"let the {declared.name} be {said}").replace("{it}", "it")
 
 
 @cache

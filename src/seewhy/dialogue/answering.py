@@ -115,7 +115,7 @@ class Answering:
             label=spoken_of.label,
             probably=certainty_of(ground).adverb,
         )
-        text = " ".join([text, *(sentence(own.text) for own in learned)])
+        text = " ".join([text, *(sentence(node.text) for node in learned)])
         if supposed is not None:
             text = word_supposed(
                 self.domain, question, text, label=scene.label or "", supposed=supposed.label or ""
@@ -135,7 +135,7 @@ class Answering:
                 self.domain, self.experience, scene.vector, question.label
             )
             found.insert(0, pictures)
-        return tuple(own for own in found if own is not None)
+        return tuple(node for node in found if node is not None)
 
     def answer_all(self, asked: Sequence[tuple[Classification, Question]]) -> list[Reply]:
         """Answer many questions about classified scenes; the recurrent network runs once for all.
@@ -227,12 +227,12 @@ class Answering:
         if question.asks is Asks.BELIEF_VALUE and scene.label is not None:
             # What follows from the class need not be learned, whoever gave the class.
             basis = self._tree_node(scene, scene.label, self.tree.path(scene.vector))
-            own = self.reasoned.belief(question, scene.vector, scene.label, basis=basis)
-            return own.kind, own.justification
+            reasoned = self.reasoned.belief(question, scene.vector, scene.label, basis=basis)
+            return reasoned.kind, reasoned.justification
         if scene.label is None or self.answerer is None:
             if question.feature is not None:
-                own = self.reasoned.feature(question, scene.vector)
-                return own.kind, own.justification
+                reasoned = self.reasoned.feature(question, scene.vector)
+                return reasoned.kind, reasoned.justification
             return self.reasoned.undecided_kind(scene.vector), self.reasoned.undecided(scene.vector)
         return self._learned(scene, question, scene.label)
 
@@ -351,10 +351,14 @@ def believed(scene: Classification, question: Question, *, trust: float) -> Clas
     if scene.label is None or question.label is None:
         return scene
     if asks is Asks.WHY_CLASS and scene.label != question.label:
-        fitting = [own for own in scene.otherwise if own.label == question.label]
+        fitting = [
+            alternative for alternative in scene.otherwise if alternative.label == question.label
+        ]
     elif asks in _PRESUMES_ANOTHER and scene.label == question.label:
-        fitting = [own for own in scene.otherwise if own.label != question.label]
-        if sum(own.probability or 0.0 for own in fitting) < 1.0 - trust:
+        fitting = [
+            alternative for alternative in scene.otherwise if alternative.label != question.label
+        ]
+        if sum(alternative.probability or 0.0 for alternative in fitting) < 1.0 - trust:
             return scene
     else:
         return scene

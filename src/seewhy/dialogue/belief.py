@@ -26,7 +26,9 @@ def believed_values(domain: Domain, evidence: Evidence, predicate: str) -> tuple
     Of several answer sets only what all of them share is believed.
     """
     literals = domain.beliefs[predicate].literals
-    return tuple(value for value, own in literals.items() if key_of(own) in evidence.believed)
+    return tuple(
+        value for value, literal in literals.items() if key_of(literal) in evidence.believed
+    )
 
 
 class ToldClass:
@@ -89,12 +91,14 @@ def _with_told_classes(domain: Domain, *, told: Sequence[Literal]) -> Knowledge:
         Axiom(
             identifier=f"{_TOLD}{number}",
             kind=AxiomKind.STATE_CONSTRAINT,
-            head=own.literal,
+            head=scene_class.literal,
             body=(Condition(str(literal), literal),),
-            text=f"{domain.subject} is known to be {own.say}",
+            text=f"{domain.subject} is known to be {scene_class.say}",
             location=nowhere,
         )
-        for number, (own, literal) in enumerate(zip(domain.classes.values(), told, strict=True))
+        for number, (scene_class, literal) in enumerate(
+            zip(domain.classes.values(), told, strict=True)
+        )
     ]
     return replace(
         domain.knowledge,

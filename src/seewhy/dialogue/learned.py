@@ -82,8 +82,8 @@ def dealt(
     each = max(1, most // len(scenes))
     deck: list[Query] = []
     for number in scenes:
-        own = [query for query in queries if query[1] == labels[number]]
-        chosen = dict.fromkeys(own if 2 * len(own) <= each else ())
+        of_class = [query for query in queries if query[1] == labels[number]]
+        chosen = dict.fromkeys(of_class if 2 * len(of_class) <= each else ())
         while len(chosen) < min(each, len(queries)):
             deck = deck or [queries[n] for n in generator.permutation(len(queries))]
             chosen.setdefault(deck.pop())
@@ -116,17 +116,17 @@ def learned_answers(
         answerer.answers(
             [
                 (question.words, _known(vector), label)
-                for (question, vector, label, _), own in zip(asked, allowed, strict=True)
-                if own
+                for (question, vector, label, _), possible in zip(asked, allowed, strict=True)
+                if possible
             ],
-            allowed=[own for own in allowed if own],
+            allowed=[possible for possible in allowed if possible],
         )
     )
     chosen: list[tuple[AnswerType, float]] = []
-    for form, own, (question, _, _, path_features) in zip(forms, allowed, asked, strict=True):
-        if own:
+    for form, kinds, (question, _, _, path_features) in zip(forms, allowed, asked, strict=True):
+        if kinds:
             identifier, probability = next(found)
-            chosen.append((own[identifier], probability))
+            chosen.append((kinds[identifier], probability))
             continue
         mentions = tuple(path_features) if form in _WITH_REASONS else ()
         if question.feature is not None:
@@ -137,9 +137,9 @@ def learned_answers(
 
 def check_answers(domain: Domain, answerer: RecurrentAnswerer, folder: Path) -> None:
     """Raise a ModelError where a network was trained to answer for another domain."""
-    fits = answerer.features == {key: own.values for key, own in domain.features.items()} and all(
-        _fits(domain, identifier) for identifier in answerer.answer_types
-    )
+    fits = answerer.features == {
+        key: feature.values for key, feature in domain.features.items()
+    } and all(_fits(domain, identifier) for identifier in answerer.answer_types)
     if not fits:
         raise ModelError(
             f"{folder}: the network answers for other features than the model's domain names; "

@@ -29,7 +29,8 @@ def narrate(domain: Domain, reply: Reply) -> str:
     parts = [f"you asked: {reply.question.text}?"] if reply.question.text else []
     if reply.supposed is not None:
         taken, supposed = (
-            domain.classes[own.label or ""].say for own in (reply.classification, reply.supposed)
+            domain.classes[classification.label or ""].say
+            for classification in (reply.classification, reply.supposed)
         )
         parts.append(
             f"I took {domain.subject} to be {taken}; what follows supposes that it is {supposed}"
@@ -91,21 +92,21 @@ class _Said:
 
 
 def _steps(node: Node, said: _Said) -> list[str]:
-    tree = next((own for own in node.walk() if own.basis is Basis.TREE), None)
+    tree = next((descendant for descendant in node.walk() if descendant.basis is Basis.TREE), None)
     if tree is not None:
         path, *learned, undecided = tree.children
         return [
             _why_undecided(undecided),
             f"so the decision tree is asked: {path.text}",
-            *(own.text for own in learned),
+            *(child.text for child in learned),
             *_axioms(node, said),
         ]
     if node.literal in ("undecided", "unknown") or node.basis is Basis.CONFLICT:
         return [_why_undecided(node)]
     steps = _axioms(node, said)
-    refused = [own for own in node.children if own.is_refuted]
+    refused = [child for child in node.children if child.is_refuted]
     steps += [step for child in refused[:3] for step in _not_applying(child, said)]
-    steps += [own.text for own in node.children if own.basis in (Basis.PATH, Basis.PICTURES)]
+    steps += [child.text for child in node.children if child.basis in (Basis.PATH, Basis.PICTURES)]
     return list(dict.fromkeys(steps))
 
 

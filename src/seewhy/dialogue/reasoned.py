@@ -157,23 +157,23 @@ class ReasonedAnswers:
         ``basis`` is why it is of that class. Where the knowledge does not conclude the class,
         the class is told to it (:class:`~seewhy.dialogue.belief.ToldClass`).
         """
-        own = self.domain.beliefs[question.predicate or ""]
+        belief = self.domain.beliefs[question.predicate or ""]
         evidence = self._about(vector, label)
-        values = believed_values(self.domain, evidence, own.key)
+        values = believed_values(self.domain, evidence, belief.key)
         basis = replace(basis, literal=str(literal_of(key_of(self.domain.classes[label].literal))))
         nodes = tuple(
             with_basis(node, basis)
             for value in values
-            if (node := justify(evidence, own.literals[value])) is not None
+            if (node := justify(evidence, belief.literals[value])) is not None
         )
         if len(nodes) == 1:
             return ReasonedAnswer(_belief(values), nodes[0])
-        said = join_words([own.words[value] for value in values])
-        text = own.say.replace("{it}", self.domain.subject).replace("{value}", said)
+        said = join_words([belief.words[value] for value in values])
+        text = belief.say.replace("{it}", self.domain.subject).replace("{value}", said)
         if not values:
-            text = f"nothing that is known says what the {own.name} of {self.domain.subject} is"
+            text = f"nothing that is known says what the {belief.name} of {self.domain.subject} is"
         node = Node(
-            literal=f"{own.key}({self.domain.scene}, _)",
+            literal=f"{belief.key}({self.domain.scene}, _)",
             text=text,
             basis=Basis.REASONS if values else Basis.UNFOUNDED,
             holds=bool(values),
@@ -207,7 +207,8 @@ class ReasonedAnswers:
             return classes
         evidence = self.evidence(vector)
         failed = {
-            label: shortfall(evidence, own.literal) for label, own in self.domain.classes.items()
+            label: shortfall(evidence, scene_class.literal)
+            for label, scene_class in self.domain.classes.items()
         }
         able = [label for label in classes if failed[label] is not None]
         chosen = sorted(able, key=lambda label: failed[label] or 0)[:most]
@@ -234,7 +235,7 @@ class ReasonedAnswers:
             return both
         verdict = self.reasoner.decide(vector).verdict
         if verdict is Verdict.SILENT and (cases := self._cases(vector)):
-            said = [own.text for own in cases]
+            said = [case.text for case in cases]
             return Node(
                 literal="undecided",
                 text=f"the knowledge does not decide: {' '.join(said)}",
@@ -244,7 +245,10 @@ class ReasonedAnswers:
             )
         children: list[Node] = []
         if verdict is Verdict.SEVERAL:
-            concluded = (self._why(vector, own.literal) for own in self.domain.classes.values())
+            concluded = (
+                self._why(vector, scene_class.literal)
+                for scene_class in self.domain.classes.values()
+            )
             children += [node for node in concluded if node is not None]
         if verdict is Verdict.SILENT:
             nearest = self.nearest_classes(vector, most=_CLASSES_SHOWN)
@@ -272,7 +276,7 @@ class ReasonedAnswers:
         evidence = self.evidence(vector)
         cases: list[Node] = []
         for each in (evidence, *evidence.others):
-            keys = [key_of(own.literal) for own in self.domain.classes.values()]
+            keys = [key_of(scene_class.literal) for scene_class in self.domain.classes.values()]
             concluded = [belief_node(each, key) for key in keys if key in each.holds]
             cases += concluded or [_NO_CLASS]
         return either_or(once(cases)) if set(cases) != {_NO_CLASS} else ()
@@ -318,9 +322,9 @@ class ReasonedAnswers:
 
     def _alternatives(self, vector: FeatureVector, asked: str) -> tuple[Changes, ...]:
         return tuple(
-            tuple((change.feature, change.after) for change in own.changes)
-            for own in self.smallest(vector, asked)
-            if own.changes
+            tuple((change.feature, change.after) for change in alternative.changes)
+            for alternative in self.smallest(vector, asked)
+            if alternative.changes
         )
 
     def _change(self, vector: FeatureVector, asked: str) -> AnswerType:
@@ -330,9 +334,9 @@ class ReasonedAnswers:
     def _difference(self, vector: FeatureVector, asked: str) -> AnswerType:
         """What the axioms ask of a change, without what only other scenes make go with it."""
         alternatives = []
-        for own in self.smallest(vector, asked):
-            needed = self.why_class(own.vector, asked).features()
-            changes = [(change.feature, change.after) for change in own.changes]
+        for alternative in self.smallest(vector, asked):
+            needed = self.why_class(alternative.vector, asked).features()
+            changes = [(change.feature, change.after) for change in alternative.changes]
             asked_for = tuple(change for change in changes if change[0] in needed)
             alternatives.append(asked_for or tuple(changes))
         return difference(self.domain, tuple(dict.fromkeys(filter(None, alternatives))))

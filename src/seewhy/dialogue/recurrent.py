@@ -174,7 +174,7 @@ def hold_out(
 
     ``scenes`` names the scene of every question; one without a scene is one by itself.
     """
-    groups = [("alone", i) if own is None else own for i, own in enumerate(scenes)]
+    groups = [("alone", i) if scene is None else scene for i, scene in enumerate(scenes)]
     kinds = list(dict.fromkeys(groups))
     rng = np.random.default_rng(options.seed)
     count = min(round(options.held_out_share * len(kinds)), len(kinds) - 1)

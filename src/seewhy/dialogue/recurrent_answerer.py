@@ -129,15 +129,15 @@ class RecurrentAnswerer:
         self._compute(asked)
         choices = [None] * len(questions) if allowed is None else allowed
         return [
-            self._choose(self._logits[own], types)
-            for own, types in zip(asked, choices, strict=True)
+            self._choose(self._logits[question], types)
+            for question, types in zip(asked, choices, strict=True)
         ]
 
     def _compute(self, asked: Sequence[Asked]) -> None:
         """Run the network on what it was not asked before: pictures of one kind come back often."""
         if len(self._logits) + len(asked) > _REMEMBERED:
             self._logits.clear()
-        new = [own for own in dict.fromkeys(asked) if own not in self._logits]
+        new = [question for question in dict.fromkeys(asked) if question not in self._logits]
         if new:
             with torch.inference_mode():
                 logits = self._network(*self._encoding.encode(new)).double().numpy()

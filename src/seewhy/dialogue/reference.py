@@ -84,7 +84,7 @@ def relevant_features(
                 sufficient[chosen] = total
     if not sufficient:
         return tuple(features[n] for n in known)
-    best = min(sufficient, key=lambda own: (len(own), -sufficient[own], sorted(own)))
+    best = min(sufficient, key=lambda subset: (len(subset), -sufficient[subset], sorted(subset)))
     return tuple(features[known[n]] for n in sorted(best))
 
 

@@ -101,8 +101,8 @@ class Classification:
         if self.told:
             return justification
         return justification.with_probabilities(
-            {key: (own.value, own.probability) for key, own in self.features.items()},
-            {key: own.overruled for key, own in self.features.items() if own.overruled},
+            {key: (reading.value, reading.probability) for key, reading in self.features.items()},
+            {key: reading.overruled for key, reading in self.features.items() if reading.overruled},
         )
 
 
@@ -196,13 +196,16 @@ class Reply:
             "verdict": self.scene.verdict,
             "features": {
                 name: {
-                    "value": own.value,
-                    "probability": _rounded(own.probability),
+                    "value": reading.value,
+                    "probability": _rounded(reading.probability),
                     "overruled": None
-                    if own.overruled is None
-                    else {"value": own.overruled[0], "probability": _rounded(own.overruled[1])},
+                    if reading.overruled is None
+                    else {
+                        "value": reading.overruled[0],
+                        "probability": _rounded(reading.overruled[1]),
+                    },
                 }
-                for name, own in self.features.items()
+                for name, reading in self.features.items()
             },
             "justification": self.justification.to_dict(),
         }

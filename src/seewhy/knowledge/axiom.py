@@ -212,8 +212,11 @@ class Axiom:
             AxiomKind.EXECUTABILITY_CONDITION: f"impossible {self.action}",
         }[self.kind]
         # After 'p(X) : q(X)' a comma would go on with what stands behind the colon.
-        ends = ["; " if own.is_local and "{" not in own.text else ", " for own in self.body]
-        body = "".join(f"{own}{end}" for own, end in zip(self.body, ends, strict=True))
+        ends = [
+            "; " if condition.is_local and "{" not in condition.text else ", "
+            for condition in self.body
+        ]
+        body = "".join(f"{condition}{end}" for condition, end in zip(self.body, ends, strict=True))
         return f"{head}{' if ' if body else ''}{body[:-2]}."
 
     @property
@@ -224,9 +227,9 @@ class Axiom:
         """
         parts = [str(self.action or ""), str(self.head)]
         parts += [
-            _BRACES.sub("", own.text) if "{" in own.text else own.text
-            for own in self.body
-            if "{" in own.text or not own.is_local
+            _BRACES.sub("", condition.text) if "{" in condition.text else condition.text
+            for condition in self.body
+            if "{" in condition.text or not condition.is_local
         ]
         return variables_in(" ".join(parts))
 
@@ -239,4 +242,4 @@ class Axiom:
     def predicates(self) -> frozenset[str]:
         """The predicates that it speaks of, sorts that are used as such included."""
         named = {self.head.predicate, *([self.action.predicate] if self.action else [])}
-        return frozenset(named.union(*(predicates_in(own.text) for own in self.body)))
+        return frozenset(named.union(*(predicates_in(condition.text) for condition in self.body)))

@@ -75,7 +75,7 @@ class Batch:
             for table, value in zip(tables, vector, strict=True)
         ]
         models = self.control.solve(
-            assumed, on_model=lambda model: [own.number for own in model.symbols(shown=True)]
+            assumed, on_model=lambda model: [symbol.number for symbol in model.symbols(shown=True)]
         )
         if len(models) != 1:
             return None
@@ -119,9 +119,9 @@ class Batch:
                     seen = f"observed({name}, {feature}, {value})"
                     yield f"holds({of(literal, name)}) :- {seen}."
                     if feature in denied:
-                        for other, own in values.items():
+                        for other, excluded in values.items():
                             if other != value:
-                                yield f"holds({of(own.complement, name)}) :- {seen}."
+                                yield f"holds({of(excluded.complement, name)}) :- {seen}."
         for axiom in knowledge.axioms:
             yield from axiom_rules(axiom, signature)
         yield from self._conflicts(signature)
@@ -137,10 +137,12 @@ class Batch:
         for predicate in signature.predicates.values():
             arguments = [f"X{number}" for number in range(len(predicate.sorts))]
             inside = f"({', '.join(arguments)})" if arguments else ""
-            own = arguments[predicate.sorts.index(scene)] if scene in predicate.sorts else "S__"
+            scene_variable = (
+                arguments[predicate.sorts.index(scene)] if scene in predicate.sorts else "S__"
+            )
             guard = "" if scene in predicate.sorts else f", sort({scene}, S__)"
             yield (
-                f"conflict({own}) :- holds({predicate.name}{inside}), "
+                f"conflict({scene_variable}) :- holds({predicate.name}{inside}), "
                 f"holds(-{predicate.name}{inside}){guard}."
             )
 

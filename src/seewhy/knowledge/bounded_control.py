@@ -198,7 +198,7 @@ class BoundedControl:
         Examples
         --------
         >>> control = BoundedControl("1 { a; b } 1. :~ a. [1]", size=GroundingSize())
-        >>> [str(own) for own in control.last_model()]
+        >>> [str(symbol) for symbol in control.last_model()]
         ['b']
         """
         found = self.models()

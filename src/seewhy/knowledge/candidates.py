@@ -59,10 +59,12 @@ def decided_vectors(reasoner: Reasoner, *, limit: int) -> tuple[FeatureVector, .
     found = control.solve(on_model=lambda model: _vector(model, schema))
     if len(found) > limit:
         return None
-    places = [{value: n for n, value in enumerate(own)} for own in schema.features.values()]
-    found.sort(key=lambda own: [place[v or ""] for place, v in zip(places, own, strict=True)])
+    places = [{value: n for n, value in enumerate(values)} for values in schema.features.values()]
+    found.sort(key=lambda vector: [place[v or ""] for place, v in zip(places, vector, strict=True)])
     decisions = reasoner.decide_all(found)
-    return tuple(v for v, own in zip(found, decisions, strict=True) if own.label is not None)
+    return tuple(
+        v for v, decision in zip(found, decisions, strict=True) if decision.label is not None
+    )
 
 
 def most_probable_decided(
@@ -105,7 +107,7 @@ def most_probable_decided(
     >>> domain = load_domain("structure_stability")
     >>> reasoner = Reasoner(domain.knowledge, domain.schema)
     >>> sure = [[0.1, 0.6, 0.1, 0.1, 0.1], [0.4, 0.6], [0.7, 0.3], [0.2, 0.8]]
-    >>> vector, joint = most_probable_decided(reasoner, [np.log(own) for own in sure])
+    >>> vector, joint = most_probable_decided(reasoner, [np.log(shares) for shares in sure])
     >>> vector, round(float(np.exp(joint)), 4)
     (('2', 'wide', 'yes', 'no'), 0.1344)
     """
@@ -130,12 +132,12 @@ def _falling(
     A vector is a step for every feature down its values in falling order. The vector before it
     has one step less in the last feature that has any, so that each is reached once.
     """
-    orders = [np.argsort(-own, kind="stable") for own in probabilities]
-    values = [list(own) for own in schema.features.values()]
+    orders = [np.argsort(-distribution, kind="stable") for distribution in probabilities]
+    values = [list(possible) for possible in schema.features.values()]
 
     def entry(steps: tuple[int, ...]) -> tuple[float, tuple[int, ...]]:
         chosen = zip(probabilities, orders, steps, strict=True)
-        return -sum(float(own[order[step]]) for own, order, step in chosen), steps
+        return -sum(float(distribution[order[step]]) for distribution, order, step in chosen), steps
 
     heap = [entry((0,) * len(values))]
     while heap:
@@ -163,13 +165,14 @@ def _cheapest(
     bound of what the vector's can be.
     """
     schema = reasoner.schema
-    places = [{value: n for n, value in enumerate(own)} for own in schema.features.values()]
+    places = [{value: n for n, value in enumerate(values)} for values in schema.features.values()]
     control = _control(reasoner, "--opt-mode=opt")
     control.add(
         "costs",
         "".join(
-            f":~ observed({feature}, {value}). [{round(_SCALE * (own.max() - own[n]))}, {feature}]"
-            for feature, own in zip(schema.features, probabilities, strict=True)
+            f":~ observed({feature}, {value}). "
+            f"[{round(_SCALE * (distribution.max() - distribution[n]))}, {feature}]"
+            for feature, distribution in zip(schema.features, probabilities, strict=True)
             for n, value in enumerate(schema.features[feature])
         )
         + "".join(
@@ -182,7 +185,7 @@ def _cheapest(
         _rule_out(control, schema, vector, number)
     number = len(seen)
     best: tuple[FeatureVector, float] | None = None
-    most = sum(float(own.max()) for own in probabilities)
+    most = sum(float(distribution.max()) for distribution in probabilities)
     rounded = (len(probabilities) + 1) / _SCALE
     while (optimum := _optimum(control, schema)) is not None:
         vector, cost = optimum
@@ -190,7 +193,9 @@ def _cheapest(
         if bound + rounded <= above or (best is not None and bound - rounded <= above):
             break
         chosen = zip(probabilities, places, vector, strict=True)
-        joint = sum(float(own[place[value or ""]]) for own, place, value in chosen)
+        joint = sum(
+            float(distribution[place[value or ""]]) for distribution, place, value in chosen
+        )
         label = reasoner.decide(vector).label
         if label is not None and (score := joint + class_scores.get(label, 0.0)) > above:
             best, above = (vector, score), score
@@ -209,7 +214,7 @@ def _control(reasoner: Reasoner, *arguments: str) -> BoundedControl:
     schema = reasoner.schema
     lines = [program_text(reasoner.knowledge, schema, exceptions=True), ":- not strict."]
     lines += [f":- observed({feature}, {UNKNOWN})." for feature in schema.features]
-    lines.append(f":- {', '.join(f'not holds({own})' for own in schema.classes.values())}.")
+    lines.append(f":- {', '.join(f'not holds({literal})' for literal in schema.classes.values())}.")
     lines.append("#show observed/2.")
     return BoundedControl(
         "\n".join(lines), size=grounding_size(reasoner.knowledge), arguments=arguments

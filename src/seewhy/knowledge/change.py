@@ -137,7 +137,7 @@ class ChangeFinder:
         if self.occurrence is not None:
             found = self._nearest(vector, label, self.occurrence)
         found = found or self._nearest(vector, label, None)
-        changes = (self._change(vector, own) for own in found)
+        changes = (self._change(vector, after) for after in found)
         return tuple(sorted(changes, key=_order)[:limit])
 
     def _nearest(
@@ -158,7 +158,7 @@ class ChangeFinder:
         while candidates := self._cheapest(assumptions):
             confirmed = [c for c in candidates if self.reasoner.decide(c).label == label]
             never = {c: occurrence.never_together(c) if occurrence else None for c in confirmed}
-            if possible := [own for own, parts in never.items() if parts is None]:
+            if possible := [reached for reached, parts in never.items() if parts is None]:
                 return possible
             for candidate in candidates:
                 if candidate not in never:
@@ -182,7 +182,7 @@ class ChangeFinder:
             )
 
         found = self._control.solve(assumptions, on_model=vector)
-        return [own for own in dict.fromkeys(found) if own is not None]
+        return [candidate for candidate in dict.fromkeys(found) if candidate is not None]
 
     def _rule_out(self, vector: FeatureVector, label: str) -> None:
         """Forbid a vector that was tried in vain as a way to ``label``, now and later."""

@@ -120,9 +120,11 @@ class _Probe:
 
     def opponent(self, axiom: Axiom) -> Axiom | None:
         """An axiom that fires with this one and concludes the opposite."""
-        concluded: dict[str, set[str]] = {own.identifier: set() for own in self.knowledge.axioms}
+        concluded: dict[str, set[str]] = {
+            candidate.identifier: set() for candidate in self.knowledge.axioms
+        }
         denied: set[str] = set()
-        axioms = {own.identifier: own for own in self.knowledge.axioms}
+        axioms = {candidate.identifier: candidate for candidate in self.knowledge.axioms}
         assumed = self._assumed(axiom, strict=False) or []
         for symbol in self.grounding.first_model(assumed) or []:
             if symbol.name == "fires":

@@ -165,7 +165,7 @@ def _read_union(
     definition: str, name: str, statement: Statement, sorts: Mapping[str, Sort]
 ) -> tuple[str, ...]:
     members: dict[str, None] = {}
-    for part in (own.strip() for own in definition.split("+")):
+    for part in (summand.strip() for summand in definition.split("+")):
         if part not in sorts:
             raise KnowledgeError(
                 f"{statement.location}: sort '{name}' is made of '{part}', which is no sort "
@@ -183,7 +183,7 @@ def _read_union(
 
 def _read_predicate(statement: Statement, sorts: Mapping[str, Sort]) -> Predicate:
     text = one_line(statement.text)
-    directive = next((own for own in _KINDS if text.startswith(f"{own} ")), "")
+    directive = next((keyword for keyword in _KINDS if text.startswith(f"{keyword} ")), "")
     match = _PREDICATE.match(text[len(directive) :].strip()) if directive else None
     if match is None:
         raise KnowledgeError(

@@ -80,8 +80,8 @@ def body_at(axiom: Axiom, signature: Signature, step: str, *, always: bool = Tru
     """Return an axiom's conditions at a step, with the sorts that its variables range over."""
     body = [
         part
-        for number, own in enumerate(axiom.body)
-        for part in at_step(own, signature, step, number=number, always=always)
+        for number, condition in enumerate(axiom.body)
+        for part in at_step(condition, signature, step, number=number, always=always)
     ]
     for literal in filter(None, (axiom.action, axiom.head)):
         predicate = signature.predicates[literal.predicate]
@@ -102,7 +102,10 @@ def untimed_predicates(knowledge: Knowledge) -> frozenset[str]:
             if condition.literal is None:
                 asked |= predicates_in(condition.text)
     return (
-        frozenset(name for name, own in signature.predicates.items() if own.kind.is_fluent) - asked
+        frozenset(
+            name for name, predicate in signature.predicates.items() if predicate.kind.is_fluent
+        )
+        - asked
     )
 
 
@@ -160,7 +163,7 @@ def gives_way(axiom: Axiom, signature: Signature) -> bool:
     hold there too, whoever left a place could be back there for no reason.
     """
     return signature.kind(axiom.head.predicate) is PredicateKind.FLUENT_BASIC and any(
-        own.absent and own.literal == axiom.head.complement for own in axiom.body
+        condition.absent and condition.literal == axiom.head.complement for condition in axiom.body
     )
 
 

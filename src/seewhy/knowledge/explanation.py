@@ -99,11 +99,11 @@ class _Explanation:
         self._built: dict[tuple[Belief, frozenset[Belief], frozenset[Belief]], Node] = {}
 
     def belief(self, key: str, above: frozenset[Belief]) -> Node:
-        own = Belief(key)
-        place = (own, self.foundation.relevant(above), _NOTHING)
+        belief = Belief(key)
+        place = (belief, self.foundation.relevant(above), _NOTHING)
         if place in self._built:
             return self._again(self._built[place])
-        self._built[place] = self._belief(key, above | {own})
+        self._built[place] = self._belief(key, above | {belief})
         return self._built[place]
 
     def _belief(self, key: str, without: frozenset[Belief]) -> Node:
@@ -226,11 +226,11 @@ class _Explanation:
         )
 
     def absence(self, key: str, above: frozenset[Belief], chain: frozenset[Belief]) -> Node:
-        own = Belief(key, holds=False)
-        place = (own, self.foundation.relevant(above), chain)
+        belief = Belief(key, holds=False)
+        place = (belief, self.foundation.relevant(above), chain)
         if place in self._built:
             return self._again(self._built[place])
-        self._built[place] = self._absence(own, above, chain)
+        self._built[place] = self._absence(belief, above, chain)
         return self._built[place]
 
     def _again(self, node: Node) -> Node:
@@ -240,29 +240,29 @@ class _Explanation:
         leaves = tuple(map(self.evidence.feature_node, node.features()))
         return replace(node, basis=Basis.TOLD_BEFORE, children=leaves)
 
-    def _absence(self, own: Belief, above: frozenset[Belief], chain: frozenset[Belief]) -> Node:
+    def _absence(self, belief: Belief, above: frozenset[Belief], chain: frozenset[Belief]) -> Node:
         evidence, foundation = self.evidence, self.foundation
-        literal, against = literal_of(own.key), opposite(own.key)
+        literal, against = literal_of(belief.key), opposite(belief.key)
         seen = evidence.seen(literal_of(against))
         if seen is not None:
             return replace(seen, literal=f"not {literal}")
         text = f"nothing says that {evidence.say(literal)}"
         feature = evidence.schema.feature_of(literal)
-        if own in foundation.assumed:
-            said = text if own == foundation.root else f"supposing that {text}"
+        if belief in foundation.assumed:
+            said = text if belief == foundation.root else f"supposing that {text}"
             return Node(f"not {literal}", said, Basis.ASSUMED, feature=feature)
-        apart = foundation.stages(above | chain | {own})
+        apart = foundation.stages(above | chain | {belief})
         if Belief(against) in apart:
-            return replace(self.belief(against, above | chain | {own}), literal=f"not {literal}")
+            return replace(self.belief(against, above | chain | {belief}), literal=f"not {literal}")
         together = foundation.stages(above)
         children: Sequence[Node] = ()
-        if own in together and own not in chain:
+        if belief in together and belief not in chain:
             waits = frozenset(
                 other
                 for other, stage in together.items()
-                if isinstance(other, Belief) and not other.holds and stage <= together[own]
+                if isinstance(other, Belief) and not other.holds and stage <= together[belief]
             )
-            children = tuple(self._failing(own.key, _Place(above, chain | {own}, waits)))
+            children = tuple(self._failing(belief.key, _Place(above, chain | {belief}, waits)))
         return Node(
             f"not {literal}", text, Basis.ABSENCE, feature=feature, children=tuple(children)
         )

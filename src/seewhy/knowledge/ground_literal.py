@@ -44,7 +44,7 @@ def read_ground_literal(
         raise KnowledgeError(
             f"{start}'{one_line(text)}' is no {of}; write one such as {_example(signature, of)}"
         ) from None
-    known = {own.name: own for own in _of_kind(signature, of)}
+    known = {candidate.name: candidate for candidate in _of_kind(signature, of)}
     predicate = known.get(literal.predicate)
     if predicate is None:
         declared = signature.predicates.get(literal.predicate)
@@ -78,13 +78,13 @@ def read_ground_literal(
 
 
 def _of_kind(signature: Signature, of: Kind) -> Iterable[Predicate]:
-    for own in signature.predicates.values():
-        if own.kind.is_fluent if of == "fluent" else own.kind.is_action:
-            yield own
+    for predicate in signature.predicates.values():
+        if predicate.kind.is_fluent if of == "fluent" else predicate.kind.is_action:
+            yield predicate
 
 
 def _example(signature: Signature, of: Kind) -> str:
-    for own in _of_kind(signature, of):
-        arguments = [next(iter(signature.members(sort)), sort) for sort in own.sorts]
-        return str(Literal(own.name, tuple(arguments)))
+    for predicate in _of_kind(signature, of):
+        arguments = [next(iter(signature.members(sort)), sort) for sort in predicate.sorts]
+        return str(Literal(predicate.name, tuple(arguments)))
     return "name(argument)"

@@ -54,7 +54,7 @@ class History:
     >>> from seewhy.knowledge.language import read_knowledge
     >>> known = read_knowledge("#sort place = {library, kitchen}. #fluent basic robot_in(place).")
     >>> history = read_history("observed robot_in(library) at 0.", known.signature)
-    >>> history.last_step, [str(own) for own in history.observations]
+    >>> history.last_step, [str(observation) for observation in history.observations]
     (0, ['observed robot_in(library) at 0.'])
     """
 
@@ -64,12 +64,14 @@ class History:
     @property
     def last_step(self) -> int:
         """The step that the history reaches: that after its last action."""
-        seen = [own.step for own in self.observations]
-        return max([0, *seen, *(own.step + 1 for own in self.occurrences)])
+        seen = [observation.step for observation in self.observations]
+        return max([0, *seen, *(occurrence.step + 1 for occurrence in self.occurrences)])
 
     def with_observations(self, literals: Iterable[Literal], *, step: int) -> History:
         """Return the history with what was seen at a step; what is there already is not doubled."""
-        new = dict.fromkeys([*self.observations, *(Observation(own, step) for own in literals)])
+        new = dict.fromkeys(
+            [*self.observations, *(Observation(literal, step) for literal in literals)]
+        )
         return History(tuple(new), self.occurrences)
 
     def with_occurrence(self, action: Literal, *, step: int, attempted: bool = False) -> History:
@@ -96,7 +98,7 @@ def history_text(history: History, *, title: str) -> str:
     <BLANKLINE>
     """
     entries: list[Observation | Occurrence] = [*history.observations, *history.occurrences]
-    entries.sort(key=lambda own: own.step)
+    entries.sort(key=lambda entry: entry.step)
     return "\n".join([f"% {' '.join(title.split())}", *map(str, entries), ""])
 
 
@@ -144,8 +146,8 @@ def read_history(source: str, signature: Signature, *, file: str = "history.al")
                 Occurrence(action, step, attempted=word == "attempted"), statement
             )
     return History(
-        tuple(sorted(observations, key=lambda own: own.step)),
-        tuple(sorted(occurrences, key=lambda own: own.step)),
+        tuple(sorted(observations, key=lambda observation: observation.step)),
+        tuple(sorted(occurrences, key=lambda occurrence: occurrence.step)),
     )
 
 
@@ -153,8 +155,8 @@ def _refuse_contradiction(
     statement: Statement, literal: Literal, step: int, earlier: dict[Observation, Statement]
 ) -> None:
     denied = key_of(literal.complement)
-    for own, first in earlier.items():
-        if own.step == step and key_of(own.literal) == denied:
+    for observation, first in earlier.items():
+        if observation.step == step and key_of(observation.literal) == denied:
             raise KnowledgeError(
                 f"{statement.location}: '{literal}' was observed at step {step}, and its opposite "
                 f"at {first.location}; remove one of the two"

@@ -48,7 +48,7 @@ class Knowledge:
         """What stays as it is in every state: the axioms about statics."""
         changes = self.signature.changes
         return replace(
-            self, axioms=tuple(own for own in self.axioms if not changes(own.head.predicate))
+            self, axioms=tuple(axiom for axiom in self.axioms if not changes(axiom.head.predicate))
         )
 
     def without_sort(self, sort: str) -> Knowledge:
@@ -60,18 +60,18 @@ class Knowledge:
         ... #sort view. #sort place = {hall}. #static dark(view). #static large(place).
         ... -dark(V) if view(V), not dark(V). large(hall).
         ... ''')
-        >>> [str(own) for own in known.without_sort("view").axioms]
+        >>> [str(axiom) for axiom in known.without_sort("view").axioms]
         ['large(hall).']
         """
         predicates = self.signature.predicates
-        gone = {sort, *(name for name, own in predicates.items() if sort in own.sorts)}
+        gone = {sort, *(name for name, predicate in predicates.items() if sort in predicate.sorts)}
         signature = Signature(
-            {name: own for name, own in self.signature.sorts.items() if name != sort},
-            {name: own for name, own in predicates.items() if name not in gone},
+            {name: declared for name, declared in self.signature.sorts.items() if name != sort},
+            {name: predicate for name, predicate in predicates.items() if name not in gone},
         )
         return Knowledge(
             signature,
-            tuple(own for own in self.axioms if not gone.intersection(own.predicates)),
+            tuple(axiom for axiom in self.axioms if not gone.intersection(axiom.predicates)),
             self.file,
         )
 
@@ -143,7 +143,7 @@ def read_axioms(
     Examples
     --------
     >>> known = read_knowledge("#sort structure. #static stable(structure).")
-    >>> [own.identifier for own in read_axioms("stable(S) if structure(S).", known.signature)]
+    >>> [axiom.identifier for axiom in read_axioms("stable(S) if structure(S).", known.signature)]
     ['l1']
     """
     rules = list(statements(source, file=file))
@@ -300,7 +300,7 @@ def _read_axiom(
     variable_sorts: dict[str, Sort] = {}
     for atom in _atoms(rule):
         _check_atom(atom, signature, statement, variable_sorts)
-    for variable in sorted({own.name for own in _nodes(rule, ast.ASTType.Variable)}):
+    for variable in sorted({node.name for node in _nodes(rule, ast.ASTType.Variable)}):
         if variable.endswith("__"):
             raise KnowledgeError(
                 f"{statement.location}: '{variable}' is no variable: names that end in '__' are "
@@ -327,7 +327,7 @@ def _action_and_head(
     """The action that an axiom speaks of, if any, and the literal that it concludes."""
     if kind is AxiomKind.CAUSAL_LAW:
         parts = (
-            [own.literal for own in rule.head.elements if not own.condition]
+            [element.literal for element in rule.head.elements if not element.condition]
             if rule.head.ast_type is ast.ASTType.Disjunction
             else []
         )
@@ -535,7 +535,9 @@ def _check_safety(rules: list[tuple[Statement, ast.AST, tuple[str, ...]]]) -> No
             raise
         line, column, what = int(match.group(1)), int(match.group(2)), match.group(3)
         begun = [
-            own for own, *_ in rules if (own.location.line, own.location.column) <= (line, column)
+            statement
+            for statement, *_ in rules
+            if (statement.location.line, statement.location.column) <= (line, column)
         ]
         place = begun[-1].place(line, column)
         if match.re is _CLINGO_ERROR:

@@ -73,7 +73,10 @@ def learned_text(
             str(axiom),
             "",
         ]
-    lines += [f"% {own.fate}: {own.statement} because {own.reason}" for own in withdrawn]
+    lines += [
+        f"% {withdrawal.fate}: {withdrawal.statement} because {withdrawal.reason}"
+        for withdrawal in withdrawn
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -100,7 +103,7 @@ def read_learned(
     axioms = parse_learned(source, signature, file=str(path))
     lines = source.splitlines()
     found = (match for line in lines if (match := _WITHDRAWN.match(line)))
-    gone = (own.groups() for own in found)
+    gone = (parsed.groups() for parsed in found)
     return axioms, tuple(
         Withdrawn(statement, reason, fate == "set aside") for fate, statement, reason in gone
     )

@@ -64,8 +64,8 @@ class Occurrence:
         if not self._total or self._number(*parts):
             return False
         expected = min(
-            self._number(own) * self._number(*(other for other in parts if other != own))
-            for own in parts
+            self._number(part) * self._number(*(other for other in parts if other != part))
+            for part in parts
         )
         return expected / self._total >= EXPECTED
 

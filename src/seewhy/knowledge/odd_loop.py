@@ -33,7 +33,7 @@ class OddLoops:
     >>> odd = "stable(S) if base(S, narrow), not stable(S)."
     >>> known = replace(domain.knowledge, axioms=read_axioms(odd, domain.knowledge.signature))
     >>> loops = OddLoops(known, domain.schema)
-    >>> [str(own) for own in loops.of(domain.vector({"base": "narrow"}))]
+    >>> [str(axiom) for axiom in loops.of(domain.vector({"base": "narrow"}))]
     ['stable(S) if base(S, narrow), not stable(S).']
     >>> loops.of(domain.vector({"base": "wide"}))
     ()

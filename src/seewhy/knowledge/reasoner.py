@@ -248,7 +248,8 @@ class Reasoner:
             on_model=minimal,
         )
         return sorted(
-            {own for own in found if own is not None}, key=lambda chosen: sorted(map(str, chosen))
+            {exceptions for exceptions in found if exceptions is not None},
+            key=lambda chosen: sorted(map(str, chosen)),
         )
 
     def answer_set(self, vector: FeatureVector) -> AnswerSet | None:
@@ -345,7 +346,7 @@ class Reasoner:
         found = self.answer_sets(vector)
         if not found:
             return frozenset()
-        shared = frozenset.intersection(*(own.holds for own in found))
+        shared = frozenset.intersection(*(answer_set.holds for answer_set in found))
         if len(found) < _MOST_ANSWER_SETS:
             return shared
         for assumed in self._consistent_trials(vector):

@@ -41,4 +41,6 @@ class SceneSchema:
 
     def class_of(self, literal: Literal) -> str | None:
         """Return the class that a literal stands for, if any."""
-        return next((name for name, own in self.classes.items() if own == literal), None)
+        return next(
+            (name for name, class_literal in self.classes.items() if class_literal == literal), None
+        )

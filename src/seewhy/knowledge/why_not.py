@@ -67,7 +67,8 @@ def refuse(evidence: Evidence, literal: Literal) -> Node:
         )
     each = (evidence, *evidence.others)
     nodes = [
-        belief_node(own, key) if key in own.holds else _refused(own, literal, ()) for own in each
+        belief_node(case, key) if key in case.holds else _refused(case, literal, ())
+        for case in each
     ]
     cases = once(nodes)
     if len(cases) == 1:
@@ -260,12 +261,12 @@ def _ranges(evidence: Evidence, axiom: Axiom, bound: dict[str, str]) -> list[str
     sorts: dict[str, str] = {}
     computed: list[tuple[set[str], str]] = []
     for literal in (axiom.head, *(c.literal for c in axiom.body if c.literal)):
-        own = (
+        literal_sorts = (
             (literal.predicate,)
             if literal.predicate in evidence.signature.sorts
             else evidence.signature.predicates[literal.predicate].sorts
         )
-        for argument, sort in zip(literal.arguments, own, strict=True):
+        for argument, sort in zip(literal.arguments, literal_sorts, strict=True):
             if (argument,) == variables_in(argument):
                 sorts.setdefault(argument, sort)
             else:

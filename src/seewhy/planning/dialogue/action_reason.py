@@ -172,9 +172,9 @@ class Intentions:
         """Return the executability conditions that forbid an action in a state."""
         knowledge = self.domain.knowledge
         return tuple(
-            own
+            instance
             for axiom in of_kind(knowledge, AxiomKind.EXECUTABILITY_CONDITION)
-            for own in self.instances.of(axiom, state.holds, action=action)
+            for instance in self.instances.of(axiom, state.holds, action=action)
         )
 
     def why_not(self, action: clingo.Symbol, step: Step) -> WhyNot:
@@ -195,9 +195,10 @@ class Intentions:
     def start(self, step: Step) -> State:
         """Return what a step's plan starts from: what was believed, without what was doubted."""
         made = [
-            own
-            for own in self.run.steps
-            if own.number <= step.number and own.decision in (Decision.PLAN, Decision.REPLAN)
+            earlier
+            for earlier in self.run.steps
+            if earlier.number <= step.number
+            and earlier.decision in (Decision.PLAN, Decision.REPLAN)
         ]
         if not made or not made[-1].doubted:
             return step.believed

@@ -57,7 +57,8 @@ class BeliefAnswers:
                 query,
                 whose=None,
                 arguments=tuple(
-                    place[1] if n == query.whose else own for n, own in enumerate(query.arguments)
+                    place[1] if n == query.whose else argument
+                    for n, argument in enumerate(query.arguments)
                 ),
             )
         literal = query.symbol()
@@ -92,14 +93,14 @@ class BeliefAnswers:
         """Of what something is believed: what somebody has, what is closed."""
         beliefs, step = self._beliefs(query)
         found = [
-            own
-            for own in beliefs.positive(query.predicate, step)
+            literal
+            for literal in beliefs.positive(query.predicate, step)
             if all(
                 asked in (None, str(argument))
-                for asked, argument in zip(query.arguments, own.arguments, strict=True)
+                for asked, argument in zip(query.arguments, literal.arguments, strict=True)
             )
         ]
-        reasons = {"literals": [str(own) for own in found]}
+        reasons = {"literals": [str(literal) for literal in found]}
         if not found:
             return sentences([f"{none_of(query.text)} that I know of"]), reasons
         now = step == self.run.history.last_step
@@ -125,8 +126,8 @@ class BeliefAnswers:
         if query.step is not None or not query.text.startswith("why did you "):
             return query
         literal = query.symbol()
-        acting = [own for own in self.run.steps if own.action is not None]
-        held = [own.number for own in acting if literal in own.believed.holds]
+        acting = [step for step in self.run.steps if step.action is not None]
+        held = [step.number for step in acting if literal in step.believed.holds]
         return replace(query, step=held[-1]) if held else query
 
     def why_believe(self, query: Query) -> Told:
@@ -154,7 +155,7 @@ class BeliefAnswers:
     def where(self, query: Query) -> Told:
         """Where a thing is."""
         beliefs, step = self._beliefs(query)
-        thing = next(own for own in query.arguments if own is not None)
+        thing = next(argument for argument in query.arguments if argument is not None)
         place = self._place_of(thing, beliefs, step)
         if place is None:
             return self._unknown_place(thing, beliefs, step)
@@ -168,21 +169,21 @@ class BeliefAnswers:
         beliefs, step = self._beliefs(query)
         place = query.arguments[0] or ""
         found = whats_at(self.domain, beliefs.diagnosis.states[step], place)
-        single = {own.predicate for own in places(self.domain) if own.single}
-        who = self.speech.every(own for own in found if own.name in single)
+        single = {fluent.predicate for fluent in places(self.domain) if fluent.single}
+        who = self.speech.every(literal for literal in found if literal.name in single)
         described = describe_place(beliefs, place, step, named=bool(who))
         said = [who, *described] if found else [self._nothing(place, beliefs, step)]
-        return sentences(said), {"literals": [str(own) for own in found]}
+        return sentences(said), {"literals": [str(literal) for literal in found]}
 
     def _nothing(self, place: str, beliefs: Beliefs, step: int) -> str:
-        own = next(own for own in places(self.domain) if self._is_place(place))
+        first = next(fluent for fluent in places(self.domain) if self._is_place(place))
         looked = any(
             at <= step and str(seen.arguments[other.place]) == place
             for seen, at in beliefs.observations
             for other in places(self.domain)
             if seen.name == other.predicate
         )
-        said = f"I know of nothing {own.preposition} {self.speech.name(place)}"
+        said = f"I know of nothing {first.preposition} {self.speech.name(place)}"
         return said if looked else f"{said}; I have not looked there"
 
     def _because(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:
@@ -194,8 +195,8 @@ class BeliefAnswers:
         return beliefs, history.last_step if query.step is None else query.step
 
     def _known(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> clingo.Symbol | None:
-        return next((own for own in (literal, complement_of(literal)) if beliefs.holds(own, step)),
-                    None)  # fmt: skip
+        sides = (literal, complement_of(literal))
+        return next((side for side in sides if beliefs.holds(side, step)), None)
 
     def _not_known(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:
         said = self.speech.say(fluent_of(literal))
@@ -224,23 +225,23 @@ class BeliefAnswers:
         where = "I am" if is_me else f"{self.speech.name(thing)} is"
         ruled_out = [
             literal
-            for own in places(self.domain)
-            if own.single
+            for fluent in places(self.domain)
+            if fluent.single
             for literal in sorted(beliefs.diagnosis.states[step].holds)
-            if literal.name == own.predicate
+            if literal.name == fluent.predicate
             and not literal.positive
-            and str(literal.arguments[own.thing]) == thing
+            and str(literal.arguments[fluent.thing]) == thing
         ]
         said = [f"I do not know where {where}"]
         if ruled_out:
             said.append(f"I only know that {self.speech.every(ruled_out)}")
-        return sentences(said), {"ruled_out": [str(own) for own in ruled_out]}
+        return sentences(said), {"ruled_out": [str(literal) for literal in ruled_out]}
 
     def _is_place(self, term: str) -> bool:
         signature = self.domain.knowledge.signature
         return any(
-            term in signature.members(signature.predicates[own.predicate].sorts[own.place])
-            for own in places(self.domain)
+            term in signature.members(signature.predicates[fluent.predicate].sorts[fluent.place])
+            for fluent in places(self.domain)
         )
 
 

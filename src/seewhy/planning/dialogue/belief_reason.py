@@ -127,20 +127,27 @@ class Beliefs:
     def observations(self) -> set[tuple[clingo.Symbol, int]]:
         """What was seen at which step, without what was seen wrongly."""
         wrong = {
-            (own.what, own.step)
-            for own in self.diagnosis.surprises
-            if own.kind is SurpriseKind.MISREADING
+            (surprise.what, surprise.step)
+            for surprise in self.diagnosis.surprises
+            if surprise.kind is SurpriseKind.MISREADING
         }
-        seen = ((_symbol(own.literal), own.step) for own in self.history.observations)
-        return {own for own in seen if own not in wrong}
+        seen = (
+            (_symbol(observation.literal), observation.step)
+            for observation in self.history.observations
+        )
+        return {observed for observed in seen if observed not in wrong}
 
     def _happened(self, step: int) -> list[clingo.Symbol]:
         """What was done, or must have happened, at a step."""
-        surprises = [own for own in self.diagnosis.surprises if own.step == step]
-        failed = {own.what for own in surprises if own.kind is SurpriseKind.FAILURE}
-        done = [_symbol(own.action) for own in self.history.occurrences if own.step == step]
-        events = [own.what for own in surprises if own.kind is SurpriseKind.EVENT]
-        return [own for own in done if own not in failed] + events
+        surprises = [surprise for surprise in self.diagnosis.surprises if surprise.step == step]
+        failed = {surprise.what for surprise in surprises if surprise.kind is SurpriseKind.FAILURE}
+        done = [
+            _symbol(occurrence.action)
+            for occurrence in self.history.occurrences
+            if occurrence.step == step
+        ]
+        events = [surprise.what for surprise in surprises if surprise.kind is SurpriseKind.EVENT]
+        return [action for action in done if action not in failed] + events
 
     def _why(
         self, literal: clingo.Symbol, step: int, above: frozenset[tuple[clingo.Symbol, int]]
@@ -148,9 +155,9 @@ class Beliefs:
         above |= {(literal, step)}
         if self._kind(literal) is PredicateKind.STATIC:
             return self._given(literal, step, above)
-        own = self._observed_or_caused(literal, step, above)
-        if own is not None:
-            return own
+        reason = self._observed_or_caused(literal, step, above)
+        if reason is not None:
+            return reason
         followed = self._follows(literal, step, above)
         defined = self._kind(literal) is PredicateKind.FLUENT_DEFINED
         if defined:
@@ -158,9 +165,9 @@ class Beliefs:
         for before in range(step - 1, -1, -1):
             if not self.holds(literal, before):
                 break
-            own = self._observed_or_caused(literal, before, above)
-            if own is not None:
-                return self._reason(literal, step, Basis.UNCHANGED, children=(own,))
+            reason = self._observed_or_caused(literal, before, above)
+            if reason is not None:
+                return self._reason(literal, step, Basis.UNCHANGED, children=(reason,))
         if followed is not None:
             return followed
         if step > 0 and self.holds(literal, step - 1):
@@ -202,7 +209,7 @@ class Beliefs:
                 continue
             for found in self.instances.of(axiom, state, head=literal):
                 rests = (*found.holds, *found.counted, *found.statics)
-                if not any((own, step) in above for own in rests):
+                if not any((rest, step) in above for rest in rests):
                     children = self._each(rests, step, above)
                     return self._reason(
                         literal, step, Basis.FOLLOWS, axiom=axiom, children=children
@@ -231,7 +238,11 @@ class Beliefs:
     def _usual(self, literal: clingo.Symbol) -> Reason | None:
         knowledge = self.domain.knowledge
         state = self.diagnosis.states[0].holds
-        giving_way = [own for own in constraints(knowledge) if gives_way(own, knowledge.signature)]
+        giving_way = [
+            constraint
+            for constraint in constraints(knowledge)
+            if gives_way(constraint, knowledge.signature)
+        ]
         for axiom in (*of_kind(knowledge, AxiomKind.DEFAULT), *giving_way):
             if self.instances.of(axiom, state, head=literal):
                 return self._reason(literal, 0, Basis.USUAL, axiom=axiom)
@@ -240,14 +251,16 @@ class Beliefs:
     def _explains(self, literal: clingo.Symbol, step: int) -> Reason:
         """The observations without which it would not be believed."""
         shown = []
-        for own in self.history.observations:
-            less = tuple(other for other in self.history.observations if other is not own)
+        for observation in self.history.observations:
+            less = tuple(other for other in self.history.observations if other is not observation)
             try:
                 without = self._diagnosed(replace(self.history, observations=less))
             except PlanningError:
                 continue
             if step >= len(without.states) or literal not in without.states[step].holds:
-                shown.append(self._reason(_symbol(own.literal), own.step, Basis.OBSERVED))
+                shown.append(
+                    self._reason(_symbol(observation.literal), observation.step, Basis.OBSERVED)
+                )
         return self._reason(literal, step, Basis.EXPLAINS, children=tuple(shown))
 
     def counted(self, literal: clingo.Symbol, step: int) -> list[tuple[Axiom, list[clingo.Symbol]]]:
@@ -256,9 +269,9 @@ class Beliefs:
         affirmed = literal if literal.positive else complement_of(literal)
         found = []
         for axiom in constraints(self.domain.knowledge):
-            own = unified(axiom, axiom.head, affirmed)
-            if own is not None and any(condition.is_local for condition in axiom.body):
-                found.append((axiom, self.instances.counted(own, state)))
+            instance = unified(axiom, axiom.head, affirmed)
+            if instance is not None and any(condition.is_local for condition in axiom.body):
+                found.append((axiom, self.instances.counted(instance, state)))
         return found
 
     def _each(
@@ -268,9 +281,9 @@ class Beliefs:
         above: frozenset[tuple[clingo.Symbol, int]],
     ) -> tuple[Reason, ...]:
         return tuple(
-            self._why(own, step, above)
-            for own in dict.fromkeys(literals)
-            if (own, step) not in above and self.holds(own, step)
+            self._why(literal, step, above)
+            for literal in dict.fromkeys(literals)
+            if (literal, step) not in above and self.holds(literal, step)
         )
 
     def _reason(
@@ -354,17 +367,17 @@ def _tell_unchanged(child: Reason, speech: Speech, told: list[str], now: int | N
 def _first_of_each(children: tuple[Reason, ...]) -> Iterator[Reason]:
     """Of reasons of the same kind, such as a count's, one."""
     seen = set()
-    for own in children:
-        key = (own.literal.name, own.basis, own.axiom and own.axiom.identifier)
+    for reason in children:
+        key = (reason.literal.name, reason.basis, reason.axiom and reason.axiom.identifier)
         if key not in seen:
             seen.add(key)
-            yield own
+            yield reason
 
 
 def together_said(reasons: tuple[Reason, ...], speech: Speech, *, past: bool = False) -> str:
     """The beliefs of several reasons as one clause."""
-    own = [reason.literal for reason in reasons]
-    return speech.every_past(own) if past else speech.every(own)
+    literals = [reason.literal for reason in reasons]
+    return speech.every_past(literals) if past else speech.every(literals)
 
 
 def _symbol(literal: Literal) -> clingo.Symbol:

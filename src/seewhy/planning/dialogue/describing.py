@@ -19,27 +19,27 @@ def describe_place(beliefs: Beliefs, place: str, step: int, *, named: bool) -> l
     What was never seen is listed as expected. ``named`` says that the place is known already.
     """
     domain, speech = beliefs.domain, beliefs.speech
-    seen = {own for own, at in beliefs.observations if at <= step}
+    seen = {literal for literal, at in beliefs.observations if at <= step}
     said = []
-    for own in places(domain):
-        if own.single:
+    for fluent in places(domain):
+        if fluent.single:
             continue
         signature = domain.knowledge.signature
-        kind = plural(signature.predicates[own.predicate].sorts[own.thing].replace("_", " "))
+        kind = plural(signature.predicates[fluent.predicate].sorts[fluent.thing].replace("_", " "))
         there = [
             literal
-            for literal in beliefs.diagnosis.states[step].positive(own.predicate)
-            if str(literal.arguments[own.place]) == place
+            for literal in beliefs.diagnosis.states[step].positive(fluent.predicate)
+            if str(literal.arguments[fluent.place]) == place
         ]
-        where = "" if named else f" {own.preposition} {speech.name(place)}"
+        where = "" if named else f" {fluent.preposition} {speech.name(place)}"
         for how, listed in (
             ("detected", [literal for literal in there if literal in seen]),
             ("expected", [literal for literal in there if literal not in seen]),
         ):
             if listed:
-                things = join_words([_noun_phrase(beliefs, own, literal) for literal in listed])
+                things = join_words([_noun_phrase(beliefs, fluent, literal) for literal in listed])
                 verb = "are" if len(listed) > 1 else "is"
-                subject = kind if len(listed) > 1 else f"the only {_singular(beliefs, own)}"
+                subject = kind if len(listed) > 1 else f"the only {_singular(beliefs, fluent)}"
                 said.append(f"{subject} {how}{where} {verb} {things}")
     return said
 
@@ -49,9 +49,9 @@ def say_counted(beliefs: Beliefs, literal: clingo.Symbol, step: int) -> str | No
     speech = beliefs.speech
     for axiom, counted in beliefs.counted(literal, step):
         clauses = speech.every(counted)
-        for own in places(beliefs.domain):
+        for fluent in places(beliefs.domain):
             for term in literal.arguments:
-                where = f" {own.preposition} {speech.name(term)}"
+                where = f" {fluent.preposition} {speech.name(term)}"
                 clauses = re.sub(rf"{re.escape(where)}(?=$| and |, )", " there", clauses)
         rule = f'"{axiom.text}"' if has_sentence(axiom) else ""
         if literal.positive:
@@ -61,14 +61,14 @@ def say_counted(beliefs: Beliefs, literal: clingo.Symbol, step: int) -> str | No
     return None
 
 
-def _singular(beliefs: Beliefs, own: Place) -> str:
-    predicate = beliefs.domain.knowledge.signature.predicates[own.predicate]
-    return predicate.sorts[own.thing].replace("_", " ")
+def _singular(beliefs: Beliefs, fluent: Place) -> str:
+    predicate = beliefs.domain.knowledge.signature.predicates[fluent.predicate]
+    return predicate.sorts[fluent.thing].replace("_", " ")
 
 
-def _noun_phrase(beliefs: Beliefs, own: Place, literal: clingo.Symbol) -> str:
+def _noun_phrase(beliefs: Beliefs, fluent: Place, literal: clingo.Symbol) -> str:
     """The thing with the article that it is said with."""
-    say = beliefs.domain.words.fluents[own.predicate].say
-    article = "a " if re.search(rf"\ban? \{{{own.thing}\}}", say) else ""
-    phrase = article + beliefs.speech.name(literal.arguments[own.thing])
+    say = beliefs.domain.words.fluents[fluent.predicate].say
+    article = "a " if re.search(rf"\ban? \{{{fluent.thing}\}}", say) else ""
+    phrase = article + beliefs.speech.name(literal.arguments[fluent.thing])
     return re.sub(r"\ba (?=[aeiou])", "an ", phrase)

@@ -44,13 +44,13 @@ def say_goal(
     signature = domain.knowledge.signature
     some = _names_of_variables(goal.axiom.body, signature)
     clauses: list[tuple[str, bool]] = []
-    for own in goal.axiom.body:
-        if own.literal is None:
-            clauses.append((_comparison(own.text, some, speech), False))
-        elif own.literal.predicate not in signature.sorts:
-            symbol = clingo.parse_term(str(own.literal.substitute(some)))
-            met = end is not None and own.absent != (symbol in end.holds)
-            clauses.append((speech.say(complement_of(symbol) if own.absent else symbol), met))
+    for condition in goal.axiom.body:
+        if condition.literal is None:
+            clauses.append((_comparison(condition.text, some, speech), False))
+        elif condition.literal.predicate not in signature.sorts:
+            symbol = clingo.parse_term(str(condition.literal.substitute(some)))
+            met = end is not None and condition.absent != (symbol in end.holds)
+            clauses.append((speech.say(complement_of(symbol) if condition.absent else symbol), met))
     unmet = [text for text, met in clauses if not met]
     return join_words(unmet or [text for text, _ in clauses])
 
@@ -67,13 +67,13 @@ def _comparison(text: str, some: Mapping[str, str], speech: Speech) -> str:
 def _names_of_variables(body: Sequence[Condition], signature: Signature) -> dict[str, str]:
     """What a goal's variables are called: "some person"."""
     found: dict[str, str] = {}
-    for own in body:
-        if own.literal is None:
+    for condition in body:
+        if condition.literal is None:
             continue
-        name = own.literal.predicate
+        name = condition.literal.predicate
         is_sort = name in signature.sorts
         sorts = (name,) if is_sort else signature.predicates[name].sorts
-        for argument, sort in zip(own.literal.arguments, sorts, strict=True):
+        for argument, sort in zip(condition.literal.arguments, sorts, strict=True):
             if variables_in(argument) == (argument,) and (is_sort or argument not in found):
                 found[argument] = f'"some {sort.replace("_", " ")}"'
     return found

@@ -55,8 +55,8 @@ class Instances:
     ... ''')
     >>> state = [clingo.parse_term("dark(attic)")]
     >>> read = clingo.parse_term("read(attic)")
-    >>> (own,) = Instances(known).of(known.axioms[0], state, action=read)
-    >>> [str(literal) for literal in own.holds]
+    >>> (applied,) = Instances(known).of(known.axioms[0], state, action=read)
+    >>> [str(literal) for literal in applied.holds]
     ['dark(attic)']
     """
 
@@ -80,23 +80,24 @@ class Instances:
         action: clingo.Symbol | None = None,
     ) -> list[Applied]:
         """Return the instances that apply in a state, with this head and action where given."""
-        own: Axiom | None = axiom
+        narrowed: Axiom | None = axiom
         if head is not None:
-            own = unified(axiom, axiom.head, head)
-        if action is not None and own is not None:
-            own = unified(own, own.action, action)
-        if own is None:
+            narrowed = unified(axiom, axiom.head, head)
+        if action is not None and narrowed is not None:
+            narrowed = unified(narrowed, narrowed.action, action)
+        if narrowed is None:
             return []
         facts = self._facts(state)
         signature = self.knowledge.signature
+        body = body_at(narrowed, signature, "0")
         found = BoundedControl(
-            f"{facts}\n{rule(f'applies({variable_tuple(own)})', body_at(own, signature, '0'))}",
-            size=axioms_size([own], signature),
+            f"{facts}\n{rule(f'applies({variable_tuple(narrowed)})', body)}",
+            size=axioms_size([narrowed], signature),
         )
         bindings = sorted(
             atom.symbol.arguments[0] for atom in found.by_signature("applies", 1) if atom.is_fact
         )
-        instances = [self._applied(own, binding, facts) for binding in bindings]
+        instances = [self._applied(narrowed, binding, facts) for binding in bindings]
         if has_sentence(axiom):
             return instances
         return [replace(one, axiom=replace(one.axiom, text=str(one.axiom))) for one in instances]
@@ -106,23 +107,23 @@ class Instances:
         return list(self._counted(axiom, self._facts(state)))
 
     def _facts(self, state: Iterable[clingo.Symbol]) -> str:
-        held = " ".join(f"holds({own}, 0)." for own in sorted(state))
+        held = " ".join(f"holds({literal}, 0)." for literal in sorted(state))
         return (
             f"{self._fixed} {held} at(0, 0). #defined holds/1. #defined holds/2. #defined sort/2."
         )
 
     def _applied(self, axiom: Axiom, binding: clingo.Symbol, facts: str) -> Applied:
-        own = _substituted(
+        instance = _substituted(
             axiom, dict(zip(axiom.variables, map(str, binding.arguments), strict=True))
         )
-        counted = tuple(self._counted(own, facts))
+        counted = tuple(self._counted(instance, facts))
         return Applied(
-            own,
-            holds=self._named(own, fluent=True, absent=False),
+            instance,
+            holds=self._named(instance, fluent=True, absent=False),
             counted=counted,
-            absent=self._named(own, fluent=True, absent=True),
-            statics=self._named(own, fluent=False, absent=False),
-            absent_statics=self._named(own, fluent=False, absent=True),
+            absent=self._named(instance, fluent=True, absent=True),
+            statics=self._named(instance, fluent=False, absent=False),
+            absent_statics=self._named(instance, fluent=False, absent=True),
         )
 
     def _named(self, axiom: Axiom, *, fluent: bool, absent: bool) -> tuple[clingo.Symbol, ...]:
@@ -148,7 +149,7 @@ class Instances:
                     for number, part in enumerate(parts)
                     for timed in at_step(Condition(part), signature, "0", number=number)
                 ]
-                fluents = [own for own in parts if signature.kind(_predicate(own)).is_fluent]
+                fluents = [part for part in parts if signature.kind(_predicate(part)).is_fluent]
                 if fluents and not fluents[0].startswith("not "):
                     rules.append(rule(f"counted({fluents[0]})", body))
         if rules:
@@ -172,10 +173,10 @@ def unified(axiom: Axiom, literal: Literal | None, symbol: clingo.Symbol) -> Axi
             compared.append(Condition(f"{argument} = {term}"))
         elif binding.setdefault(argument, term) != term:
             return None
-    own = _substituted(replace(axiom, body=(*axiom.body, *compared)), binding)
+    instance = _substituted(replace(axiom, body=(*axiom.body, *compared)), binding)
     same = literal_of(str(symbol))
     is_head = literal == axiom.head
-    return replace(own, head=same) if is_head else replace(own, action=same)
+    return replace(instance, head=same) if is_head else replace(instance, action=same)
 
 
 def _substituted(axiom: Axiom, binding: dict[str, str]) -> Axiom:
@@ -185,11 +186,11 @@ def _substituted(axiom: Axiom, binding: dict[str, str]) -> Axiom:
         action=axiom.action and axiom.action.substitute(binding),
         body=tuple(
             Condition(
-                substitute(own.text, binding),
-                own.literal and own.literal.substitute(binding),
-                own.absent,
+                substitute(condition.text, binding),
+                condition.literal and condition.literal.substitute(binding),
+                condition.absent,
             )
-            for own in axiom.body
+            for condition in axiom.body
         ),
     )
 
@@ -201,7 +202,7 @@ def _elements(condition: Condition) -> Iterator[list[str]]:
     (body,) = found[1].body
     if body.ast_type is ast.ASTType.Literal and hasattr(body.atom, "elements"):
         for element in body.atom.elements:
-            yield [str(own) for own in element.condition]
+            yield [str(part) for part in element.condition]
 
 
 def _predicate(text: str) -> str:

@@ -81,11 +81,11 @@ class Speech:
 
     def every(self, literals: Iterable[clingo.Symbol]) -> str:
         """Literals as one clause in the present tense."""
-        return together([self.say(own) for own in literals])
+        return together([self.say(literal) for literal in literals])
 
     def every_past(self, literals: Iterable[clingo.Symbol]) -> str:
         """Literals as one clause in the past tense."""
-        return together([self.said(own) for own in literals])
+        return together([self.said(literal) for literal in literals])
 
     def _spoken(self, clause: str) -> str:
         clause = _in_first_person(clause)
@@ -146,8 +146,8 @@ def _by_subject(clauses: Sequence[str]) -> list[str]:
         else:
             groups.append([clause])
     return [
-        say_one_of(own, word="or" if re.search(r"\b(not|no)\b", own[0]) else "and")
-        for own in groups
+        say_one_of(group, word="or" if re.search(r"\b(not|no)\b", group[0]) else "and")
+        for group in groups
     ]
 
 
@@ -159,7 +159,7 @@ def sentences(clauses: Iterable[str]) -> str:
     >>> sentences(["it is so", "", "I saw it"])
     'It is so. I saw it.'
     """
-    return " ".join(sentence(own) for own in clauses if own)
+    return " ".join(sentence(clause) for clause in clauses if clause)
 
 
 def plural(noun: str) -> str:

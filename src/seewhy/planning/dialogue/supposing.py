@@ -30,8 +30,8 @@ def known_at(history: History, step: int | None) -> History:
     if step is None:
         return history
     return History(
-        tuple(own for own in history.observations if own.step <= step),
-        tuple(own for own in history.occurrences if own.step < step),
+        tuple(observation for observation in history.observations if observation.step <= step),
+        tuple(occurrence for occurrence in history.occurrences if occurrence.step < step),
     )
 
 
@@ -64,11 +64,11 @@ def supposed_history(
 
     step = history.last_step
     supposed = Observation(literal_of(str(literal)), step)
-    before = [own for own in history.observations if own.step < step]
+    before = [observation for observation in history.observations if observation.step < step]
     present = [
-        own
-        for own in history.observations
-        if own.step == step and not _excludes(own.literal, literal, knowledge)
+        observation
+        for observation in history.observations
+        if observation.step == step and not _excludes(observation.literal, literal, knowledge)
     ]
     whole = replace(history, observations=(*before, *present, supposed))
     if explained(whole):
@@ -76,8 +76,8 @@ def supposed_history(
     kept = replace(history, observations=(*before, supposed))
     if not explained(kept):
         return None
-    for own in present:
-        more = replace(kept, observations=(*kept.observations, own))
+    for seen_now in present:
+        more = replace(kept, observations=(*kept.observations, seen_now))
         kept = more if explained(more) else kept
     return kept
 
@@ -89,12 +89,12 @@ def _excludes(seen: Literal, literal: clingo.Symbol, knowledge: Knowledge) -> bo
     if not (symbol.positive and literal.positive) or symbol == literal:
         return False
     return any(
-        own.predicate == symbol.name == literal.name
+        mutex.predicate == symbol.name == literal.name
         and all(
-            one == other or place == own.position
+            one == other or place == mutex.position
             for place, (one, other) in enumerate(
                 zip(symbol.arguments, literal.arguments, strict=True)
             )
         )
-        for own in mutexes(knowledge)
+        for mutex in mutexes(knowledge)
     )

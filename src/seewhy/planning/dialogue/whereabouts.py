@@ -37,8 +37,8 @@ def places(domain: PlanningDomain) -> list[Place]:
     Examples
     --------
     >>> from seewhy.planning.domain import load_planning_domain
-    >>> for own in places(load_planning_domain("robot_assistant")):
-    ...     print(own.predicate, own.preposition, own.single)
+    >>> for fluent in places(load_planning_domain("robot_assistant")):
+    ...     print(fluent.predicate, fluent.preposition, fluent.single)
     loc in True
     present in False
     """
@@ -47,7 +47,7 @@ def places(domain: PlanningDomain) -> list[Place]:
 
 def _places(domain: PlanningDomain) -> Iterator[Place]:
     signature = domain.knowledge.signature
-    single = {own.predicate: own.position for own in mutexes(domain.knowledge)}
+    single = {mutex.predicate: mutex.position for mutex in mutexes(domain.knowledge)}
     for name, table in domain.words.fluents.items():
         predicate = signature.predicates[name]
         found = re.search(rf"\b({_AT}) \{{(\d)\}}", table.say)
@@ -58,10 +58,10 @@ def _places(domain: PlanningDomain) -> Iterator[Place]:
 
 def whereabouts(domain: PlanningDomain, state: State, thing: str) -> clingo.Symbol | None:
     """Return the literal that says where a thing is, where it is believed to be somewhere."""
-    for own in places(domain):
-        if own.single:
-            for literal in state.positive(own.predicate):
-                if str(literal.arguments[own.thing]) == thing:
+    for fluent in places(domain):
+        if fluent.single:
+            for literal in state.positive(fluent.predicate):
+                if str(literal.arguments[fluent.thing]) == thing:
                     return literal
     return None
 
@@ -79,7 +79,7 @@ def contents(domain: PlanningDomain, state: State, place: str) -> list[clingo.Sy
     """Return the literals that say what is at a place."""
     return [
         literal
-        for own in places(domain)
-        for literal in state.positive(own.predicate)
-        if str(literal.arguments[own.place]) == place
+        for fluent in places(domain)
+        for literal in state.positive(fluent.predicate)
+        if str(literal.arguments[fluent.place]) == place
     ]
