@@ -42,12 +42,12 @@ def transitions() -> Transitions:
 
 def seen_in(state: World) -> list[Literal]:
     """What the robot sees: all that is at its place, the doors, and its messages."""
-    (here,) = [own.arguments[1] for own in state if own.positive and own.match("loc", 2)
-               and str(own.arguments[0]) == "rob1"]  # fmt: skip
+    (here,) = [atom.arguments[1] for atom in state if atom.positive and atom.match("loc", 2)
+               and str(atom.arguments[0]) == "rob1"]  # fmt: skip
     return [
-        literal_of(str(own))
-        for own in sorted(state)
-        if own.name in SEEN and (own.name not in ("loc", "present") or own.arguments[1] == here)
+        literal_of(str(atom))
+        for atom in sorted(state)
+        if atom.name in SEEN and (atom.name not in ("loc", "present") or atom.arguments[1] == here)
     ]
 
 
@@ -833,28 +833,28 @@ def test_what_would_have_left_no_way_to_the_goal() -> None:
         },
     )
     past = read_history("observed key at 0. observed -open at 0.", known.signature)
-    own = replace(
+    domain = replace(
         OFFICE, knowledge=known, history=past, words=words, sensing=(), robot=None, map=None
     )
-    *_, last = execute(own, read_goal("open", known), sensed=[], act=lambda _: [])
-    assert asked(last, "why did you not melt the key?", own) == (
+    *_, last = execute(domain, read_goal("open", known), sensed=[], act=lambda _: [])
+    assert asked(last, "why did you not melt the key?", domain) == (
         "I could have, but had I melted the key at step 0, the goal could not have been reached "
         "any more."
     )
-    assert asked(last, "did you melt the key?", own) == "No, I did not melt the key."
+    assert asked(last, "did you melt the key?", domain) == "No, I did not melt the key."
 
 
 def test_a_hope_that_was_disappointed_is_why_the_plan_changed(transitions: Transitions) -> None:
     run = office_run(transitions, "loc(sally,johns_office)")
     told = asked(run, "why did the plan change?").split(" At step ")
     assert told[0].startswith("At step 2 I saw that Sally was not in her office. ")
-    assert any(own[2:].startswith("I saw that Sally was not in ") for own in told[1:])
-    assert all("Sally was in her office" not in own for own in told)
+    assert any(line[2:].startswith("I saw that Sally was not in ") for line in told[1:])
+    assert all("Sally was in her office" not in line for line in told)
 
 
 def test_what_a_sensor_got_wrong_is_said(transitions: Transitions) -> None:
     state = transitions.complete(sorted(diagnose(OFFICE.knowledge, OFFICE.history).states[0].holds))
-    own = replace(OFFICE, sensing=tuple(replace(one, error=0.1) for one in OFFICE.sensing))
+    erring = replace(OFFICE, sensing=tuple(replace(sensor, error=0.1) for sensor in OFFICE.sensing))
     steps = itertools.count()
 
     def act(action: clingo.Symbol) -> list[Literal]:
@@ -865,15 +865,15 @@ def test_what_a_sensor_got_wrong_is_said(transitions: Transitions) -> None:
         right = [one for one in seen_in(state) if one.predicate != "loc"]
         return [*right, literal_of("loc(rob1, bathroom)")]
 
-    *_, last = execute(own, TO_SALLY, sensed=seen_in(state), act=act)
+    *_, last = execute(erring, TO_SALLY, sensed=seen_in(state), act=act)
     (misread,) = last.steps[1].surprises
     assert (misread.kind.value, str(misread.what)) == ("misread", "loc(rob1,bathroom)")
-    assert asked(last, "what did you do?", own) == (
+    assert asked(last, "what did you do?", erring) == (
         "I moved to the kitchen. At step 1 I found that it was seen wrongly at step 1 that I was "
         "in the bathroom. I moved to Sally's office and delivered the first message to Sally. The "
         "goal is reached."
     )
-    assert asked(last, "where were you at step 1?", own) == (
+    assert asked(last, "where were you at step 1?", erring) == (
         'I was in the kitchen. I moved to the kitchen at step 0, and "who moves to a place is '
         'there".'
     )
@@ -896,7 +896,7 @@ def test_reasons_are_a_tree_down_to_a_default(delivered: Run) -> None:
 
 def test_what_needed_an_action_is_told_to_the_goal(delivered: Run) -> None:
     reply = answer(OFFICE, delivered, "why did you move to the kitchen?")
-    assert [own["action"] for own in reply.reasons["needed_by"]] == [
+    assert [need["action"] for need in reply.reasons["needed_by"]] == [
         "move(rob1,sallys_office)",
         "deliver(rob1,m1,sally)",
         None,

@@ -46,7 +46,7 @@ def test_the_command_prints_what_was_checked() -> None:
 
 def without_leaves(node: Node) -> Node:
     """The node without anything that says what a feature is."""
-    children = tuple(without_leaves(own) for own in node.children if own.feature is None)
+    children = tuple(without_leaves(child) for child in node.children if child.feature is None)
     return replace(node, children=children)
 
 
@@ -94,7 +94,7 @@ def test_conditions_that_are_left_out_of_why_not_are_found_out(
 
     def broken(*given: object) -> Node:
         node = right(*given)  # type: ignore[arg-type]
-        return replace(node, children=tuple(replace(own, children=()) for own in node.children))
+        return replace(node, children=tuple(replace(child, children=()) for child in node.children))
 
     found = faults(monkeypatch, "why_not", broken)
     assert any("a condition is missing" in fault for fault in found)
@@ -110,7 +110,7 @@ SCENES = (
 )
 
 
-@pytest.mark.parametrize("text", [own for own in JOINT if "N :" not in own or "n(S" in own])
+@pytest.mark.parametrize("text", [text for text in JOINT if "N :" not in text or "n(S" in text])
 @pytest.mark.parametrize("beliefs", SCENES)
 def test_what_settles_a_condition_is_enough_and_nothing_is_needless(
     text: str, beliefs: Beliefs

@@ -350,7 +350,7 @@ def test_what_only_some_answer_sets_have_is_not_believed() -> None:
     reasoner = reasoner_of(EITHER)
     vector = (None, None, "yes", None)
     assert why(reasoner, vector, read_literal("shows(structure, slip)")) is None
-    assert {str(own) for own in reasoner.believed(vector)} == {"lean(structure)"}
+    assert {str(literal) for literal in reasoner.believed(vector)} == {"lean(structure)"}
     assert why_not(reasoner, vector, read_literal("shows(structure, slip)")).to_text() == (
         "it does not follow that shows(structure, slip): it may be so or not\n"
         "├─ either it does not follow that shows(structure, slip)\n"

@@ -306,7 +306,7 @@ def test_what_is_asked_back_keeps_the_question_word_and_what_is_denied(
     with pytest.raises(QuestionError) as problem:
         structures_agent.questions.understand("why isn't it wobbly on Mondays?")
     assert problem.value.nearest
-    assert all(own.startswith("why ") and " not " in own for own in problem.value.nearest)
+    assert all(near.startswith("why ") and " not " in near for near in problem.value.nearest)
 
 
 def test_a_driver_is_answered_from_what_the_sign_tells() -> None:
