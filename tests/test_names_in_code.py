@@ -13,7 +13,6 @@ ROOT = Path(__file__).parent.parent
 FOLDERS = ("src", "benchmarks", "tests")
 REFUSED = "own"
 NOT_YET_CLEAN = (
-    "src/seewhy/agent",
     "src/seewhy/dialogue",
     "src/seewhy/knowledge",
     "src/seewhy/planning",

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
+from seewhy.domain.reading_rule import ReadingRule
 from seewhy.domain.tables import (
     CLASS,
     EMBEDDED,
@@ -22,7 +23,6 @@ from seewhy.domain.tables import (
     NetworkTable,
     PictureTable,
     QuestionsFile,
-    ReadingRule,
 )
 from seewhy.errors import DomainError, KnowledgeError
 from seewhy.files.toml_file import line_of, read_toml

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, get_args
+from typing import Annotated
 from typing import Literal as OneOf
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from seewhy.domain.reading_rule import ReadingRule
 from seewhy.text.slots import wrong_slot
-
-ReadingRule = OneOf["argmax", "consistent", "with_class"]
-"""How a picture's features are read; see :mod:`seewhy.agent.consistent_reading`."""
-
-READINGS: tuple[ReadingRule, ...] = get_args(ReadingRule)
 
 EMBEDDED = "efficientnet-lite0"
 """The backbone that comes with SeeWhy."""
