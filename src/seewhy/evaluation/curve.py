@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seewhy.data.making import determined_share
+from seewhy.data.training_needs import require_feature_labels, require_two_classes
 from seewhy.errors import DatasetError, ModelError
 from seewhy.evaluation.judging import classified
 from seewhy.evaluation.other_knowledge import with_axioms
@@ -167,8 +168,8 @@ def learning_curve(
     skipped: list[tuple[int, str]] = []
     for part in growing_parts(train, seed=agent.seed):
         try:
-            part.require_two_classes()
-            part.require_feature_labels()
+            require_two_classes(part)
+            require_feature_labels(part)
         except DatasetError as problem:
             if len(part) == len(train):
                 raise
