@@ -16,7 +16,8 @@ from seewhy.agent.settings import Settings
 from seewhy.agent.training_pictures import TrainingPictures
 from seewhy.agent.working_knowledge import WorkingKnowledge, working_knowledge
 from seewhy.dialogue.reference import Experience
-from seewhy.domain.domain import FILES, Domain, load_domain
+from seewhy.domain.domain import Domain, load_domain
+from seewhy.domain.folder import FILES
 from seewhy.domain.reading_rule import ReadingRule
 from seewhy.domain.tables import CLASS
 from seewhy.errors import ModelError, SeeWhyError

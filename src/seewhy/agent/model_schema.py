@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field, RootModel
 
-from seewhy.domain.domain import FILES
+from seewhy.domain.folder import FILES
 from seewhy.domain.reading_rule import ReadingRule
 from seewhy.files.json_file import Strict
 from seewhy.knowledge.learned_file import LEARNED

@@ -24,7 +24,7 @@ def trained_already(folder: Path, dataset: Dataset, *, seed: int) -> Agent | Non
     One that was trained with other options than the domain's is not what is looked for.
     """
     from seewhy.agent.agent import Agent
-    from seewhy.domain.domain import FILES
+    from seewhy.domain.folder import FILES
     from seewhy.errors import ModelError
 
     try:

@@ -223,7 +223,7 @@ def _trained(
 
 def _identity(like: Agent, part: Dataset) -> str:
     """What tells a training from others: the pictures, what is said of them, domain, options."""
-    from seewhy.domain.domain import FILES
+    from seewhy.domain.folder import FILES
 
     rows = zip(part.picture_digests(), part.vectors, part.labels, part.groups, strict=True)
     texts = [(like.given.folder / name).read_text(encoding="utf-8") for name in FILES]
