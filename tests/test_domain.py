@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from conftest import DOMAIN, KNOWLEDGE, QUESTIONS
-from seewhy.domain.domain import Domain, bundled_domains, domain_folder, load_domain
+from seewhy.domain.domain import Domain, load_domain
+from seewhy.domain.folder import bundled_domains, domain_folder
 from seewhy.errors import DomainError, KnowledgeError, SeeWhyError
 from seewhy.files.toml_file import line_of
 from seewhy.knowledge.axiom import Literal

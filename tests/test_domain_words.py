@@ -9,7 +9,8 @@ import pytest
 
 from seewhy.check.domain import check_domain
 from seewhy.dialogue.question import Questions
-from seewhy.domain.domain import domain_folder, load_domain
+from seewhy.domain.domain import load_domain
+from seewhy.domain.folder import domain_folder
 from seewhy.errors import QuestionError, SeeWhyError
 
 

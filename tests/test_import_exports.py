@@ -27,9 +27,9 @@ from exports_builder import (
 )
 from seewhy.data.importers.annotation import AnnotatedPicture, Box, Notes
 from seewhy.data.importers.boxes import boxes_in_pixels
+from seewhy.data.importers.folder_files import FolderFiles
 from seewhy.data.importers.json_reading import json_items
 from seewhy.data.importers.picture_files import PictureHeader
-from seewhy.data.importers.source_files import FolderFiles
 
 ONE_CLASS = "all pictures are of one class (cat): training needs pictures of another"
 

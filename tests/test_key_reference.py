@@ -12,13 +12,8 @@ from pydantic import BaseModel, Field
 from conftest import Run, write_tiles
 from seewhy.dialogue.question import Asks, Question
 from seewhy.domain.domain import load_domain
-from seewhy.domain.tables import (
-    DomainFile,
-    DomainTable,
-    PictureTable,
-    QuestionsFile,
-    QuestionTable,
-)
+from seewhy.domain.question_tables import QuestionsFile, QuestionTable
+from seewhy.domain.tables import DomainFile, DomainTable, PictureTable
 from seewhy.planning.tables import PlanningFile
 from seewhy.report.key_reference import (
     TableReference,

@@ -12,8 +12,6 @@ import pytest
 ROOT = Path(__file__).parent.parent
 FOLDERS = ("src", "benchmarks", "tests")
 REFUSED = "own"
-NOT_YET_CLEAN = ("src/seewhy/agent",)
-"""Folders in which the name still stands; one that is clean leaves this list."""
 
 
 def lines_naming(name: str, text: str) -> list[int]:
@@ -47,17 +45,8 @@ def places_naming(name: str, folder: str) -> list[str]:
 
 @pytest.mark.parametrize("folder", FOLDERS)
 def test_nothing_is_called_own(folder: str) -> None:
-    found = [
-        place
-        for place in places_naming(REFUSED, folder)
-        if not place.startswith(tuple(f"{unclean}/" for unclean in NOT_YET_CLEAN))
-    ]
+    found = places_naming(REFUSED, folder)
     assert not found, f"say what it is (scene, axiom, column): {', '.join(found)}"
-
-
-@pytest.mark.parametrize("folder", NOT_YET_CLEAN)
-def test_a_folder_that_is_clean_leaves_the_list(folder: str) -> None:
-    assert places_naming(REFUSED, folder), f"take '{folder}' out of NOT_YET_CLEAN"
 
 
 @pytest.mark.parametrize(

@@ -342,10 +342,10 @@ def test_whatever_the_words_the_domain_works(
 ) -> None:
     """It passes the check, and every question that it has can be answered."""
     from seewhy.data.importers.annotation import AnnotatedPicture, Notes
+    from seewhy.data.importers.folder_files import FolderFiles
     from seewhy.data.importers.formats import format_called
     from seewhy.data.importers.reading import ReadSource
     from seewhy.data.importers.request import ImportRequest
-    from seewhy.data.importers.source_files import FolderFiles
     from seewhy.data.importers.vocabulary import vocabulary_of
     from seewhy.new_domain.sketch import sketch_of
 

@@ -17,7 +17,7 @@ import pytest
 from PIL import Image
 
 from seewhy.errors import PictureError
-from seewhy.perception import picture, picture_file
+from seewhy.perception import picture, picture_bands, picture_file
 from seewhy.perception.picture import as_picture, read_picture
 
 
@@ -431,7 +431,7 @@ def test_large_pictures_are_reduced_in_bands(
     image.save(tmp_path / "a.tiff", exif=exif)
     whole = read_picture(tmp_path / "a.tiff", size=32).astype(int)
     monkeypatch.setattr(picture, "_KEPT_WHOLE", 0)
-    monkeypatch.setattr(picture, "_BAND", 30_000)
+    monkeypatch.setattr(picture_bands, "_BAND", 30_000)
     reduced = read_picture(tmp_path / "a.tiff", size=32).astype(int)
     assert np.abs(whole - reduced).max() <= 3
 

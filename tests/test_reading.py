@@ -16,13 +16,10 @@ from hypothesis import strategies as st
 from conftest import draw_tile, one_process, write_domain
 from knowledge_builders import VALUES, Rule, World, worlds
 from seewhy.agent.agent import Agent
-from seewhy.agent.consistent_reading import (
-    ConsistentReading,
-    ReadingWeights,
-    fit_reading_weights,
-    open_vectors,
-    read_separately,
-)
+from seewhy.agent.consistent_reading import ConsistentReading, open_vectors
+from seewhy.agent.fitting_reading_weights import fit_reading_weights
+from seewhy.agent.picture_reading import read_separately
+from seewhy.agent.reading_weights import ReadingWeights
 from seewhy.agent.trace import trace_of
 from seewhy.cli.ask import print_reply
 from seewhy.data.dataset import Dataset

@@ -15,7 +15,8 @@ from conftest import TRUTH, draw_tile, seen
 from knowledge_builders import VALUES, World, worlds
 from seewhy.agent.agent import Agent
 from seewhy.agent.class_shares import with_class_shares
-from seewhy.agent.consistent_reading import ConsistentReading, open_vectors, read_separately
+from seewhy.agent.consistent_reading import ConsistentReading, open_vectors
+from seewhy.agent.picture_reading import read_separately
 from seewhy.cli.ask import print_reply
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue.certainty import SURE_FROM, Certainty

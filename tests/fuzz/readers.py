@@ -19,7 +19,8 @@ from seewhy.data.importers.picture_files import read_header
 from seewhy.data.picture_listing import list_pictures
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import SeeWhyError
-from seewhy.perception.picture import pixels_digest, read_picture
+from seewhy.perception.picture import read_picture
+from seewhy.perception.pixels_digest import pixels_digest
 
 CORPUS = Path(__file__).parent / "corpus"
 

@@ -17,6 +17,7 @@ from seewhy.agent.refutation import refuted
 from seewhy.agent.training_pictures import require_same_domain
 from seewhy.agent.working_knowledge import WorkingKnowledge
 from seewhy.data.dataset import Dataset
+from seewhy.data.training_needs import require_two_classes
 from seewhy.induction.learning import Learned, LearningOptions
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import Withdrawn
@@ -56,7 +57,7 @@ def scenes_to_learn_from(
     train = dataset.of_split("train")
     scenes = scenes_of(train, known.experience, counted)
     if len(set(scenes.labels)) < 2:
-        train.require_two_classes()
+        require_two_classes(train)
     return scenes
 
 

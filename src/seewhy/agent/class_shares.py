@@ -10,7 +10,7 @@ from math import prod
 import numpy as np
 from numpy.typing import NDArray
 
-from seewhy.agent.consistent_reading import Other, Reading
+from seewhy.agent.picture_reading import Other, Reading
 from seewhy.dialogue.reply import FeatureReading
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 
@@ -40,7 +40,7 @@ def with_class_shares(
 
     The probability of a class is that of all feature vectors of that class together, where
     features count as independent. In a reading that takes each feature's most probable value by
-    itself (:func:`~seewhy.agent.consistent_reading.read_separately`) the features stay as they
+    itself (:func:`~seewhy.agent.picture_reading.read_separately`) the features stay as they
     are read.
 
     Parameters
@@ -61,7 +61,7 @@ def with_class_shares(
     --------
     >>> from seewhy.domain.domain import load_domain
     >>> from seewhy.knowledge.reasoner import Reasoner
-    >>> from seewhy.agent.consistent_reading import read_separately
+    >>> from seewhy.agent.picture_reading import read_separately
     >>> domain = load_domain("structure_stability")
     >>> reasoner = Reasoner(domain.knowledge, domain.schema)
     >>> seen = {"num_blocks": np.array([[0.0, 0.0, 0.0, 0.0, 1.0]]), "base": np.array([[1.0, 0.0]]),

@@ -7,10 +7,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from seewhy.agent.consistent_reading import ReadingRule, ReadingWeights
 from seewhy.agent.deciding import Deciding
 from seewhy.agent.parts import Follows, Held
 from seewhy.agent.reading import PictureReading
+from seewhy.agent.reading_weights import ReadingWeights
 from seewhy.agent.seeing import Seeing
 from seewhy.agent.settings import settings_for
 from seewhy.agent.training_pictures import TrainingPictures
@@ -21,6 +21,7 @@ from seewhy.dialogue.question import Questions
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience, ReferenceAnswers
 from seewhy.domain.domain import Domain
+from seewhy.domain.reading_rule import ReadingRule
 from seewhy.errors import NotFittedError
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import Withdrawn

@@ -1,171 +1,37 @@
-"""Read pictures: from the networks' probabilities to one feature vector for each picture."""
+"""Read pictures as what can be: the most probable feature vector among candidates."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seewhy.dialogue.reply import FeatureReading
-from seewhy.domain.tables import CLASS, READINGS, ReadingRule
-from seewhy.errors import DomainError
+from seewhy.agent.picture_reading import (
+    SMALLEST,
+    Other,
+    Probabilities,
+    Reading,
+    feature_tables,
+    features_of_places,
+    logarithms_of,
+    read_separately,
+    vector_of_places,
+)
+from seewhy.agent.reading_weights import UNWEIGHTED, ReadingWeights
+from seewhy.domain.tables import CLASS
 from seewhy.knowledge.candidates import TRIED, decided_vectors, most_probable_decided
 from seewhy.knowledge.reasoner import Reasoner, Verdict
-from seewhy.knowledge.scene import FeatureVector, SceneSchema
-from seewhy.text.nearest import did_you_mean
+from seewhy.knowledge.scene import FeatureVector
 
-__all__ = [
-    "READINGS",
-    "ConsistentReading",
-    "Other",
-    "Reading",
-    "ReadingRule",
-    "ReadingWeights",
-    "fit_reading_weights",
-    "open_vectors",
-    "read_separately",
-    "reading_rule",
-]
+__all__ = ["LISTED", "ConsistentReading", "open_vectors"]
 
 LISTED = 20_000
 """Where the knowledge decides more vectors than this, they are searched instead of listed."""
 
-_SMALLEST = 1e-300  # a network's 0.0 is a number too small for its type, not an impossibility
 _AT_ONCE = 1 << 21  # (picture, candidate) pairs of one NumPy operation: 16 MiB
-
-Probabilities = Mapping[str, NDArray[np.float64]]
-"""Feature → probabilities of its values, of shape (pictures, values).
-
-Where a network sees the class as well, its probabilities are here under "class".
-"""
-
-
-@dataclass(frozen=True)
-class Other:
-    """What a picture may be as well: a class, how probable it is, and what would then be seen.
-
-    Attributes
-    ----------
-    label : str
-    probability : float
-        Of the class; see :class:`Reading`.
-    vector : FeatureVector
-        The most probable of that class.
-    features : dict
-        Feature → FeatureReading.
-    """
-
-    label: str
-    probability: float
-    vector: FeatureVector
-    features: dict[str, FeatureReading]
-
-
-@dataclass(frozen=True)
-class Reading:
-    """What a picture's features are taken to be.
-
-    Attributes
-    ----------
-    vector : FeatureVector
-    features : dict
-        Feature → FeatureReading.
-    score : float
-        The log-probability of the vector (features count as independent): how well the picture
-        fits what is read. It is low where a network is not sure, and where what the networks see
-        does not go together. (The probability of all candidates together would say nothing where
-        most vectors are candidates.)
-    probability : float
-        Of the class: where features are read separately, the probability that all of them are
-        read rightly, until :mod:`seewhy.agent.class_shares` says more. Where the reading is
-        consistent, the share of the candidates of that class in the probability of all; one that
-        the knowledge leaves open counts for each class as often as the tree's training scenes in
-        its leaf are of that class.
-    class_seen : (str, float) or None
-        The most probable class that a network of its own saw, and its probability, where such a
-        network has a say in the reading.
-    others : tuple of Other
-        What the picture may be as well, the most probable class first.
-    leaning : str or None
-        Where the knowledge leaves the vector open: the class that is most probable by the tree's
-        leaf and by the witness together. None where no witness may outweigh the tree.
-    """
-
-    vector: FeatureVector
-    features: dict[str, FeatureReading]
-    score: float
-    probability: float
-    class_seen: tuple[str, float] | None = None
-    others: tuple[Other, ...] = ()
-    leaning: str | None = None
-
-
-@dataclass(frozen=True)
-class ReadingWeights:
-    """How much what is seen counts in a consistent reading.
-
-    Attributes
-    ----------
-    features : float
-        The power to which the probabilities of features are raised: below 1 where features are
-        misread together, so that their product says more than it knows.
-    witness : float
-        That of the class's, where it is seen by itself; 0 does not ask it.
-    """
-
-    features: float = 1.0
-    witness: float = 1.0
-
-
-UNWEIGHTED = ReadingWeights()
-"""What is seen counts as it is."""
-
-
-def reading_rule(name: str) -> ReadingRule:
-    """Return the way of reading of a name.
-
-    Raises
-    ------
-    DomainError
-        If there is none.
-
-    Examples
-    --------
-    >>> reading_rule("consistent")
-    'consistent'
-    """
-    for rule in READINGS:
-        if name == rule:
-            return rule
-    raise DomainError(f"'{name}' is no way to read features; {did_you_mean(name, READINGS)}")
-
-
-def read_separately(schema: SceneSchema, probabilities: Probabilities) -> list[Reading]:
-    """Read the most probable value of every feature, whatever the others are (as the paper does).
-
-    Examples
-    --------
-    >>> from seewhy.domain.domain import load_domain
-    >>> schema = load_domain("structure_stability").schema
-    >>> sure = {key: np.full((1, len(own)), 1 / len(own)) for key, own in schema.features.items()}
-    >>> sure["lean"] = np.array([[0.2, 0.8]])
-    >>> (reading,) = read_separately(schema, sure)
-    >>> reading.vector, reading.features["lean"].probability, round(reading.probability, 3)
-    (('1', 'wide', 'no', 'yes'), 0.8, 0.04)
-    """
-    tables = _tables(schema, probabilities)
-    best = np.stack([own.argmax(axis=1) for own in tables], axis=1)
-    joint = _logarithms(np.stack([own.max(axis=1) for own in tables], axis=1)).sum(axis=1)
-    return [
-        Reading(_vector(schema, columns), features, float(score), float(np.exp(score)))
-        for columns, features, score in zip(
-            best.tolist(), _features(schema, tables, best), joint, strict=True
-        )
-    ]
 
 
 class ConsistentReading:
@@ -199,7 +65,7 @@ class ConsistentReading:
     witnessed : collection of str
         The classes that the network of the class was shown; none where there is no such network.
     weights : ReadingWeights
-        See :func:`fit_reading_weights`.
+        See :func:`~seewhy.agent.fitting_reading_weights.fit_reading_weights`.
     outweighs : bool, default False
         Whether the witness, weighed beside the tree's leaf, may decide what the knowledge leaves
         open (:attr:`Reading.leaning`).
@@ -258,7 +124,7 @@ class ConsistentReading:
     @cached_property
     def _candidates(self) -> NDArray[np.intp]:
         """The listed candidates, shape (candidates, features): places of the values."""
-        places = [{value: n for n, value in enumerate(own)} for own in self._values]
+        places = [{value: n for n, value in enumerate(values)} for values in self._values]
         rows = [
             [place[value or ""] for place, value in zip(places, vector, strict=True)]
             for vector in dict.fromkeys((*(self._decided or ()), *self._open))
@@ -268,28 +134,30 @@ class ConsistentReading:
     @cached_property
     def _classes(self) -> NDArray[np.intp]:
         """The place of every listed candidate's class; beyond the last for one without."""
-        places: dict[str | None, int] = {own: n for n, own in enumerate(self.schema.classes)}
-        labels = (self.label_of(_vector(self.schema, row)) for row in self._candidates.tolist())
-        return np.array([places.get(own, len(places)) for own in labels], dtype=np.intp)
+        places: dict[str | None, int] = {label: n for n, label in enumerate(self.schema.classes)}
+        vectors = (vector_of_places(self.schema, row) for row in self._candidates.tolist())
+        labels = (self.label_of(vector) for vector in vectors)
+        return np.array([places.get(label, len(places)) for label in labels], dtype=np.intp)
 
     @cached_property
     def _shares(self) -> NDArray[np.float64]:
         """How probable each class, or none, is for each candidate: (candidates, classes + 1)."""
-        places = {own: n for n, own in enumerate(self.schema.classes)}
+        places = {label: n for n, label in enumerate(self.schema.classes)}
         found = np.zeros((len(self._candidates), len(places) + 1))
         for row, (columns, place) in enumerate(
             zip(self._candidates.tolist(), self._classes.tolist(), strict=True)
         ):
-            own = self.shares_of(_vector(self.schema, columns)) if self.shares_of else {}
-            for label, share in own.items():
+            vector = vector_of_places(self.schema, columns)
+            shares = self.shares_of(vector) if self.shares_of else {}
+            for label, share in shares.items():
                 found[row, places[label]] = share
-            if not own:
+            if not shares:
                 found[row, place] = 1.0
         return found
 
     @cached_property
     def _values(self) -> list[tuple[str, ...]]:
-        return [tuple(own) for own in self.schema.features.values()]
+        return [tuple(literals) for literals in self.schema.features.values()]
 
     def read(self, probabilities: Probabilities) -> list[Reading]:
         """Read pictures.
@@ -305,19 +173,19 @@ class ConsistentReading:
             One a picture. Of equally probable vectors that are listed, the first in the order of
             the values.
         """
-        tables = _tables(self.schema, probabilities)
+        tables = feature_tables(self.schema, probabilities)
         searched = self._decided is None
         if not searched and not len(self._candidates):
             return read_separately(self.schema, probabilities)
-        logarithms = [_logarithms(own) for own in tables]
+        logarithms = [logarithms_of(table) for table in tables]
         classes = self._class_scores(probabilities, len(tables[0]))
         seen = self._classes_seen(probabilities, len(tables[0]))
         pictures = len(tables[0])
         step = max(1, _AT_ONCE // max(1, len(self._candidates)))
         found: list[Reading] = []
         for start in range(0, pictures, step):
-            part = [own[start : start + step] for own in logarithms]
-            shown = [own[start : start + step] for own in tables]
+            part = [table[start : start + step] for table in logarithms]
+            shown = [table[start : start + step] for table in tables]
             scored = classes[start : start + step]
             others: list[tuple[Other, ...]] = [()] * len(part[0])
             leaning: list[str | None] = [None] * len(part[0])
@@ -325,10 +193,10 @@ class ConsistentReading:
                 best, scores, shares = self._search(part, scored)
             else:
                 best, scores, shares, others, leaning = self._choose(part, scored, shown)
-            features = _features(self.schema, shown, best)
+            features = features_of_places(self.schema, shown, best)
             found += [
-                Reading(_vector(self.schema, columns), *own)
-                for columns, *own in zip(
+                Reading(vector_of_places(self.schema, columns), *told)
+                for columns, *told in zip(
                     best.tolist(),
                     features,
                     scores.tolist(),
@@ -345,10 +213,10 @@ class ConsistentReading:
         """What is added for a vector of every class, or of none: shape (pictures, classes + 1)."""
         scores = np.zeros((pictures, len(self.schema.classes) + 1))
         if self.witnessed:
-            seen = _logarithms(np.asarray(probabilities[CLASS], dtype=np.float64))
+            seen = logarithms_of(np.asarray(probabilities[CLASS], dtype=np.float64))
             relative = seen - seen.max(axis=1, keepdims=True)
-            own = [n for n, name in enumerate(self.schema.classes) if name in self.witnessed]
-            scores[:, own] = self.weights.witness * relative[:, own]
+            shown = [n for n, name in enumerate(self.schema.classes) if name in self.witnessed]
+            scores[:, shown] = self.weights.witness * relative[:, shown]
         return scores
 
     def _classes_seen(
@@ -408,7 +276,7 @@ class ConsistentReading:
         self, class_scores: NDArray[np.float64], candidates: NDArray[np.intp]
     ) -> NDArray[np.float64]:
         """Leaf and witness together: (pictures, candidates, classes), in logarithms."""
-        leaves = _logarithms(self._shares[candidates, :-1])
+        leaves = logarithms_of(self._shares[candidates, :-1])
         return class_scores[:, None, :-1] + leaves[None]
 
     def _probable(
@@ -416,7 +284,7 @@ class ConsistentReading:
     ) -> NDArray[np.float64]:
         """Probabilities of the classes, and of none: shape (pictures, classes + 1)."""
         mass = (relative @ self._shares) * np.exp(class_scores)
-        found: NDArray[np.float64] = mass / np.maximum(mass.sum(axis=1, keepdims=True), _SMALLEST)
+        found: NDArray[np.float64] = mass / np.maximum(mass.sum(axis=1, keepdims=True), SMALLEST)
         return found
 
     def class_probabilities(self, probabilities: Probabilities) -> NDArray[np.float64] | None:
@@ -434,8 +302,8 @@ class ConsistentReading:
         """
         if self._decided is None or not len(self._candidates):
             return None
-        tables = _tables(self.schema, probabilities)
-        weighted = self.weights.features * self._joint([_logarithms(table) for table in tables])
+        tables = feature_tables(self.schema, probabilities)
+        weighted = self.weights.features * self._joint([logarithms_of(table) for table in tables])
         relative = np.exp(weighted - weighted.max(axis=1, keepdims=True))
         return self._probable(relative, self._class_scores(probabilities, len(tables[0])))
 
@@ -456,29 +324,29 @@ class ConsistentReading:
         pictures, places = np.nonzero(probable[:, : len(names)] >= self.other_from)
         nearest = (relative[pictures] * self._shares.T[places]).argmax(axis=1)
         columns = self._candidates[nearest]
-        features = _features(self.schema, [own[pictures] for own in tables], columns)
+        features = features_of_places(self.schema, [table[pictures] for table in tables], columns)
         found: list[list[Other]] = [[] for _ in probable]
-        for picture, place, vector, own in zip(
+        for picture, place, vector, readings in zip(
             pictures.tolist(), places.tolist(), columns.tolist(), features, strict=True
         ):
             probability = float(probable[picture, place])
             found[picture].append(
-                Other(names[place], probability, _vector(self.schema, vector), own)
+                Other(names[place], probability, vector_of_places(self.schema, vector), readings)
             )
-        return [tuple(sorted(own, key=lambda other: -other.probability)) for own in found]
+        return [tuple(sorted(others, key=lambda other: -other.probability)) for others in found]
 
     def _joint(self, logarithms: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
         joint = np.zeros((len(logarithms[0]), len(self._candidates)))
-        for own, column in zip(logarithms, self._candidates.T, strict=True):
-            joint += own[:, column]
+        for table, column in zip(logarithms, self._candidates.T, strict=True):
+            joint += table[:, column]
         return joint
 
     def _search(
         self, logarithms: Sequence[NDArray[np.float64]], class_scores: NDArray[np.float64]
     ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
         """The same for candidates that are not listed; without any, the separate reading."""
-        best = np.stack([own.argmax(axis=1) for own in logarithms], axis=1)
-        places = [{value: n for n, value in enumerate(own)} for own in self._values]
+        best = np.stack([table.argmax(axis=1) for table in logarithms], axis=1)
+        places = [{value: n for n, value in enumerate(values)} for values in self._values]
         logarithms = [self.weights.features * table for table in logarithms]
         opened = self._joint(logarithms) + class_scores[:, self._classes]
         for number in range(len(best)):
@@ -490,8 +358,8 @@ class ConsistentReading:
             scores = zip(self.schema.classes, class_scores[number].tolist(), strict=False)
             found = most_probable_decided(
                 self.reasoner,
-                [own[number] for own in logarithms],
-                class_scores={label: own for label, own in scores if own},
+                [table[number] for table in logarithms],
+                class_scores={label: score for label, score in scores if score},
                 above=above,
                 tried=self.tried,
             )
@@ -506,54 +374,6 @@ class ConsistentReading:
         return best, alone, np.exp(alone)
 
 
-_FEATURE_WEIGHTS = (0.35, 0.5, 0.7, 1.0, 1.4)
-_WITNESS_WEIGHTS = (0.0, 0.15, 0.3, 0.5, 0.7, 1.0)
-_JUDGED = 500  # pictures: more cost time and change nothing
-_LEAST = 1e-3  # a class that the knowledge excludes is no infinite surprise
-
-
-def fit_reading_weights(
-    reader: ConsistentReading,
-    probabilities: Probabilities,
-    labels: Sequence[str | None],
-) -> ReadingWeights:
-    """Weigh what is seen so that the classes of pictures that taught nobody are most likely.
-
-    A witness that was shown three pictures of every class is worse than the knowledge, one that was
-    shown a hundred may be better: how much it counts is a matter of the pictures.
-
-    Parameters
-    ----------
-    reader : ConsistentReading
-    probabilities : mapping
-        As for :meth:`ConsistentReading.read`, of pictures kept out of training.
-    labels : sequence of str or None
-        Their classes.
-
-    Returns
-    -------
-    ReadingWeights
-        Those given where there are too few pictures, or candidates are searched.
-    """
-    places = {name: n for n, name in enumerate(reader.schema.classes)}
-    rows = [n for n, label in enumerate(labels) if label in places][:_JUDGED]
-    if len(rows) < 10:
-        return reader.weights
-    true = [places[str(labels[n])] for n in rows]
-    some = {name: table[rows] for name, table in probabilities.items()}
-    found: list[tuple[float, float, ReadingWeights]] = []
-    for features in _FEATURE_WEIGHTS:
-        for witness in _WITNESS_WEIGHTS if reader.witnessed else (1.0,):
-            weights = ReadingWeights(features, witness)
-            classes = reader.weighing(weights).class_probabilities(some)
-            if classes is None:
-                return reader.weights
-            loss = -np.log(np.maximum(classes[np.arange(len(true)), true], _LEAST)).sum()
-            # Of nearly equal ones the plainest: features as they are, a witness little asked.
-            found.append((round(float(loss), 1), abs(np.log(features)) + witness, weights))
-    return min(found, key=lambda row: row[:2])[2]
-
-
 def open_vectors(
     reasoner: Reasoner, experience: Mapping[FeatureVector, object]
 ) -> list[FeatureVector]:
@@ -561,44 +381,6 @@ def open_vectors(
     vectors = list(experience)
     return [
         vector
-        for vector, own in zip(vectors, reasoner.decide_all(vectors), strict=True)
-        if own.verdict in (Verdict.SILENT, Verdict.SEVERAL)
+        for vector, decision in zip(vectors, reasoner.decide_all(vectors), strict=True)
+        if decision.verdict in (Verdict.SILENT, Verdict.SEVERAL)
     ]
-
-
-def _tables(schema: SceneSchema, probabilities: Probabilities) -> list[NDArray[np.float64]]:
-    return [np.asarray(probabilities[key], dtype=np.float64) for key in schema.features]
-
-
-def _logarithms(probabilities: NDArray[np.float64]) -> NDArray[np.float64]:
-    logarithms: NDArray[np.float64] = np.log(np.maximum(probabilities, _SMALLEST))
-    return logarithms
-
-
-def _vector(schema: SceneSchema, columns: Sequence[int]) -> FeatureVector:
-    return tuple(tuple(own)[n] for own, n in zip(schema.features.values(), columns, strict=True))
-
-
-def _features(
-    schema: SceneSchema, tables: Sequence[NDArray[np.float64]], chosen: NDArray[np.intp]
-) -> Iterator[dict[str, FeatureReading]]:
-    """Yield the readings of every picture whose values' places are ``chosen``."""
-    rows = np.arange(len(chosen))
-    columns = []
-    for own, places, literals in zip(tables, chosen.T, schema.features.values(), strict=True):
-        values = tuple(literals)
-        alone = own.argmax(axis=1)
-        columns.append(
-            [
-                FeatureReading(values[n], p, (values[m], q) if q > p else None)
-                for n, p, m, q in zip(
-                    places.tolist(),
-                    own[rows, places].tolist(),
-                    alone.tolist(),
-                    own[rows, alone].tolist(),
-                    strict=True,
-                )
-            ]
-        )
-    for readings in zip(*columns, strict=True):
-        yield dict(zip(schema.features, readings, strict=True))

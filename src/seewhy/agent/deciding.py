@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from seewhy.agent.consistent_reading import Other, Reading
+from seewhy.agent.picture_reading import Other, Reading
 from seewhy.agent.working_knowledge import WorkingKnowledge
 from seewhy.dialogue.reply import UNCERTAIN, UNKNOWN, Classification, FeatureReading
 from seewhy.induction.tree import DecisionTree

@@ -7,17 +7,14 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from seewhy.agent.consistent_reading import (
-    READINGS,
-    ReadingRule,
-    ReadingWeights,
-    fit_reading_weights,
-)
+from seewhy.agent.fitting_reading_weights import fit_reading_weights
 from seewhy.agent.growing import grow, labelled_pictures
 from seewhy.agent.pretraining import Pretrained, is_drawn
 from seewhy.agent.reading import PictureReading
+from seewhy.agent.reading_weights import ReadingWeights
 from seewhy.agent.seeing import Seeing, likeness
 from seewhy.agent.settings import Settings
+from seewhy.domain.reading_rule import READINGS, ReadingRule
 from seewhy.domain.tables import CLASS
 from seewhy.errors import DatasetError
 from seewhy.perception.course import Course

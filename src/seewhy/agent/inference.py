@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from seewhy.agent.composition import Composition
-from seewhy.agent.consistent_reading import Reading
 from seewhy.agent.deciding import Demands
+from seewhy.agent.picture_reading import Reading
 from seewhy.agent.seeing import Looking, Pictures
 from seewhy.dialogue.question import Question
 from seewhy.dialogue.reply import Classification, Reply

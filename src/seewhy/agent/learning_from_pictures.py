@@ -108,7 +108,7 @@ def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) 
     names: dict[tuple[FeatureVector, str], list[str]] = {}
     said: dict[tuple[FeatureVector, str], list[Reasons | None]] = {}
     counts: Counter[tuple[FeatureVector, str]] = Counter(
-        {(v, label): n for v, own in experience.items() for label, n in own.items()}
+        {(v, label): n for v, labels in experience.items() for label, n in labels.items()}
     )
     classed = dataset.with_class()
     rows_read = zip(classed.scenes, classed.classes, classed.picture_digests(), strict=True)
@@ -126,10 +126,10 @@ def scenes_of(dataset: Dataset, experience: Experience, known: Collection[str]) 
         for key, count in counts.items()
     ]
     return AnnotatedScenes(
-        tuple(vector for vector, _, own, _ in rows for _ in own),
-        tuple(label for _, label, own, _ in rows for _ in own),
-        tuple(name for _, _, own, _ in rows for name in own),
-        tuple(reasons for _, _, _, own in rows for reasons in own),
+        tuple(vector for vector, _, pictures, _ in rows for _ in pictures),
+        tuple(label for _, label, pictures, _ in rows for _ in pictures),
+        tuple(name for _, _, pictures, _ in rows for name in pictures),
+        tuple(reasons for _, _, _, told in rows for reasons in told),
     )
 
 
@@ -153,7 +153,7 @@ def learn_for_domain(
     >>> labels = ["unstable" if vector[3] == "yes" else "stable" for vector in vectors]
     >>> scenes = AnnotatedScenes(tuple(vectors), tuple(labels), ("",) * len(vectors))
     >>> learned = learn_for_domain(domain, scenes)
-    >>> for axiom in axioms_of(domain, [own.candidate for own in learned.accepted], scenes):
+    >>> for axiom in axioms_of(domain, [judged.candidate for judged in learned.accepted], scenes):
     ...     print(axiom, axiom.origin.support)
     -stable(S) if block_displaced(S). 60
     stable(S) if -block_displaced(S). 60
@@ -184,7 +184,7 @@ def with_candidates(
     knowledge: Knowledge, candidates: Sequence[Candidate], schema: SceneSchema
 ) -> Knowledge:
     """Return the knowledge with candidates added as axioms."""
-    single = (one for own in candidates for one in conjunctions(own, schema))
+    single = (one for candidate in candidates for one in conjunctions(candidate, schema))
     text = "\n".join(axiom_statement(one, schema) for one in single)
     added = read_axioms(text, knowledge.signature, letter="c")
     return replace(knowledge, axioms=(*knowledge.axioms, *added))
@@ -197,21 +197,21 @@ def axioms_of(
     schema = domain.schema
     features = {key: feature.values for key, feature in domain.features.items()}
     table = scene_table(features, scenes.vectors, scenes.labels)
-    single = [one for own in candidates for one in conjunctions(own, schema)]
+    single = [one for candidate in candidates for one in conjunctions(candidate, schema)]
     text = "\n".join(
-        f"%% {say_rule(domain, own.conditions, own.label)}\n{axiom_statement(own, schema)}"
-        for own in single
+        f"%% {say_rule(domain, one.conditions, one.label)}\n{axiom_statement(one, schema)}"
+        for one in single
     )
     axioms = read_axioms(text, domain.knowledge.signature)
     found = []
-    for own, axiom in zip(single, axioms, strict=True):
-        spoken = tally(own, table)
-        rows = np.flatnonzero(table.satisfying(own.conditions))
+    for one, axiom in zip(single, axioms, strict=True):
+        spoken = tally(one, table)
+        rows = np.flatnonzero(table.satisfying(one.conditions))
         positions = sorted(n for row in rows for n in table.scenes[row])
         pictures = (
             scenes.pictures[n]
             for n in positions
-            if scenes.pictures[n] and scenes.labels[n] == own.label
+            if scenes.pictures[n] and scenes.labels[n] == one.label
         )
         origin = Origin(
             learned=True,
@@ -244,7 +244,7 @@ def contradicted(
     >>> domain = load_domain("structure_stability")
     >>> (lean,) = read_axioms("-stable(S) if lean(S).", domain.knowledge.signature)
     >>> scenes = AnnotatedScenes((("2", "wide", "yes", "no"),), ("stable",), ("a.png",))
-    >>> [own.reason for _, own in contradicted(domain, [lean], scenes)]
+    >>> [withdrawn.reason for _, withdrawn in contradicted(domain, [lean], scenes)]
     ['1 of 1 structures that it speaks about are otherwise, as a.png']
     """
     schema = domain.schema
@@ -253,7 +253,9 @@ def contradicted(
     for axiom in learned:
         alone = Reasoner(replace(domain.knowledge, axioms=(axiom,)), schema, minimality=minimality)
         concluded = dict(zip(distinct, alone.decide_all(distinct), strict=True))
-        spoken = [n for n, own in enumerate(scenes.vectors) if concluded[own].label is not None]
+        spoken = [
+            n for n, vector in enumerate(scenes.vectors) if concluded[vector].label is not None
+        ]
         wrong = [n for n in spoken if concluded[scenes.vectors[n]].label != scenes.labels[n]]
         allowed = max(tolerance, 1.0 - axiom.origin.precision + _ROUNDED)
         if wrong and len(wrong) > allowed * len(spoken):
@@ -277,14 +279,15 @@ def superseded(learned: Sequence[Axiom], newer: Sequence[Axiom]) -> list[tuple[A
     >>> signature = load_domain("structure_stability").knowledge.signature
     >>> old = read_axioms("-stable(S) if lean(S), base(S, narrow).", signature)
     >>> new = read_axioms("-stable(S) if lean(S).", signature)
-    >>> [own.reason for _, own in superseded(old, new)]
+    >>> [withdrawn.reason for _, withdrawn in superseded(old, new)]
     ['-stable(S) if lean(S). says it of more scenes']
     """
     found = []
     for axiom in learned:
-        conditions = {own.text for own in axiom.body}
+        conditions = {condition.text for condition in axiom.body}
         for other in newer:
-            if other.head == axiom.head and {own.text for own in other.body} <= conditions:
+            asked = {condition.text for condition in other.body}
+            if other.head == axiom.head and asked <= conditions:
                 found.append((axiom, Withdrawn(str(axiom), f"{other} says it of more scenes")))
                 break
     return found

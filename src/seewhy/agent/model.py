@@ -9,15 +9,17 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seewhy.agent.consistent_reading import ReadingWeights
 from seewhy.agent.model_schema import ExperienceRows, Manifest, may_have, must_have
+from seewhy.agent.reading_weights import ReadingWeights
 from seewhy.agent.seeing import Seeing
 from seewhy.agent.settings import Settings
 from seewhy.agent.training_pictures import TrainingPictures
 from seewhy.agent.working_knowledge import WorkingKnowledge, working_knowledge
 from seewhy.dialogue.reference import Experience
-from seewhy.domain.domain import FILES, Domain, load_domain
-from seewhy.domain.tables import CLASS, ReadingRule
+from seewhy.domain.domain import Domain, load_domain
+from seewhy.domain.folder import FILES
+from seewhy.domain.reading_rule import ReadingRule
+from seewhy.domain.tables import CLASS
 from seewhy.errors import ModelError, SeeWhyError
 from seewhy.files.folders import settle_folder, whole_folder
 from seewhy.files.json_file import read_json, read_object

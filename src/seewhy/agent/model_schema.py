@@ -6,8 +6,8 @@ from typing import Annotated
 
 from pydantic import Field, RootModel
 
-from seewhy.domain.domain import FILES
-from seewhy.domain.tables import ReadingRule
+from seewhy.domain.folder import FILES
+from seewhy.domain.reading_rule import ReadingRule
 from seewhy.files.json_file import Strict
 from seewhy.knowledge.learned_file import LEARNED
 from seewhy.knowledge.reasoner import Minimality
@@ -21,7 +21,7 @@ Power = Annotated[float, Field(ge=0.0, le=1000.0)]
 
 
 class ReadingWeight(Strict):
-    """The fields of :class:`seewhy.agent.consistent_reading.ReadingWeights`."""
+    """The fields of :class:`seewhy.agent.reading_weights.ReadingWeights`."""
 
     features: Power
     witness: Power

@@ -9,16 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seewhy.agent.class_shares import with_class_shares
-from seewhy.agent.consistent_reading import (
-    UNWEIGHTED,
-    ConsistentReading,
-    Reading,
-    ReadingRule,
-    open_vectors,
-    read_separately,
-)
+from seewhy.agent.consistent_reading import ConsistentReading, open_vectors
 from seewhy.agent.deciding import Deciding
+from seewhy.agent.picture_reading import Reading, read_separately
+from seewhy.agent.reading_weights import UNWEIGHTED
 from seewhy.agent.seeing import Pictures, Seeing, likeness
+from seewhy.domain.reading_rule import ReadingRule
 
 __all__ = ["PictureReading"]
 

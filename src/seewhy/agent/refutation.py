@@ -48,7 +48,7 @@ def refuted(
     >>> from seewhy.domain.domain import load_domain
     >>> domain = load_domain("traffic_signs")
     >>> knowledge = domain.knowledge
-    >>> kept = [own for own in knowledge.axioms if str(own) != "may_have_second(p)."]
+    >>> kept = [axiom for axiom in knowledge.axioms if str(axiom) != "may_have_second(p)."]
     >>> poorer = replace(domain, knowledge=replace(knowledge, axioms=tuple(kept)))
     >>> vector = domain.vector({"shape": "tall_rectangle", "main_color": "blue",
     ...     "border_color": "blue", "background_image": "none", "primary_symbol": "p",
@@ -61,9 +61,9 @@ def refuted(
     """
     schema = domain.schema
     concluding = [
-        own
-        for own in domain.knowledge.axioms
-        if own.head.predicate in schema.features and own.kind is not AxiomKind.DEFAULT
+        axiom
+        for axiom in domain.knowledge.axioms
+        if axiom.head.predicate in schema.features and axiom.kind is not AxiomKind.DEFAULT
     ]
     if not concluding:
         return []
@@ -103,10 +103,13 @@ def _telling(domain: Domain, concluding: Sequence[Axiom]) -> Reasoner:
     speaks = Predicate(_SPEAKS, (_NUMBERS,), PredicateKind.STATIC, nowhere)
     predicates = signature.predicates
     apart = [
-        own for own in knowledge.axioms if schema.scene not in predicates[own.head.predicate].sorts
+        axiom
+        for axiom in knowledge.axioms
+        if schema.scene not in predicates[axiom.head.predicate].sorts
     ]
     marking = [
-        replace(own, head=Literal(_SPEAKS, (str(number),))) for number, own in enumerate(concluding)
+        replace(axiom, head=Literal(_SPEAKS, (str(number),)))
+        for number, axiom in enumerate(concluding)
     ]
     added = Signature(
         {**signature.sorts, numbers.name: numbers}, {**predicates, speaks.name: speaks}
@@ -132,10 +135,10 @@ def _is_otherwise(head: Literal, vector: FeatureVector, schema: SceneSchema) -> 
     if value is None:
         return False
     literals = schema.features[head.predicate]
-    own = key_of(head)
-    if own == key_of(literals[value].complement):
+    concluded = key_of(head)
+    if concluded == key_of(literals[value].complement):
         return True
-    return any(own == key_of(literal) for v, literal in literals.items() if v != value)
+    return any(concluded == key_of(literal) for v, literal in literals.items() if v != value)
 
 
 def _reason(domain: Domain, wrong: int, spoken: int, picture: str) -> str:

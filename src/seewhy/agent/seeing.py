@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from seewhy.agent.consistent_reading import Reading, ReadingRule, ReadingWeights
+from seewhy.agent.picture_reading import Reading
+from seewhy.agent.reading_weights import ReadingWeights
+from seewhy.domain.reading_rule import ReadingRule
 from seewhy.domain.tables import CLASS
 from seewhy.errors import DatasetError, NotFittedError
 from seewhy.perception.conformal_threshold import refusal_threshold

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from seewhy.agent.consistent_reading import ReadingRule, reading_rule
 from seewhy.domain.domain import Domain
+from seewhy.domain.reading_rule import ReadingRule, reading_rule
 from seewhy.errors import DomainError
 from seewhy.perception.backbones import NONE, require_backbone
 from seewhy.perception.conformal_threshold import KNOWN_SHARE

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from seewhy.data.dataset import Dataset
+from seewhy.data.training_needs import require_feature_labels, require_two_classes
 from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError
 
@@ -63,8 +64,8 @@ def scenes_to_train_on(dataset: Dataset, domain: Domain, *, without: Sequence[st
     """
     require_same_domain(dataset, domain)
     scenes = dataset.of_split("train").without_classes(without)
-    scenes.require_two_classes()
-    scenes.require_feature_labels()
+    require_two_classes(scenes)
+    require_feature_labels(scenes)
     return scenes.annotated()
 
 

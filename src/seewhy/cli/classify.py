@@ -53,7 +53,7 @@ def classify(
     from seewhy.classification.running import classify_to_table
     from seewhy.data.digest import digest_of
     from seewhy.data.importers.annotation import Note
-    from seewhy.data.importers.source_files import LINKS_OUT
+    from seewhy.data.importers.folder_files import LINKS_OUT
     from seewhy.data.picture_listing import list_pictures
     from seewhy.errors import DatasetError
 

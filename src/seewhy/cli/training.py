@@ -24,7 +24,7 @@ def trained_already(folder: Path, dataset: Dataset, *, seed: int) -> Agent | Non
     One that was trained with other options than the domain's is not what is looked for.
     """
     from seewhy.agent.agent import Agent
-    from seewhy.domain.domain import FILES
+    from seewhy.domain.folder import FILES
     from seewhy.errors import ModelError
 
     try:
@@ -78,6 +78,7 @@ def train_model(
     from seewhy.cli.code_notice import remark_code
     from seewhy.cli.read_data import read_data
     from seewhy.data.coverage import coverage_notices
+    from seewhy.data.training_needs import require_feature_labels, require_two_classes
     from seewhy.files.locks import sole_writer
     from seewhy.perception.backbones import NONE
 
@@ -95,8 +96,8 @@ def train_model(
     )
     dataset = read_data(data, domain, outside=outside)
     train = dataset.of_split("train").without_classes(without)
-    train.require_two_classes()
-    train.require_feature_labels()
+    require_two_classes(train)
+    require_feature_labels(train)
     for notice in coverage_notices(train, without=without):
         remark(notice)
     replaced = replaced_notice(out)

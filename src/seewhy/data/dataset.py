@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -296,50 +295,6 @@ class Dataset:
         same = replace(self, scenes=scenes)
         same.__dict__["_digests"] = self._digests
         return same
-
-    # What training needs ----------------------------------------------------------------------
-
-    def require_two_classes(self) -> None:
-        """Raise a DatasetError if the scenes do not show what tells classes apart.
-
-        There must be two classes, and one of them must have two pictures of different groups, or
-        there would be nothing to validate with.
-        """
-        counts = Counter(label for label in self.labels if label is not None)
-        if not counts:
-            raise DatasetError(
-                f"{self.table.name}: no row has a class; fill the column 'class' of pictures of "
-                "at least two classes, a few dozen of each if you can"
-            )
-        if len(counts) < 2:
-            one, number = counts.total() == 1, f"{counts.total():,}"
-            rows = "the only row" if one else f"all {number} rows"
-            have = (
-                "" if counts.total() == len(self) else f" that {'has' if one else 'have'} a class"
-            )
-            raise DatasetError(
-                f"{self.table.name}: {rows}{have} {'is' if one else 'are'} of class "
-                f"'{next(iter(counts))}'; training needs scenes of at least two classes"
-            )
-        groups: dict[str | None, set[str]] = {}
-        for scene, group in zip(self.scenes, self.groups, strict=True):
-            groups.setdefault(scene.label, set()).add(group)
-        groups.pop(None, None)
-        if all(len(those) < 2 for those in groups.values()):
-            only = "one picture" if max(counts.values()) < 2 else "pictures of one group"
-            raise DatasetError(
-                f"{self.table.name}: every class has {only} only; training needs several of each "
-                "that show different things, a few dozen if you can"
-            )
-
-    def require_feature_labels(self) -> None:
-        """Raise a DatasetError if there is a feature of which no scene has a value."""
-        for position, key in enumerate(self.domain.features):
-            if all(scene.vector[position] is None for scene in self.scenes):
-                raise DatasetError(
-                    f"{self.table.name}: no row has a value of '{key}', which training needs; "
-                    f"fill the column '{key}', or remove the feature from the domain"
-                )
 
     # Pictures ---------------------------------------------------------------------------------
 

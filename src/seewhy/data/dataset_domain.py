@@ -7,7 +7,8 @@ from pathlib import Path
 from seewhy.data.dataset import TABLE
 from seewhy.data.scene_rows import OPTIONAL, columns_of
 from seewhy.data.table import read_table
-from seewhy.domain.domain import Domain, bundled_domains, load_domain
+from seewhy.domain.domain import Domain, load_domain
+from seewhy.domain.folder import bundled_domains
 from seewhy.errors import DatasetError
 
 

@@ -235,6 +235,6 @@ def same_pixels(first: Path, second: Path) -> bool:
     >>> same_pixels(folder / "a.png", folder / "a.bmp")
     True
     """
-    from seewhy.perception.picture import pixels_digest
+    from seewhy.perception.pixels_digest import pixels_digest
 
     return pixels_digest(first) == pixels_digest(second)

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from seewhy.data.dataset import TABLE
 from seewhy.data.importers.annotation import Notes
+from seewhy.data.importers.folder_files import LINKS_OUT, FolderFiles
 from seewhy.data.importers.picture_files import is_picture_name
-from seewhy.data.importers.source_files import LINKS_OUT, FolderFiles
 from seewhy.data.picture_path import require_own_table
 from seewhy.data.scene import TablePlace
 from seewhy.data.scene_rows import IMAGE, OPTIONAL, columns_of, scenes_of_rows

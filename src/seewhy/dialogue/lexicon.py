@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from seewhy.dialogue.grammar import Binding, Match
 from seewhy.dialogue.inflection import ARTICLES, lemma
 from seewhy.dialogue.question_words import words_of
-from seewhy.domain.domain import Domain, Feature
+from seewhy.domain.domain import Domain
+from seewhy.domain.feature import Feature
 
 __all__ = ["CATEGORIES", "NUMBERS", "Entries", "Value", "lexicon_of", "persons_of", "words_in"]
 

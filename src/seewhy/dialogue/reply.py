@@ -62,7 +62,7 @@ class Classification:
         it was not asked because a network was less sure than the agent's gate, "unknown" where
         the picture is unlike those that are known.
     probability : float or None
-        Of the class, see :class:`~seewhy.agent.consistent_reading.Reading`; None where there is
+        Of the class, see :class:`~seewhy.agent.picture_reading.Reading`; None where there is
         none, or where an
         uncertain reading was sent to the tree.
     score : float or None

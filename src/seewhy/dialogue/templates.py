@@ -9,7 +9,7 @@ from itertools import product, zip_longest
 
 from seewhy.dialogue.asked import Asks, Question
 from seewhy.domain.domain import Domain
-from seewhy.domain.tables import QuestionTable
+from seewhy.domain.question_tables import QuestionTable
 from seewhy.errors import DomainError
 from seewhy.files.toml_file import lines_of_tables
 from seewhy.text.nearest import did_you_mean

@@ -8,78 +8,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
-from seewhy.domain.tables import (
-    CLASS,
-    EMBEDDED,
-    NONE,
-    RESERVED,
-    SCENE,
-    TOGETHER,
-    BeliefTable,
-    ClassTable,
-    DomainFile,
-    FeatureTable,
-    NetworkTable,
-    PictureTable,
-    QuestionsFile,
-    ReadingRule,
-)
-from seewhy.errors import DomainError, KnowledgeError
-from seewhy.files.toml_file import line_of, read_toml
-from seewhy.knowledge.axiom import Literal
+from seewhy.domain.belief import Belief, beliefs_of_file
+from seewhy.domain.feature import Feature, feature_of_table
+from seewhy.domain.folder import FILES, domain_folder
+from seewhy.domain.key_place import KeyPlace
+from seewhy.domain.question_tables import QuestionsFile
+from seewhy.domain.reading_rule import ReadingRule
+from seewhy.domain.scene_class import SceneClass, check_literals, class_of_table
+from seewhy.domain.tables import EMBEDDED, NONE, DomainFile, NetworkTable, PictureTable
+from seewhy.errors import DomainError
+from seewhy.files.toml_file import read_toml
 from seewhy.knowledge.consistency import check_consistency
-from seewhy.knowledge.language import Knowledge, read_knowledge_file, read_literal
+from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
-from seewhy.knowledge.signature import PredicateKind
 from seewhy.text.nearest import did_you_mean
 
-FILES = ("domain.toml", "knowledge.al", "questions.toml")
-
-
-@dataclass(frozen=True)
-class Feature:
-    """A feature: its values and how they are said.
-
-    ``literals`` gives for every value the literal that is believed when the value is seen.
-    """
-
-    key: str
-    name: str
-    values: tuple[str, ...]
-    say: Mapping[str, str]
-    words: Mapping[str, tuple[str, ...]]
-    change: Mapping[str, str]
-    threshold: float
-    channels: tuple[int, ...] | None
-    dense: int | None
-    change_cost: int
-    literals: Mapping[str, Literal]
-
-
-@dataclass(frozen=True)
-class SceneClass:
-    """A class of scenes: the literal that stands for it and how it is said."""
-
-    key: str
-    literal: Literal
-    say: str
-    words: tuple[str, ...]
-    verbs: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Belief:
-    """A static ``key(scene, sort)`` that is no feature: its value is believed, not seen.
-
-    ``say`` has the slots {it} and {value}; ``words`` says each value, ``literals`` stands for it.
-    """
-
-    key: str
-    name: str
-    say: str
-    words: Mapping[str, str]
-    literals: Mapping[str, Literal]
-    acts: tuple[str, ...] = ()
+__all__ = ["Domain", "load_domain"]
 
 
 @dataclass(frozen=True)
@@ -175,42 +119,6 @@ class Domain:
         return dict(zip(self.features, vector, strict=True))
 
 
-def bundled_domains() -> tuple[str, ...]:
-    """Return the names of the domains that come with SeeWhy.
-
-    Examples
-    --------
-    >>> "structure_stability" in bundled_domains()
-    True
-    """
-    home = Path(__file__).parents[1] / "domains"
-    return tuple(sorted(file.parent.name for file in home.glob("*/domain.toml")))
-
-
-def domain_folder(name: str | Path) -> Path:
-    """Return the folder of a bundled domain's name or of a path to a user's folder.
-
-    Raises
-    ------
-    DomainError
-        If there is neither; the text gives the nearest bundled name.
-    """
-    path = Path(name)
-    if path.is_dir():
-        return path
-    if str(name) in bundled_domains():
-        return Path(__file__).parents[1] / "domains" / str(name)
-    if (Path(__file__).parents[1] / "domains" / str(name) / "planning.toml").is_file():
-        raise DomainError(
-            f"'{name}' is a domain that plans and has no pictures to train on; ask 'seewhy plan "
-            f"{name}', 'seewhy simulate {name}' or 'seewhy check {name}'"
-        )
-    raise DomainError(
-        f"'{name}' is neither a folder nor a bundled domain; "
-        f"{did_you_mean(str(name), bundled_domains())}"
-    )
-
-
 def load_domain(name: str | Path) -> Domain:
     """Load a bundled domain by name, or a user's domain by its folder.
 
@@ -235,18 +143,18 @@ def load_domain(name: str | Path) -> Domain:
     table = read_toml(path, DomainFile)
     knowledge = read_knowledge_file(folder / "knowledge.al").without_change
     questions = read_toml(folder / "questions.toml", QuestionsFile)
-    place = _Place(path)
+    place = KeyPlace(path)
     _check_source(table, place)
     _check_scene(table, knowledge, place)
     features = {
-        key: _feature(key, feature_table, table, knowledge, place)
+        key: feature_of_table(key, feature_table, table, knowledge, place)
         for key, feature_table in table.features.items()
     }
     classes = {
-        key: _class(key, class_table, table, knowledge, place)
+        key: class_of_table(key, class_table, table, knowledge, place)
         for key, class_table in table.classes.items()
     }
-    _check_classes(classes, place)
+    check_literals(classes, place)
     _check_shared_words(classes, features, place)
     domain = Domain(
         name=table.domain.name,
@@ -255,7 +163,7 @@ def load_domain(name: str | Path) -> Domain:
         scene=table.domain.scene,
         features=MappingProxyType(features),
         classes=MappingProxyType(classes),
-        beliefs=MappingProxyType(_beliefs(table, knowledge, place)),
+        beliefs=MappingProxyType(beliefs_of_file(table, knowledge, place)),
         knowledge=knowledge,
         questions=questions,
         pictures=table.pictures,
@@ -270,17 +178,7 @@ def load_domain(name: str | Path) -> Domain:
     return domain
 
 
-class _Place:
-    """Finds the line of a key in domain.toml when an error needs it."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-
-    def at(self, *keys: str) -> str:
-        return f"{self.path}:{line_of(self.path.read_text(encoding='utf-8-sig'), keys)}"
-
-
-def _check_source(table: DomainFile, place: _Place) -> None:
+def _check_source(table: DomainFile, place: KeyPlace) -> None:
     """Refuse a source that lies outside of the domain's folder, but for modules of SeeWhy's own."""
     source = table.domain.source
     if source is None or re.fullmatch(r"seewhy(_lab)?(\.[a-z][a-z0-9_]*)+", source):
@@ -294,7 +192,7 @@ def _check_source(table: DomainFile, place: _Place) -> None:
 
 
 def _check_shared_words(
-    classes: Mapping[str, SceneClass], features: Mapping[str, Feature], place: _Place
+    classes: Mapping[str, SceneClass], features: Mapping[str, Feature], place: KeyPlace
 ) -> None:
     """Refuse a word that stands for two classes, or for two values of one feature."""
     spoken: dict[str, str] = {}
@@ -316,7 +214,7 @@ def _check_shared_words(
                     )
 
 
-def _check_scene(table: DomainFile, knowledge: Knowledge, place: _Place) -> None:
+def _check_scene(table: DomainFile, knowledge: Knowledge, place: KeyPlace) -> None:
     sorts = knowledge.signature.sorts
     scene = table.domain.scene
     here = place.at("domain", "scene")
@@ -335,201 +233,3 @@ def _check_scene(table: DomainFile, knowledge: Knowledge, place: _Place) -> None
                 f"{sort.location}: sort '{sort.name}' has no members; only '{scene}', which "
                 "stands for the picture, may be without"
             )
-
-
-def _feature(
-    key: str, table: FeatureTable, file: DomainFile, knowledge: Knowledge, place: _Place
-) -> Feature:
-    predicate = knowledge.signature.predicates.get(key)
-
-    def here() -> str:
-        return place.at("features", key)
-
-    scene = file.domain.scene
-    if key in (CLASS, TOGETHER):
-        raise DomainError(
-            f"{here()}: '{key}' is what other networks than a feature's are called; call the "
-            "feature otherwise"
-        )
-    if key == SCENE or key in file.classes:
-        raise DomainError(
-            f"{here()}: '{key}' is what "
-            f"{'a whole picture' if key == SCENE else 'a class of this domain'} is called; call "
-            "the feature otherwise"
-        )
-    if key in RESERVED:
-        raise DomainError(
-            f"{here()}: '{key}' is what another column of scenes.csv is called; call the feature "
-            "otherwise"
-        )
-    if predicate is None:
-        raise DomainError(
-            f"{here()}: the feature '{key}' is not declared in knowledge.al; "
-            f"{did_you_mean(key, knowledge.signature.predicates)}"
-        )
-    if not predicate.sorts or predicate.sorts[0] != scene or len(predicate.sorts) > 2:
-        raise DomainError(
-            f"{here()}: the feature '{key}' must be declared as '#static {key}({scene}).' (yes or "
-            f"no) or '#static {key}({scene}, SORT).', got '{predicate}' "
-            f"({predicate.location})"
-        )
-    if len(predicate.sorts) == 1:
-        literals = {
-            "yes": Literal(predicate=key, arguments=(scene,)),
-            "no": Literal(predicate=key, arguments=(scene,), positive=False),
-        }
-    else:
-        literals = {
-            value: Literal(predicate=key, arguments=(scene, value))
-            for value in knowledge.signature.members(predicate.sorts[1])
-        }
-    for value in table.values:
-        if value not in literals:
-            raise DomainError(
-                f"{place.at('features', key, 'values', value)}: '{value}' is no value of "
-                f"'{key}' in knowledge.al; {did_you_mean(value, literals)}"
-            )
-    for value in literals:
-        if value not in table.values:
-            raise DomainError(
-                f"{here()}: nothing says how '{key}' = '{value}' is said; add "
-                f'[features.{key}.values.{value}] with say = "…"'
-            )
-    tables = {value: table.values[value] for value in literals}
-    return Feature(
-        key=key,
-        name=table.name,
-        values=tuple(literals),
-        say=MappingProxyType({value: value_table.say for value, value_table in tables.items()}),
-        words=MappingProxyType(
-            {value: (*value_table.words, value) for value, value_table in tables.items()}
-        ),
-        change=MappingProxyType(
-            {
-                value: value_table.change
-                for value, value_table in tables.items()
-                if value_table.change
-            }
-        ),
-        threshold=table.threshold,
-        channels=table.channels,
-        dense=table.dense,
-        change_cost=table.change_cost,
-        literals=MappingProxyType(literals),
-    )
-
-
-def _beliefs(file: DomainFile, knowledge: Knowledge, place: _Place) -> dict[str, Belief]:
-    """Every static of the scene and one sort that is no feature, with its words."""
-    scene = file.domain.scene
-    predicates = {
-        name: predicate
-        for name, predicate in knowledge.signature.predicates.items()
-        if predicate.kind is PredicateKind.STATIC
-        and len(predicate.sorts) == 2
-        and predicate.sorts[0] == scene
-        and name not in file.features
-    }
-    for key in file.beliefs:
-        if key in predicates:
-            continue
-        here = place.at("beliefs", key)
-        if key in file.features:
-            raise DomainError(
-                f"{here}: '{key}' is a feature, which is seen and not believed; say its values "
-                f"under [features.{key}.values] and remove [beliefs.{key}]"
-            )
-        declared = knowledge.signature.predicates.get(key)
-        if declared is None:
-            raise DomainError(
-                f"{here}: the belief '{key}' is not declared in knowledge.al; "
-                f"{did_you_mean(key, predicates)}"
-            )
-        raise DomainError(
-            f"{here}: the belief '{key}' must be declared as '#static {key}({scene}, SORT).', "
-            f"got '{declared}' ({declared.location})"
-        )
-    beliefs: dict[str, Belief] = {}
-    for key, predicate in predicates.items():
-        table = file.beliefs.get(key, BeliefTable())
-        members = knowledge.signature.members(predicate.sorts[1])
-        for value in table.values:
-            if value not in members:
-                raise DomainError(
-                    f"{place.at('beliefs', key, 'values', value)}: '{value}' is no value of "
-                    f"'{key}' in knowledge.al; {did_you_mean(value, members)}"
-                )
-        name = table.name or key.replace("_", " ")
-        beliefs[key] = Belief(
-            key=key,
-            name=name,
-            say=table.say or f"the {name} of {{it}} is {{value}}",
-            words=MappingProxyType(
-                {
-                    value: table.values.get(value, value.strip('"').replace("_", " "))
-                    for value in members
-                }
-            ),
-            literals=MappingProxyType(
-                {value: Literal(predicate=key, arguments=(scene, value)) for value in members}
-            ),
-            acts=table.acts,
-        )
-    return beliefs
-
-
-def _check_classes(classes: Mapping[str, SceneClass], place: _Place) -> None:
-    keys: dict[Literal, str] = {}
-    for key, scene_class in classes.items():
-        first = keys.setdefault(scene_class.literal, key)
-        if first != key:
-            raise DomainError(
-                f"{place.at('classes', key, 'literal')}: the literal '{scene_class.literal}' "
-                f"stands for the classes '{first}' and '{key}'; no scene could be one of them and "
-                "not the other, give each class a literal of its own"
-            )
-
-
-def _class(
-    key: str, table: ClassTable, file: DomainFile, knowledge: Knowledge, place: _Place
-) -> SceneClass:
-    def here() -> str:
-        # Finding a line reads the file anew: only where there is something to say about it.
-        return place.at("classes", key, "literal")
-
-    scene = file.domain.scene
-    try:
-        literal = read_literal(table.literal)
-    except KnowledgeError as problem:
-        raise DomainError(f"{here()}: {problem}") from None
-    predicates = knowledge.signature.predicates
-    if literal.predicate not in predicates:
-        raise DomainError(
-            f"{here()}: the literal '{literal}' of class '{key}' uses '{literal.predicate}', which "
-            f"knowledge.al does not declare; {did_you_mean(literal.predicate, predicates)}"
-        )
-    sorts = predicates[literal.predicate].sorts
-    if len(sorts) != len(literal.arguments):
-        raise DomainError(
-            f"{here()}: '{literal.predicate}' takes {len(sorts)} "
-            f"argument{'s' * (len(sorts) != 1)}, got '{literal}'"
-        )
-    arguments = []
-    for argument, sort in zip(literal.arguments, sorts, strict=True):
-        members = (scene,) if sort == scene else knowledge.signature.members(sort)
-        term = scene if sort == scene and argument[0].isupper() else argument
-        if term not in members:
-            raise DomainError(
-                f"{here()}: '{argument}' is not of sort '{sort}' in the literal '{literal}'; "
-                f"{did_you_mean(argument, members)}"
-            )
-        arguments.append(term)
-    return SceneClass(
-        key=key,
-        literal=Literal(
-            predicate=literal.predicate, arguments=tuple(arguments), positive=literal.positive
-        ),
-        say=table.say,
-        words=table.words or (table.say,),
-        verbs=table.verbs,
-    )

@@ -1,18 +1,14 @@
-"""The tables of a domain's files: what may stand in domain.toml, and in questions.toml."""
+"""What may stand in domain.toml."""
 
 from __future__ import annotations
 
-from typing import Annotated, get_args
+from typing import Annotated
 from typing import Literal as OneOf
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import Field
 
-from seewhy.text.slots import wrong_slot
-
-ReadingRule = OneOf["argmax", "consistent", "with_class"]
-"""How a picture's features are read; see :mod:`seewhy.agent.consistent_reading`."""
-
-READINGS: tuple[ReadingRule, ...] = get_args(ReadingRule)
+from seewhy.domain.reading_rule import ReadingRule
+from seewhy.domain.table_texts import BeliefClause, Clause, Key, Label, StrictTable, Word
 
 EMBEDDED = "efficientnet-lite0"
 """The backbone that comes with SeeWhy."""
@@ -33,54 +29,7 @@ TOGETHER = "together"
 """What all networks of features are called where they are trained together."""
 
 
-def _with_letters(word: str) -> str:
-    if not any(character.isalnum() for character in word):
-        raise ValueError(f"must have a letter or a digit, got '{word}'")
-    return word
-
-
-def _without_control(name: str) -> str:
-    if not name.isprintable() or name != name.strip() or not name:
-        raise ValueError(f"a name must be of visible characters, got {name!r}")
-    return name
-
-
-def _with_it_alone(text: str) -> str:
-    if wrong_slot(_with_letters(text), ("it",)) is not None:
-        raise ValueError(f"{{it}} is the only slot that there is, got '{text}'")
-    return text
-
-
-def _with_value(text: str) -> str:
-    if wrong_slot(_with_letters(text), ("it", "value")) is not None or "{value}" not in text:
-        raise ValueError(f"must have the slot {{value}} and may have {{it}}, got '{text}'")
-    return text
-
-
-def _without_braces(text: str) -> str:
-    if set("{}") & set(text):
-        raise ValueError(f"must have no braces, got '{text}'")
-    return text
-
-
-Word = Annotated[str, AfterValidator(_with_letters), AfterValidator(_without_braces)]
-Label = Annotated[str, AfterValidator(_without_braces)]
-Key = Annotated[str, AfterValidator(_without_control)]
-Clause = Annotated[str, AfterValidator(_with_it_alone)]
-BeliefClause = Annotated[str, AfterValidator(_with_value)]
-
-
-LONGEST_TEXT = 2000
-"""Characters of a text or a name in a domain's tables."""
-
-
-class _Table(BaseModel):
-    model_config = ConfigDict(
-        extra="forbid", frozen=True, populate_by_name=True, str_max_length=LONGEST_TEXT
-    )
-
-
-class DomainTable(_Table):
+class DomainTable(StrictTable):
     """``[domain]``: what the domain is called, which sort stands for the picture, how it is read.
 
     Below a ``known_share`` of 1, that share of the pictures like those of training is answered,
@@ -127,7 +76,7 @@ class DomainTable(_Table):
     )
 
 
-class PictureTable(_Table):
+class PictureTable(StrictTable):
     """``[pictures]``: how pictures are shown to the networks, and how they may be varied.
 
     See :func:`seewhy.perception.picture.read_picture` for ``fit`` and
@@ -224,7 +173,7 @@ class PictureTable(_Table):
 Channels = Annotated[tuple[Annotated[int, Field(ge=1, le=4096)], ...], Field(min_length=1)]
 
 
-class NetworkTable(_Table):
+class NetworkTable(StrictTable):
     """``[networks]``: how large the networks become and how they are trained.
 
     See :class:`seewhy.perception.options.TrainingOptions`, and for ``together``
@@ -275,7 +224,7 @@ class NetworkTable(_Table):
     )
 
 
-class ValueTable(_Table):
+class ValueTable(StrictTable):
     """``[features.NAME.values.VALUE]``: how a value is said, asked for and brought about."""
 
     say: Clause = Field(
@@ -293,7 +242,7 @@ class ValueTable(_Table):
     )
 
 
-class FeatureTable(_Table):
+class FeatureTable(StrictTable):
     """``[features.NAME]``: one feature, recognised by a network of its own.
 
     ``channels`` and ``dense`` are those of ``[networks]`` where left out.
@@ -333,7 +282,7 @@ class FeatureTable(_Table):
     )
 
 
-class ClassTable(_Table):
+class ClassTable(StrictTable):
     """``[classes.NAME]``: one class, the literal that stands for it, and its words."""
 
     literal: str = Field(
@@ -352,7 +301,7 @@ class ClassTable(_Table):
     )
 
 
-class BeliefTable(_Table):
+class BeliefTable(StrictTable):
     """``[beliefs.NAME]``: how a static that is no feature, and its values, are said."""
 
     name: Word | None = Field(
@@ -375,7 +324,7 @@ class BeliefTable(_Table):
     )
 
 
-class DomainFile(_Table):
+class DomainFile(StrictTable):
     """The whole of ``domain.toml``."""
 
     domain: DomainTable = Field(
@@ -405,55 +354,4 @@ class DomainFile(_Table):
         default={},
         description="How statics of the picture that are no features are said, where their names "
         "do not do.",
-    )
-
-
-class QuestionTable(_Table):
-    """``[[question]]``: what is asked, and the ways to ask it."""
-
-    asks: str = Field(
-        description="What is asked: class, is_class, why_class, why_not_class, change_to_class, "
-        "difference_to_class, belief_value, feature_value, feature_is or explain; what else can be "
-        "asked (docs/questions.md) needs no templates.",
-    )
-    feature: str | None = Field(
-        default=None,
-        description="The feature asked about, for feature_value and feature_is.",
-    )
-    value: str | None = Field(
-        default=None,
-        description="The value asked about, for feature_is where the patterns have no {value}.",
-    )
-    predicate: str | None = Field(
-        default=None,
-        description="The static asked about, for belief_value.",
-    )
-    patterns: tuple[str, ...] = Field(
-        min_length=1,
-        max_length=500,
-        description="The ways to ask it: {it} stands for the subject, {class} for the words of a "
-        "class, {value} for those of a value, and [...] may be left out.",
-    )
-
-
-class QuestionsFile(_Table):
-    """The whole of ``questions.toml``."""
-
-    synonyms: dict[str, tuple[str, ...]] = Field(
-        default={},
-        description="For a word or phrase of the patterns, others that mean the same.",
-    )
-    fillers: tuple[str, ...] = Field(
-        default=(),
-        description="Phrases that a question may have and that ask for nothing, as in `please`.",
-    )
-    answers: dict[str, str] = Field(
-        default={},
-        description="For a form of answer, the domain's own wording of it; `seewhy reference` "
-        "lists the forms.",
-    )
-    question: tuple[QuestionTable, ...] = Field(
-        min_length=1,
-        max_length=2000,
-        description="One table a thing that can be asked.",
     )

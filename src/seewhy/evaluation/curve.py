@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seewhy.data.making import determined_share
+from seewhy.data.training_needs import require_feature_labels, require_two_classes
 from seewhy.errors import DatasetError, ModelError
 from seewhy.evaluation.judging import classified
 from seewhy.evaluation.other_knowledge import with_axioms
@@ -167,8 +168,8 @@ def learning_curve(
     skipped: list[tuple[int, str]] = []
     for part in growing_parts(train, seed=agent.seed):
         try:
-            part.require_two_classes()
-            part.require_feature_labels()
+            require_two_classes(part)
+            require_feature_labels(part)
         except DatasetError as problem:
             if len(part) == len(train):
                 raise
@@ -222,7 +223,7 @@ def _trained(
 
 def _identity(like: Agent, part: Dataset) -> str:
     """What tells a training from others: the pictures, what is said of them, domain, options."""
-    from seewhy.domain.domain import FILES
+    from seewhy.domain.folder import FILES
 
     rows = zip(part.picture_digests(), part.vectors, part.labels, part.groups, strict=True)
     texts = [(like.given.folder / name).read_text(encoding="utf-8") for name in FILES]

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
-from hashlib import sha256
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
-from PIL import Image, ImageOps
+from PIL import Image
 
 from seewhy.errors import PictureError
+from seewhy.perception.decoding import decoded, upright
 from seewhy.perception.picture_file import (
     SMALLEST_SIDE,
     check_measures,
@@ -20,19 +19,12 @@ from seewhy.perception.picture_file import (
     memory_for,
     open_picture,
 )
+from seewhy.perception.pixel_array import image_of_array
 
-__all__ = ["Fit", "as_picture", "picture_of_bytes", "pixels_digest", "read_picture"]
+__all__ = ["Fit", "as_picture", "picture_of_bytes", "read_picture"]
 
 _KEPT_WHOLE = 16_000_000
 """Pixels; larger pictures are reduced to four times what is asked for, some rows at a time."""
-
-_BAND = 1_000_000
-"""Pixels that are converted at a time."""
-
-_WHITES = (255.0, 4095.0, 65535.0)
-"""What white may be where a file does not say it: the largest numbers of 8, 12 and 16 bits."""
-
-_ORIENTATION = 0x0112
 
 Picture = npt.NDArray[np.uint8]
 
@@ -176,64 +168,11 @@ def as_picture(
     if isinstance(image, Image.Image):
         return _named_square(image, getattr(image, "filename", "") or "the image", size, fit)
     if isinstance(image, np.ndarray):
-        return _named_square(_from_array(image), "the array", size, fit)
+        return _named_square(image_of_array(image), "the array", size, fit)
     raise PictureError(
         "a picture must be a path, a Pillow image or a NumPy array, "
         f"got {type(image).__name__}: convert it first"
     )
-
-
-def pixels_digest(path: Path) -> str:
-    """Return a name for what a picture shows: the same for every file that shows just the same.
-
-    Formats, palettes and the camera's note on how it was held may differ, and what is transparent
-    throughout has no colour.
-
-    Raises
-    ------
-    PictureError
-        As :func:`read_picture`.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> folder = Path(tempfile.mkdtemp())
-    >>> Image.new("RGB", (9, 9), "red").save(folder / "a.png")
-    >>> Image.new("RGB", (9, 9), "red").save(folder / "a.bmp")
-    >>> pixels_digest(folder / "a.png") == pixels_digest(folder / "a.bmp")
-    True
-    """
-    try:
-        with open_picture(path) as image:
-            pixels = image.width * image.height
-            with memory_for(image, stored=pixels, reduced=pixels):
-                image.load()
-                upright = _upright(image, image)
-                digest = sha256(f"{upright.size}".encode())
-                for band in _bands(upright):
-                    digest.update(_plain(band))
-                return digest.hexdigest()
-    except PictureError as problem:
-        raise PictureError(f"{path} {problem}") from None
-    except Exception as error:
-        raise PictureError(f"{path} {damaged(error)}") from None
-
-
-def _plain(image: Image.Image) -> bytes:
-    """The pixels in one of two ways: deep greys as they are, all else in 8 bits with opacity."""
-    if image.mode.startswith(("I", "F")):
-        return np.asarray(image).astype(np.float32).tobytes()
-    whole = image if image.has_transparency_data else image.convert("RGB")
-    pixels = np.array(whole.convert("RGBA"))
-    pixels[pixels[..., 3] == 0] = 0
-    return pixels.tobytes()
-
-
-def _bands(image: Image.Image, *, factor: int = 1) -> Iterator[Image.Image]:
-    """A picture from the top down, some rows at a time, their number divisible by ``factor``."""
-    rows = max(1, _BAND // (image.width * factor)) * factor
-    for top in range(0, image.height, rows):
-        yield image.crop((0, top, image.width, min(image.height, top + rows)))
 
 
 def _named_square(image: Image.Image, name: str, size: int, fit: Fit) -> Picture:
@@ -252,7 +191,7 @@ def _square(image: Image.Image, *, size: int, fit: Fit) -> Picture:
         image.draft(None, (4 * size, 4 * size))
         factor = _reduction(image, size)
         with memory_for(image, stored=stored, reduced=image.width * image.height // factor**2):
-            opaque = _upright(image, _decoded(image, factor))
+            opaque = upright(image, decoded(image, factor))
             return _fitted(opaque, size=size, fit=fit)
     except PictureError:
         raise
@@ -271,55 +210,6 @@ def _reduction(image: Image.Image, size: int) -> int:
     return max(1, min(max(image.size) // (4 * size), min(image.size) // SMALLEST_SIDE))
 
 
-def _decoded(image: Image.Image, factor: int) -> Image.Image:
-    """The whole picture in red, green and blue, on white, its sides divided by a number."""
-    deep_colour = image.mode not in ("I", "F") and any(";16" in str(tile) for tile in _tiles(image))
-    image.load()
-    white = _white_of(image) if image.mode.startswith(("I", "F")) else 0.0
-    if deep_colour and not white:
-        _check_depth(image)
-    if image.mode == "RGB" and factor == 1 and not image.has_transparency_data:
-        return image
-    width, height = image.size
-    canvas = Image.new("RGB", (-(-width // factor), -(-height // factor)))
-    top = 0
-    for band in _bands(image, factor=factor):
-        coloured = _rgb(band, white)
-        reduced = coloured.reduce(factor) if factor > 1 else coloured
-        canvas.paste(reduced, (0, top))
-        top += reduced.height
-    return canvas
-
-
-def _tiles(image: Image.Image) -> list[object]:
-    """How the decoder is called; it says how many bits there are of which Pillow keeps eight."""
-    return [getattr(tile, "args", None) for tile in getattr(image, "tile", ())]
-
-
-def _check_depth(image: Image.Image) -> None:
-    """Refuse colours of 16 bits of which so few are used that eight of them show nothing."""
-    extrema = image.getextrema()
-    bands = [extrema] if isinstance(extrema[0], int | float) else extrema
-    colours = dict(zip(image.getbands(), bands, strict=True))
-    colours.pop("A", None)
-    peak = max(high for _, high in colours.values())
-    if 0 < peak < 16:  # of 256: 12 bits in 16
-        raise PictureError(
-            "has colours of 16 bits and is nearly black, as pictures of 12 bits in 16 are: spread "
-            "its values over the whole range, or save it with 8 bits a colour"
-        )
-
-
-def _upright(image: Image.Image, decoded: Image.Image) -> Image.Image:
-    """What was decoded, turned as the camera noted."""
-    orientation = image.getexif().get(_ORIENTATION, 1)
-    if orientation == 1:
-        return decoded
-    if decoded is not image:
-        decoded.getexif()[_ORIENTATION] = orientation
-    return ImageOps.exif_transpose(decoded)
-
-
 def _fitted(image: Image.Image, *, size: int, fit: Fit) -> Picture:
     scale = size / max(image.size)
     fitted = (max(1, round(image.width * scale)), max(1, round(image.height * scale)))
@@ -336,78 +226,6 @@ def _fitted(image: Image.Image, *, size: int, fit: Fit) -> Picture:
     top, left = (size - rows) // 2, (size - columns) // 2
     canvas[top : top + rows, left : left + columns] = pixels
     return canvas
-
-
-def _rgb(image: Image.Image, white: float) -> Image.Image:
-    """The image in red, green and blue, what is transparent laid on white."""
-    if white:
-        return _from_greys(np.asarray(image), white).convert("RGB")
-    if image.has_transparency_data:
-        image = image.convert("RGBA")
-        under = Image.new("RGBA", image.size, "white")
-        return Image.alpha_composite(under, image).convert("RGB")
-    return image.convert("RGB")
-
-
-def _white_of(image: Image.Image) -> float:
-    """What is white in a picture of greys of more than 8 bits."""
-    if image.format == "PPM":
-        return 65535.0  # says what is white, and Pillow scales by it
-    peak = max(_peak(np.asarray(band)) for band in _bands(image))
-    if not np.isfinite(peak):
-        raise PictureError("has no pixel that is a number: save it as PNG or JPEG")
-    return _white(peak, fractions=image.mode == "F")
-
-
-def _peak(greys: npt.NDArray[np.generic]) -> float:
-    finite = greys[np.isfinite(greys)]
-    return float(finite.max()) if finite.size else -np.inf
-
-
-def _white(peak: float, *, fractions: bool) -> float:
-    """The white of greys that say no range: the first usual one that none of them exceeds."""
-    whites = (1.0, *_WHITES) if fractions else _WHITES
-    return next((white for white in whites if peak <= white), peak)
-
-
-def _from_greys(greys: npt.NDArray[np.generic], white: float) -> Image.Image:
-    """Greys of any range in 8 bits; Pillow's own conversion would clip them at 255."""
-    shares = np.nan_to_num(greys.astype(np.float64), nan=0.0, posinf=white, neginf=0.0) / white
-    return Image.fromarray(np.rint(np.clip(shares, 0.0, 1.0) * 255.0).astype(np.uint8))
-
-
-def _from_array(values: npt.NDArray[np.generic]) -> Image.Image:
-    """A Pillow image of an array of pixels."""
-    if values.ndim == 3 and values.shape[2] == 1:
-        values = values[:, :, 0]
-    if not (values.ndim == 2 or (values.ndim == 3 and values.shape[2] in (3, 4))) or not (
-        values.size
-    ):
-        raise PictureError(
-            "an array is a picture when its shape is (height, width), (height, width, 3) or "
-            f"(height, width, 4), got {values.shape}: reorder or convert it first"
-        )
-    if values.dtype == np.bool_:
-        pixels = values.astype(np.uint8) * np.uint8(255)
-    elif values.dtype == np.uint8:
-        pixels = values.astype(np.uint8)
-    elif values.dtype == np.uint16:
-        white = _white(float(values.max()), fractions=False)
-        pixels = np.rint(values.astype(np.float64) * (255.0 / white)).astype(np.uint8)
-    elif np.issubdtype(values.dtype, np.floating):
-        floats = values.astype(np.float64)
-        if not (np.isfinite(floats).all() and floats.min() >= 0.0 and floats.max() <= 1.0):
-            raise PictureError(
-                "an array of floats is a picture when its values are in 0..1, "
-                f"got {floats.min():g}..{floats.max():g}: divide by the largest possible value"
-            )
-        pixels = np.rint(floats * 255.0).astype(np.uint8)
-    else:
-        raise PictureError(
-            "an array is a picture when it holds bool, uint8, uint16 or floats in 0..1, "
-            f"got {values.dtype}: convert it with astype('uint8')"
-        )
-    return Image.fromarray(np.ascontiguousarray(pixels))
 
 
 def _check_size(size: int) -> None:

@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 import clingo
 
-from seewhy.domain.domain import domain_folder
+from seewhy.domain.folder import domain_folder
 from seewhy.domain.tables import DomainFile, FeatureTable
 from seewhy.errors import DomainError, PlanningError
 from seewhy.files.toml_file import line_of, read_toml

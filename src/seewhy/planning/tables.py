@@ -4,21 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
-from seewhy.domain.tables import LONGEST_TEXT
+from seewhy.domain.table_texts import StrictTable
 
 Probability = Annotated[float, Field(ge=0.0, le=1.0)]
 Seconds = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(
-        extra="forbid", frozen=True, populate_by_name=True, str_max_length=LONGEST_TEXT
-    )
-
-
-class PlanningTable(_Table):
+class PlanningTable(StrictTable):
     """``[planning]``: what the domain is called, and who acts."""
 
     name: str = Field(
@@ -39,7 +33,7 @@ class PlanningTable(_Table):
     )
 
 
-class FluentTable(_Table):
+class FluentTable(StrictTable):
     """``[fluents.NAME]``: how it is said that the fluent holds, and that it does not.
 
     ``[statics.NAME]`` says the same of statics.
@@ -56,7 +50,7 @@ class FluentTable(_Table):
     )
 
 
-class ActionTable(_Table):
+class ActionTable(StrictTable):
     """``[actions.NAME]``: "move to {1}" (``do``), "moved to {1}" (``did``)."""
 
     do: str | None = Field(
@@ -69,7 +63,7 @@ class ActionTable(_Table):
     )
 
 
-class SensingTable(_Table):
+class SensingTable(StrictTable):
     """``[[sensing]]``: a fluent whose truth the robot sees, where a condition holds."""
 
     literal: str = Field(description="The fluent, as in `loc(A, L)`.")
@@ -80,7 +74,7 @@ class SensingTable(_Table):
     )
 
 
-class PicturesTable(_Table):
+class PicturesTable(StrictTable):
     """``[pictures]``: what the pictures that the robot takes say, where networks see."""
 
     where: str = Field(
@@ -93,7 +87,7 @@ class PicturesTable(_Table):
     )
 
 
-class SimulationTable(_Table):
+class SimulationTable(StrictTable):
     """``[simulation]``: how often what happens, for the simulated world."""
 
     events: dict[str, Probability] = Field(
@@ -120,7 +114,7 @@ class SimulationTable(_Table):
     )
 
 
-class MapTable(_Table):
+class MapTable(StrictTable):
     """``[map]``: how to draw where things are."""
 
     places: str = Field(description="The sort of places.")
@@ -131,7 +125,7 @@ class MapTable(_Table):
     )
 
 
-class PlanningFile(_Table):
+class PlanningFile(StrictTable):
     """The whole of planning.toml."""
 
     planning: PlanningTable = Field(description="What the domain is called, and who acts.")

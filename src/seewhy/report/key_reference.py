@@ -10,7 +10,8 @@ from typing import Any
 from pydantic import BaseModel
 
 from seewhy.dialogue.answer import SLOTS, default_answer_templates
-from seewhy.domain.tables import DomainFile, QuestionsFile
+from seewhy.domain.question_tables import QuestionsFile
+from seewhy.domain.tables import DomainFile
 from seewhy.planning.tables import PlanningFile
 
 __all__ = [

@@ -18,7 +18,8 @@ from pathlib import Path
 
 from seewhy.dialogue.asked import Asks, Question
 from seewhy.dialogue.question import Questions
-from seewhy.domain.domain import bundled_domains, load_domain
+from seewhy.domain.domain import load_domain
+from seewhy.domain.folder import bundled_domains
 from seewhy.errors import QuestionError
 
 NOT_UNDERSTOOD = "not understood"

@@ -26,7 +26,7 @@ from seewhy.agent.agent import Agent
 from seewhy.agent.pretraining import Pretrained, pretrained
 from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import load_domain
-from seewhy.domain.tables import ReadingRule
+from seewhy.domain.reading_rule import ReadingRule
 from seewhy.evaluation import evaluate
 from seewhy.files.whole_files import write_whole
 from seewhy.perception.course import Course

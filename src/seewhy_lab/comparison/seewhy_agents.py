@@ -10,7 +10,7 @@ from seewhy.agent.pretraining import Pretrained, pretrained
 from seewhy.agent.settings import Settings
 from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import load_domain
-from seewhy.domain.tables import ReadingRule
+from seewhy.domain.reading_rule import ReadingRule
 from seewhy.perception.course import Course
 from seewhy_lab.comparison.system import Drawings, Fitted
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from seewhy.agent.agent import Agent
 from seewhy.dialogue.reference import ReferenceAnswers
-from seewhy.domain.tables import READINGS
+from seewhy.domain.reading_rule import READINGS
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.scene import FeatureVector
 from seewhy_lab.experiments.experiment import Claim, Experiment, Plan, Row, Setting, Trial

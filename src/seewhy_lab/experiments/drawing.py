@@ -15,6 +15,7 @@ import numpy.typing as npt
 from seewhy.data.dataset import TABLE, Dataset
 from seewhy.data.making import make_dataset
 from seewhy.data.picture_source import load_source
+from seewhy.data.training_needs import require_two_classes
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import ExperimentError
 from seewhy.files.locks import locked
@@ -93,7 +94,7 @@ def load_pictures(domain: str, folder: Path, out: Path) -> Dataset:
     """
     loaded = load_domain(domain)
     scenes = Dataset.load(folder, loaded).with_class()
-    scenes.require_two_classes()
+    require_two_classes(scenes)
     scenes = replace(scenes, scenes=tuple(replace(scene, split="") for scene in scenes.scenes))
     size = loaded.pictures.size
     digest = hashlib.sha256((folder / TABLE).read_bytes()).hexdigest()[:16]

@@ -11,10 +11,11 @@ from pathlib import Path
 
 from joblib import cpu_count
 
-from seewhy.agent.consistent_reading import ReadingRule, reading_rule
 from seewhy.data.dataset import TABLE
 from seewhy.data.picture_source import load_source
-from seewhy.domain.domain import FILES, load_domain
+from seewhy.domain.domain import load_domain
+from seewhy.domain.folder import FILES
+from seewhy.domain.reading_rule import ReadingRule, reading_rule
 from seewhy.errors import ExperimentError
 from seewhy_lab.experiments.catalogue import COMPARES_READINGS, experiment
 from seewhy_lab.experiments.drawing import POOL, load_pictures, pool_of, require_enough

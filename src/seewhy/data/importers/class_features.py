@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seewhy.data.importers.column_words import CLASS_WORDS, column_like
+from seewhy.data.importers.folder_files import FolderFiles
 from seewhy.data.importers.names import same_words, valid_name
-from seewhy.data.importers.source_files import FolderFiles
 from seewhy.data.importers.tables import Row, open_table
 from seewhy.data.importers.yes_or_no import yes_or_no
 from seewhy.errors import DatasetError

@@ -77,7 +77,7 @@ def found_formats(source: Source) -> dict[Format, str]:
     --------
     >>> import pathlib, tempfile
     >>> from seewhy.data.importers.annotation import Notes
-    >>> from seewhy.data.importers.source_files import FolderFiles
+    >>> from seewhy.data.importers.folder_files import FolderFiles
     >>> home = pathlib.Path(tempfile.mkdtemp())
     >>> (home / "cat").mkdir()
     >>> (home / "cat" / "1.jpg").touch()

@@ -37,7 +37,7 @@ def json_items(files: SourceFiles, name: str) -> Iterator[tuple[str, int, Any]]:
     Examples
     --------
     >>> import pathlib, tempfile
-    >>> from seewhy.data.importers.source_files import FolderFiles
+    >>> from seewhy.data.importers.folder_files import FolderFiles
     >>> home = pathlib.Path(tempfile.mkdtemp())
     >>> _ = (home / "a.json").write_text('{"images": [{"id": 1}, {"id": 2}], "year": 2026}')
     >>> list(json_items(FolderFiles(home), "a.json"))

@@ -122,7 +122,7 @@ class PictureFinder:
     Examples
     --------
     >>> import pathlib, tempfile
-    >>> from seewhy.data.importers.source_files import FolderFiles
+    >>> from seewhy.data.importers.folder_files import FolderFiles
     >>> home = pathlib.Path(tempfile.mkdtemp())
     >>> (home / "images").mkdir()
     >>> (home / "images" / "a b.jpg").touch()

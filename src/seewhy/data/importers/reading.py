@@ -26,9 +26,10 @@ from seewhy.data.importers.formats import (
     reader_of,
 )
 from seewhy.data.importers.groups import grouped, grouping
+from seewhy.data.importers.opening import is_archive, open_source
 from seewhy.data.importers.request import ImportRequest
 from seewhy.data.importers.source import MISSING, ColumnNames, Source
-from seewhy.data.importers.source_files import SourceFiles, is_archive, open_source
+from seewhy.data.importers.source_files import SourceFiles
 from seewhy.data.importers.splits import with_splits
 from seewhy.data.importers.vocabulary import Vocabulary, vocabulary_of
 from seewhy.errors import DatasetError

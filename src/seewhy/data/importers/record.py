@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from seewhy.data.importers.source_files import RECORD
+from seewhy.data.importers.file_names import RECORD
 from seewhy.data.importers.vocabulary import FeatureWords, Vocabulary
 from seewhy.errors import DatasetError
 

@@ -13,13 +13,8 @@ from typing import Any
 
 from seewhy.data.importers.column_words import CLASS_WORDS, IMAGE_WORDS
 from seewhy.data.importers.json_reading import json_items
-from seewhy.data.importers.source_files import (
-    DamagedFileError,
-    SourceFiles,
-    decoded,
-    explodes,
-    read_bytes,
-)
+from seewhy.data.importers.source_files import DamagedFileError, SourceFiles, decoded, read_bytes
+from seewhy.data.importers.zip_files import explodes
 from seewhy.data.table import read_table
 from seewhy.errors import DatasetError
 from seewhy.files.folders import scratch_folder
@@ -64,7 +59,7 @@ def open_table(files: SourceFiles, name: str) -> Iterator[Table]:
     Examples
     --------
     >>> import pathlib, tempfile
-    >>> from seewhy.data.importers.source_files import FolderFiles
+    >>> from seewhy.data.importers.folder_files import FolderFiles
     >>> home = pathlib.Path(tempfile.mkdtemp())
     >>> _ = (home / "a.csv").write_text("class;colour\\ngood; red\\n\\nbad;n/a\\n")
     >>> with open_table(FolderFiles(home), "a.csv") as table:

@@ -15,6 +15,7 @@ from seewhy.data.dataset import TABLE
 from seewhy.data.importers.annotation import AnnotatedPicture, Box
 from seewhy.data.importers.boxes import boxes_in_pixels
 from seewhy.data.importers.class_features import ClassFeatures
+from seewhy.data.importers.file_names import RECORD
 from seewhy.data.importers.imported import ImportedDataset
 from seewhy.data.importers.picture_files import PictureHeader
 from seewhy.data.importers.picture_table import THINGS
@@ -22,7 +23,7 @@ from seewhy.data.importers.placing import Placing, image_names
 from seewhy.data.importers.reading import ReadSource, read_source
 from seewhy.data.importers.record import Record, read_record, words_of_vocabulary
 from seewhy.data.importers.request import ImportRequest
-from seewhy.data.importers.source_files import RECORD, DamagedFileError
+from seewhy.data.importers.source_files import DamagedFileError
 from seewhy.data.importers.vocabulary import (
     THING_COLUMNS,
     Vocabulary,

@@ -11,7 +11,8 @@ import clingo
 from seewhy.knowledge.language import Knowledge
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.goal import Goal, with_goal
-from seewhy.planning.planner.ground_problem import GroundProblem, Literals, ground_problem
+from seewhy.planning.planner.compilation import ground_problem
+from seewhy.planning.planner.ground_problem import GroundProblem, Literals
 from seewhy.planning.planner.relevance import relevant
 
 _NEVER = "nothing_reaches_the_goal"

@@ -35,7 +35,8 @@ from seewhy.knowledge.language import Knowledge
 from seewhy.planning.diagnosis.belief_state import State, facts
 from seewhy.planning.goal import REACHED, Goal, with_goal
 from seewhy.planning.planner.a_star import search
-from seewhy.planning.planner.ground_problem import GroundProblem, ground_problem
+from seewhy.planning.planner.compilation import ground_problem
+from seewhy.planning.planner.ground_problem import GroundProblem
 from seewhy.planning.planner.mutex import mutexes
 from seewhy.planning.planner.reachability import Reachability, reachable, simplified
 from seewhy.planning.planner.relevance import relevant

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from seewhy.domain.domain import domain_folder
+from seewhy.domain.folder import domain_folder
 from seewhy_lab.simulators.traffic_signs.photograph import photograph
 from seewhy_lab.simulators.traffic_signs.sign import face
 
