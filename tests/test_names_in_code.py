@@ -72,7 +72,8 @@ def test_every_kind_of_name_is_found(code: str) -> None:
 
 
 def test_an_example_of_a_docstring_is_found_at_its_line() -> None:
-    code = 'def mean():\n    """Its own mean.\n\n    >>> [own for own in "ab"]\n    """\n'
+    example = f'[{REFUSED} for {REFUSED} in "ab"]'
+    code = f'def mean():\n    """Its own mean.\n\n    >>> {example}\n    """\n'
     assert lines_naming(REFUSED, code) == [4]
 
 
