@@ -249,7 +249,7 @@ def _add_words(
 
 def _number_words(word: str, normalise: Normalise) -> list[tuple[str, ...]]:
     """What else names a number: "three" and "number three" of "3"."""
-    if not word.isdigit():
+    if not word.isdecimal():
         return []
     named = [normalise(NUMBERS[int(word)])] if int(word) < len(NUMBERS) else []
     noun = lemma("number")

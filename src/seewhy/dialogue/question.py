@@ -175,10 +175,10 @@ class Questions:
     def _refuse_no_class(self, text: str, nearest: tuple[str, ...]) -> None:
         """Raise a QuestionError where a question of numbered classes names a number of none."""
         classes = [scene_class.say for scene_class in self.domain.classes.values()]
-        numbers = [say for say in classes if say.isdigit()]
+        numbers = [say for say in classes if say.isdecimal()]
         words = words_of(text)
         for position, word in enumerate(words if numbers else ()):
-            if not word.isdigit() and word not in NUMBERS:
+            if not word.isdecimal() and word not in NUMBERS:
                 continue
             instead = " ".join([*words[:position], numbers[0], *words[position + 1 :]])
             if any(question.label for question in self._read(instead, None)):

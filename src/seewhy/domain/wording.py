@@ -182,7 +182,7 @@ def say_values(domain: Domain, feature: str, values: Sequence[str]) -> str:
     'the shape of {it} is anything but round or octagonal'
     """
     described = domain.features[feature]
-    numbers = [int(value) for value in values if value.lstrip("-").isdigit()]
+    numbers = [int(value) for value in values if value.lstrip("-").isdecimal()]
     all_numbers = len(numbers) == len(values) > 2
     if all_numbers and numbers == list(range(numbers[0], numbers[0] + len(numbers))):
         return say_one_of([described.say[values[0]], described.say[values[-1]]], word="to")

@@ -6,7 +6,7 @@ import hashlib
 import json
 import shutil
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -227,11 +227,7 @@ def _identity(like: Agent, part: Dataset) -> str:
 
     rows = zip(part.picture_digests(), part.vectors, part.labels, part.groups, strict=True)
     texts = [(like.given.folder / name).read_text(encoding="utf-8") for name in FILES]
-    # Whatever options an agent has; where it computes is none that its models depend on.
-    options = {
-        name: value
-        for name, value in vars(like).items()
-        if name != "device" and isinstance(value, str | int | float | None)
-    }
+    # Where an agent computes is nothing that its models depend on.
+    options = asdict(replace(like.settings, device="auto"))
     said = json.dumps([list(rows), texts, options], sort_keys=True)
     return hashlib.sha256(said.encode()).hexdigest()[:12]

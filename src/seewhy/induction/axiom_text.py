@@ -83,7 +83,7 @@ def _of_scene(literal: Literal, schema: SceneSchema) -> Literal:
 
 
 def _are_numbers(values: Mapping[str, Literal]) -> bool:
-    return all(value.lstrip("-").isdigit() for value in values)
+    return all(value.lstrip("-").isdecimal() for value in values)
 
 
 def _compared(

@@ -321,7 +321,7 @@ def _columns(features: Mapping[str, Sequence[str]]) -> list[tuple[str, str | Non
     """(feature, None) for a number, (feature, value) for one value of a category."""
     columns: list[tuple[str, str | None]] = []
     for name, values in features.items():
-        if all(value.lstrip("-").isdigit() for value in values):
+        if all(value.lstrip("-").isdecimal() for value in values):
             columns.append((name, None))
         elif len(values) == 2:
             columns.append((name, values[0]))

@@ -98,7 +98,7 @@ class ChangeFinder:
                 f"changed({feature}, {cost}) :- current({feature}, V), not observed({feature}, V).",
                 f":- observed({feature}, {UNKNOWN}), not current({feature}, {UNKNOWN}).",
             ]
-            if all(value.lstrip("-").isdigit() for value in values):
+            if all(value.lstrip("-").isdecimal() for value in values):
                 lines.append(
                     f"moved({feature}, |V - W|) :- observed({feature}, V), current({feature}, W), "
                     f"V != {UNKNOWN}, W != {UNKNOWN}."

@@ -103,7 +103,7 @@ class Access:
         ):
             return 401, "the token is missing or wrong; send 'Authorization: Bearer TOKEN'"
         length = headers.get("content-length", "0")
-        if not length.isdigit() or int(length) > self._rules.most_bytes:
+        if not length.isdecimal() or int(length) > self._rules.most_bytes:
             return 413, self._too_large()
         return None
 
