@@ -71,6 +71,7 @@ def fit_extractor(
 
     Examples
     --------
+    >>> import numpy as np
     >>> pictures = np.zeros((40, 16, 16, 3), dtype=np.uint8)
     >>> pictures[::2] = 200
     >>> shown = LabelledPictures(
