@@ -31,7 +31,7 @@ from seewhy.data.dataset import Dataset
 from seewhy.dialogue.reply import Classification, FeatureReading
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.perception import extractor, fitting_eyes, parallel
+from seewhy.perception import fitting_extractor, fitting_eyes, parallel
 from seewhy.perception.course import Course
 
 DOMAIN = """\
@@ -213,7 +213,7 @@ def one_process() -> Iterator[None]:
     Those would take seconds to start.
     """
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(extractor, "train_networks", _train_networks_here)
+        patch.setattr(fitting_extractor, "train_networks", _train_networks_here)
         yield
 
 

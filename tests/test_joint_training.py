@@ -13,7 +13,8 @@ import torch
 
 from seewhy.perception.course import Course
 from seewhy.perception.events import TrainingEvent
-from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.extractor import FeatureExtractor
+from seewhy.perception.fitting_extractor import fit_extractor
 from seewhy.perception.joint_training import TOGETHER
 from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.options import TrainingOptions
@@ -117,9 +118,11 @@ def test_an_interrupted_training_goes_on_where_it_was(tmp_path: Path, after: int
     assert_same_weights(resumed, whole)
     assert resumed.summary() == whole.summary()
     assert [event.epoch for event in events if event.kind == "epoch"] == list(range(after + 1, 17))
-    again = fit(checkpoints=tmp_path, on_progress=lambda event: pytest.fail(event.message))
+    told: list[TrainingEvent] = []
+    again = fit(checkpoints=tmp_path, on_progress=told.append)
     assert_same_weights(again, whole)
     assert again.summary() == whole.summary()
+    assert [event.kind for event in told] == ["done"]  # nothing finished is done again
 
 
 def test_other_data_begin_anew(tmp_path: Path) -> None:

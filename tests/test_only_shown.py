@@ -9,7 +9,8 @@ from conftest import seen
 from seewhy.agent.agent import Agent
 from seewhy.agent.trace import trace_of
 from seewhy.domain.domain import Domain
-from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.extractor import FeatureExtractor
+from seewhy.perception.fitting_extractor import fit_extractor
 from seewhy.perception.labelled_pictures import LabelledPictures
 
 VECTOR = ("3", "wide", "no", "no")

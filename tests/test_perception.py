@@ -20,12 +20,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from seewhy.errors import DatasetError, DomainError, ModelError, SeeWhyError
-from seewhy.perception import extractor as perception_extractor
+from seewhy.perception import fitting_extractor
 from seewhy.perception.augmentation import augment
 from seewhy.perception.calibration import fitted_temperature
 from seewhy.perception.course import Course
 from seewhy.perception.events import TrainingEvent
-from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.extractor import FeatureExtractor
+from seewhy.perception.fitting_extractor import fit_extractor
 from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
@@ -550,7 +551,7 @@ def test_an_interruption_ends_the_workers_and_keeps_what_they_did(
 
 def test_an_error_in_a_worker_arrives_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     # Labels are checked before any worker starts; here only the workers check them.
-    monkeypatch.setattr(perception_extractor, "labelled", lambda *_, **__: None)
+    monkeypatch.setattr(fitting_extractor, "labelled", lambda *_, **__: None)
     labels = {"side": ["left"] * 60, "count": ["1", "7"] * 30}
     with pytest.raises(DatasetError) as caught:
         fit_two(2, labels=labels)
@@ -584,7 +585,7 @@ SCRIPT = """
 import multiprocessing
 import numpy as np
 from seewhy.perception.course import Course
-from seewhy.perception.extractor import fit_extractor
+from seewhy.perception.fitting_extractor import fit_extractor
 from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.options import TrainingOptions
 

@@ -17,7 +17,8 @@ from seewhy.perception.domain_options import (
     trained_together,
     training_options,
 )
-from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.extractor import FeatureExtractor
+from seewhy.perception.fitting_extractor import fit_extractor
 from seewhy.perception.labelled_pictures import LabelledPictures
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def grow(
 ) -> FeatureExtractor:
     """Grow networks as a domain wants it, or train earlier ones on.
 
-    See :func:`~seewhy.perception.extractor.fit_extractor`.
+    See :func:`~seewhy.perception.fitting_extractor.fit_extractor`.
     """
     return fit_extractor(
         shown,

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 import torch
 import torch.nn.functional as functional
-from torch import nn
 
 from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
 from seewhy.dialogue.recurrent_network import (
@@ -25,7 +22,10 @@ from seewhy.dialogue.recurrent_network import (
 )
 from seewhy.dialogue.recurrent_options import AnswererEvent, AnswerExample, RecurrentOptions
 from seewhy.errors import DatasetError
+from seewhy.perception.epochs import batches
 from seewhy.perception.one_thread import one_thread
+from seewhy.perception.optimisation import descend, one_cycle, slow_down
+from seewhy.perception.randomness import seeded
 
 __all__ = ["Asked", "fit_answerer", "grown_network", "hold_out"]
 
@@ -207,26 +207,21 @@ def _train(
     """A network of so many layers, trained to the end."""
     n, layers = len(asked.answers), description.layers
     epochs = math.ceil(options.epochs * min(10.0, max(1.0, ENOUGH_EXAMPLES / n)))
-    with _seeded(options.seed, layers), one_thread():
+    rows = torch.arange(n)
+    with seeded(torch.device("cpu"), options.seed, layers), one_thread():
         network = Network(description)
-        optimizer = torch.optim.AdamW(network.parameters(), lr=options.learning_rate)
+        weights = {"params": network.parameters(), "largest": options.learning_rate}
+        optimizer = torch.optim.AdamW([weights])
         for epoch in range(epochs):
-            batches = torch.tensor_split(torch.randperm(n), math.ceil(n / options.batch_size))
             network.train()
-            for i, rows in enumerate(batches):
-                for group in optimizer.param_groups:
-                    progress = (epoch + i / len(batches)) / epochs
-                    group["lr"] = options.learning_rate * _one_cycle(progress)
-                batch = asked.only(rows)
-                words = batch.words[:, : int(batch.lengths.max())]
+            for batch in batches(rows, size=options.batch_size, epoch=epoch, epochs=epochs):
+                slow_down(optimizer, to=one_cycle(batch.progress, rising=0.1, least=0.1))
+                shown = asked.only(batch.rows)
+                words = shown.words[:, : int(shown.lengths.max())]
                 dropped = (torch.rand(words.shape) < options.word_dropout) & (words != PADDING)
                 words = words.masked_fill(dropped, UNKNOWN)
-                logits = network(words, batch.lengths, batch.scenes)
-                loss = functional.cross_entropy(logits, batch.answers)
-                optimizer.zero_grad(set_to_none=True)
-                loss.backward()  # type: ignore[no-untyped-call]
-                nn.utils.clip_grad_norm_(network.parameters(), 1.0)
-                optimizer.step()
+                logits = network(words, shown.lengths, shown.scenes)
+                descend(functional.cross_entropy(logits, shown.answers), optimizer, steepest=1.0)
             if on_progress is not None:
                 accuracy = None
                 message = f"answers: epoch {epoch + 1} of {epochs}, {layers} LSTM layer"
@@ -255,20 +250,3 @@ def _improves(before: npt.NDArray[np.bool_], after: npt.NDArray[np.bool_], alpha
     if won + lost == 0:
         return False
     return bool(binomtest(won, won + lost, 0.5, alternative="greater").pvalue < alpha)
-
-
-def _one_cycle(progress: float) -> float:
-    """The learning rate at ``progress`` (0..1), as a share of the largest."""
-    rising = 0.1
-    if progress < rising:
-        return 0.1 + 0.9 * progress / rising
-    return 0.5 + 0.5 * math.cos(math.pi * (progress - rising) / (1 - rising))
-
-
-@contextmanager
-def _seeded(*parts: object) -> Iterator[None]:
-    """Run a block with PyTorch's generator seeded by ``parts``; the caller's is untouched."""
-    digest = hashlib.sha256(repr(parts).encode()).digest()
-    with torch.random.fork_rng(devices=[]):
-        torch.manual_seed(int.from_bytes(digest[:7], "big"))
-        yield

@@ -177,7 +177,7 @@ class NetworkTable(StrictTable):
     """``[networks]``: how large the networks become and how they are trained.
 
     See :class:`seewhy.perception.options.TrainingOptions`, and for ``together``
-    :func:`seewhy.perception.extractor.fit_extractor`.
+    :func:`seewhy.perception.fitting_extractor.fit_extractor`.
     """
 
     depth: int = Field(

@@ -27,7 +27,7 @@ from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
 
-__all__ = ["Position", "Weights", "checkpoint_file", "fingerprint", "read", "write"]
+__all__ = ["Checkpoint", "Position", "Weights", "checkpoint_file", "fingerprint"]
 
 FORMAT = 2
 
@@ -95,44 +95,54 @@ def fingerprint(
 Where = TypeVar("Where")  # a dataclass of what JSON can hold
 
 
-def write(file: Path, fingerprint: str, position: Any, tensors: Mapping[str, Weights]) -> None:
-    """Write a position (a dataclass) and its tensors, each under the part it belongs to."""
-    flat = {
-        f"{part}.{name}": tensor.detach().cpu().contiguous().clone()
-        for part, of in tensors.items()
-        for name, tensor in of.items()
-    }
-    header = {
-        "fingerprint": fingerprint,
-        "position": json.dumps(asdict(position), sort_keys=True),
-        "digest": _digest(flat),
-    }
-    with whole_file(file, durable=False) as temporary:
-        save_file(flat, temporary, metadata=header)
+@dataclass(frozen=True)
+class Checkpoint:
+    """Where an interrupted training finds where it was, and by what it knows that it is its own.
 
+    Examples
+    --------
+    >>> Checkpoint(Path("nowhere"), "of these pictures").read(Position) is None
+    True
+    """
 
-def read(
-    file: Path, fingerprint: str, kind: type[Where]
-) -> tuple[Where, dict[str, Weights]] | None:
-    """What :func:`write` wrote, or None where there is nothing that could be gone on with."""
-    if not file.is_file():
-        return None
-    try:
-        with safe_open(file, framework="pt") as opened:
-            header = opened.metadata() or {}
-            if header.get("fingerprint") != fingerprint:
-                return None
-            position = TypeAdapter(kind).validate_json(header["position"], strict=True)
-            flat = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
-        if _digest(flat) != header["digest"]:
+    file: Path
+    fingerprint: str
+
+    def write(self, position: Any, tensors: Mapping[str, Weights]) -> None:
+        """Write a position (a dataclass) and its tensors, each under the part it belongs to."""
+        flat = {
+            f"{part}.{name}": tensor.detach().cpu().contiguous().clone()
+            for part, of in tensors.items()
+            for name, tensor in of.items()
+        }
+        header = {
+            "fingerprint": self.fingerprint,
+            "position": json.dumps(asdict(position), sort_keys=True),
+            "digest": _digest(flat),
+        }
+        with whole_file(self.file, durable=False) as temporary:
+            save_file(flat, temporary, metadata=header)
+
+    def read(self, kind: type[Where]) -> tuple[Where, dict[str, Weights]] | None:
+        """What :meth:`write` wrote, or None where there is nothing that could be gone on with."""
+        if not self.file.is_file():
             return None
-    except (SafetensorError, OSError, ValueError, KeyError, TypeError, RecursionError):
-        return None
-    parts: dict[str, Weights] = {}
-    for key, tensor in flat.items():
-        part, name = key.split(".", maxsplit=1)
-        parts.setdefault(part, {})[name] = tensor
-    return position, parts
+        try:
+            with safe_open(self.file, framework="pt") as opened:
+                header = opened.metadata() or {}
+                if header.get("fingerprint") != self.fingerprint:
+                    return None
+                position = TypeAdapter(kind).validate_json(header["position"], strict=True)
+                flat = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
+            if _digest(flat) != header["digest"]:
+                return None
+        except (SafetensorError, OSError, ValueError, KeyError, TypeError, RecursionError):
+            return None
+        parts: dict[str, Weights] = {}
+        for key, tensor in flat.items():
+            part, name = key.split(".", maxsplit=1)
+            parts.setdefault(part, {})[name] = tensor
+        return position, parts
 
 
 def _digest(tensors: Weights) -> str:

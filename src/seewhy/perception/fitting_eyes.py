@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 import torch
 
-from seewhy.perception.backbones.backbone import Backbone, Embedded
+from seewhy.perception.backbones.backbone import Backbone, Embedded, Maps
+from seewhy.perception.checkpoint import Checkpoint
 from seewhy.perception.course import QUIETLY, Course
 from seewhy.perception.embedding import embed_pictures, embed_variations
 from seewhy.perception.embedding_cache import EmbeddingCache
@@ -24,7 +25,6 @@ from seewhy.perception.randomness import seed_of, seeded
 from seewhy.perception.stacking import Stack, Table, fit_stack, log_probabilities, stacked
 from seewhy.perception.tail import Tail, new_tail
 from seewhy.perception.tail_training import (
-    Checkpoint,
     Schedule,
     VariedMaps,
     see_with_tail,
@@ -142,45 +142,19 @@ def fit_eyes(
     tuning: _Tuning | None = None
     judged: tuple[Judged, ...] = ()
     if tune and backbone.tunable:
-        options, judged = chosen_variations(
-            backbone, lesson, embedded.pooled, given=given or {}, seed=seed
-        )
-        for judgement in judged:
-            told(EyesEvent("varying pictures", 0, count, judgement.say()))
-        varied = embed_variations(
-            backbone,
-            lesson.batches(),
-            options,
-            views=int(np.clip(_VARIATIONS // count, *_VIEWS)),
-            count=count,
-            cache=kept,
-            on_picture=lambda done: told(EyesEvent("varying pictures", done, count)),
+        varied, judged = _varied(
+            backbone, lesson, embedded, given=given or {}, cache=kept, seed=seed, told=told
         )
         maps = VariedMaps(embedded.middle, varied, targets)
         tuning = _Tuning(backbone, maps, sizes, start_from, course.checkpoints, seed, told)
     held = _held_out(lesson, seed=seed)
     everything = np.arange(count)
-    seen: dict[str, list[dict[str, Table]]] = {HEADS: [], **({TUNED: []} if tuning else {})}
-    tail: Tail | None = None
-    for number, part in enumerate(held):
-        rest = np.setdiff1d(everything, part)
-        seen[HEADS].append(heads.seen(part, taught_by=rest))
-        if tuning:
-            tail = tuning.of_part(rest, number)
-            seen[TUNED].append(see_with_tail(tail, embedded.middle[part]))
+    tables, tail = _seen_by_others(held, heads, tuning, count=count)
     if tuning:
         # What one fifth was kept from knows most already.
         tail = tuning.of_all(tail if len(held) == 1 else None)
     rows = np.concatenate(held) if held else everything[:0]
-    tables = {way: _joined(parts, sizes) for way, parts in seen.items()}
-    stacks = {
-        name: fit_stack(
-            {way: table[name][column[rows] >= 0] for way, table in tables.items()},
-            column[rows][column[rows] >= 0],
-            preferred=TUNED if tuning else HEADS,
-        )
-        for name, column in targets.items()
-    }
+    stacks = _stacks(tables, targets, rows, preferred=TUNED if tuning else HEADS)
     eyes = Eyes(
         backbone,
         projection=heads.projection,
@@ -193,18 +167,56 @@ def fit_eyes(
             for name, column in lesson.labels.items()
         },
     )
-    passes = tuning.gone_over(held) if tuning else 0
     seen_again = eyes.see_embedded(embedded)
-    for name, column in targets.items():
-        right = seen_again.probabilities[name].argmax(axis=1)[column >= 0] == column[column >= 0]
-        eyes.records[name] = _record(
-            stacks[name], passes, pictures=len(right), trained_accuracy=float(right.mean())
-        )
+    passes = tuning.gone_over(held) if tuning else 0
+    eyes.records.update(_records(stacks, targets, seen_again, passes=passes))
     probabilities = {
         name: stacked({way: tables[way][name] for way in stack.asked}, stack.weights)
         for name, stack in stacks.items()
     }
     return FittedEyes(eyes, embedded, HeldOut(rows, probabilities), seen_again, judged)
+
+
+def _varied(
+    backbone: Backbone,
+    lesson: Lesson,
+    embedded: Embedded,
+    *,
+    given: Mapping[str, float | bool],
+    cache: EmbeddingCache,
+    seed: int,
+    told: Told,
+) -> tuple[Maps, tuple[Judged, ...]]:
+    """Maps of the pictures in other variations, and the variations that were judged for it."""
+    options, judged = chosen_variations(backbone, lesson, embedded.pooled, given=given, seed=seed)
+    count = len(lesson)
+    for judgement in judged:
+        told(EyesEvent("varying pictures", 0, count, judgement.say()))
+    varied = embed_variations(
+        backbone,
+        lesson.batches(),
+        options,
+        views=int(np.clip(_VARIATIONS // count, *_VIEWS)),
+        count=count,
+        cache=cache,
+        on_picture=lambda done: told(EyesEvent("varying pictures", done, count)),
+    )
+    return varied, judged
+
+
+def _seen_by_others(
+    held: Sequence[Rows], heads: _Heads, tuning: _Tuning | None, *, count: int
+) -> tuple[dict[str, dict[str, Table]], Tail | None]:
+    """Way of seeing → what it makes of each part that was kept out of it; and the last tail."""
+    seen: dict[str, list[dict[str, Table]]] = {HEADS: [], **({TUNED: []} if tuning else {})}
+    tail: Tail | None = None
+    for number, part in enumerate(held):
+        rest = np.setdiff1d(np.arange(count), part)
+        seen[HEADS].append(heads.seen(part, taught_by=rest))
+        if tuning:
+            tail = tuning.of_part(rest, number)
+            seen[TUNED].append(see_with_tail(tail, tuning.maps.plain[part]))
+    return {way: _joined(parts, heads.sizes) for way, parts in seen.items()}, tail
 
 
 def _joined(parts: Sequence[Mapping[str, Table]], sizes: Mapping[str, int]) -> dict[str, Table]:
@@ -335,6 +347,33 @@ def _held_out(lesson: Lesson, *, seed: int) -> list[Rows]:
     if len(parts) < 2:
         return []
     return parts if few else parts[:1]
+
+
+def _stacks(
+    tables: Mapping[str, Mapping[str, Table]], targets: Targets, rows: Rows, *, preferred: str
+) -> dict[str, Stack]:
+    """How much each way of seeing counts, by what each made of the pictures at ``rows``."""
+    return {
+        name: fit_stack(
+            {way: table[name][column[rows] >= 0] for way, table in tables.items()},
+            column[rows][column[rows] >= 0],
+            preferred=preferred,
+        )
+        for name, column in targets.items()
+    }
+
+
+def _records(
+    stacks: Mapping[str, Stack], targets: Targets, seen: Seen, *, passes: int
+) -> dict[str, EyesRecord]:
+    """What came of teaching each feature; ``seen`` are the pictures that taught it."""
+    records = {}
+    for name, column in targets.items():
+        right = seen.probabilities[name].argmax(axis=1)[column >= 0] == column[column >= 0]
+        records[name] = _record(
+            stacks[name], passes, pictures=len(right), trained_accuracy=float(right.mean())
+        )
+    return records
 
 
 def _record(stack: Stack, passes: int, *, pictures: int, trained_accuracy: float) -> EyesRecord:

@@ -9,19 +9,54 @@ import torch
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
 
-__all__ = ["load_optimizer", "new_optimizer", "one_cycle", "optimizer_tensors"]
+__all__ = [
+    "descend",
+    "load_optimizer",
+    "new_optimizer",
+    "one_cycle",
+    "optimizer_tensors",
+    "slow_down",
+]
 
 
-def new_optimizer(network: GrowingNetwork, options: TrainingOptions) -> torch.optim.AdamW:
-    """AdamW over the network; only matrices decay."""
+def new_optimizer(
+    network: GrowingNetwork, options: TrainingOptions, *, largest: float
+) -> torch.optim.AdamW:
+    """AdamW over the network, with its largest learning rate; only matrices decay."""
     decayed, free = network.decayed_and_free()
     return torch.optim.AdamW(
         [
-            {"params": decayed, "weight_decay": options.weight_decay},
-            {"params": free, "weight_decay": 0.0},
+            {"params": decayed, "weight_decay": options.weight_decay, "largest": largest},
+            {"params": free, "weight_decay": 0.0, "largest": largest},
         ],
-        lr=options.learning_rate,
     )
+
+
+def slow_down(optimizer: torch.optim.Optimizer, *, to: float) -> None:
+    """Set every group's learning rate to a share of its entry "largest".
+
+    Examples
+    --------
+    >>> weights = [torch.nn.Parameter(torch.zeros(1))]
+    >>> optimizer = torch.optim.AdamW([{"params": weights, "largest": 0.1}])
+    >>> slow_down(optimizer, to=0.5)
+    >>> optimizer.param_groups[0]["lr"]
+    0.05
+    """
+    for group in optimizer.param_groups:
+        group["lr"] = group["largest"] * to
+
+
+def descend(
+    loss: torch.Tensor, optimizer: torch.optim.Optimizer, *, steepest: float | None = None
+) -> None:
+    """Take one step down the gradient of a loss, whose norm is cut to ``steepest`` where given."""
+    optimizer.zero_grad(set_to_none=True)
+    loss.backward()  # type: ignore[no-untyped-call]
+    if steepest is not None:
+        weights = [weight for group in optimizer.param_groups for weight in group["params"]]
+        torch.nn.utils.clip_grad_norm_(weights, steepest)
+    optimizer.step()
 
 
 def one_cycle(progress: float, *, rising: float = 0.25, least: float = 0.05) -> float:

@@ -17,7 +17,7 @@ class Rehearsal:
 
     Use it where a few new pictures show some values only: trained on these alone, a network would
     forget the others. Every pass over the new pictures goes over as many of these, at most
-    :data:`seewhy.perception.training.REHEARSED`, chosen anew each time.
+    :data:`seewhy.perception.epochs.REHEARSED`, chosen anew each time.
 
     Parameters
     ----------

@@ -2,18 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TypeVar
 
 import torch
 
 from seewhy.perception.one_thread import one_thread
 
-__all__ = ["side_by_side"]
+__all__ = ["Threads", "side_by_side", "threads"]
 
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")
+
+
+@dataclass(frozen=True)
+class Threads:
+    """Does the same with each of several pieces; see :func:`threads`."""
+
+    pool: ThreadPoolExecutor | None
+
+    def map(self, work: Callable[[Piece], Result], pieces: Sequence[Piece]) -> list[Result]:
+        """What ``work`` makes of each piece."""
+        if self.pool is None:
+            return [work(piece) for piece in pieces]
+        return list(self.pool.map(work, pieces))
+
+
+@contextmanager
+def threads(count: int) -> Iterator[Threads]:
+    """Run a block with threads of one core each, or with one core where there is one thread.
+
+    Examples
+    --------
+    >>> with threads(2) as two:
+    ...     two.map(lambda number: number * number, [1, 2, 3])
+    [1, 4, 9]
+    """
+    with one_thread():
+        if count < 2:
+            yield Threads(None)
+            return
+        with ThreadPoolExecutor(count, initializer=lambda: torch.set_num_threads(1)) as pool:
+            yield Threads(pool)
 
 
 def side_by_side(work: Callable[[Piece], Result], pieces: Sequence[Piece]) -> list[Result]:
@@ -27,9 +60,5 @@ def side_by_side(work: Callable[[Piece], Result], pieces: Sequence[Piece]) -> li
     >>> side_by_side(lambda number: number * number, [1, 2, 3])
     [1, 4, 9]
     """
-    threads = min(torch.get_num_threads(), len(pieces))
-    with one_thread():
-        if threads < 2:
-            return [work(piece) for piece in pieces]
-        with ThreadPoolExecutor(threads) as workers:
-            return list(workers.map(work, pieces))
+    with threads(min(torch.get_num_threads(), len(pieces))) as several:
+        return several.map(work, pieces)

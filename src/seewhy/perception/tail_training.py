@@ -1,11 +1,15 @@
-"""Tune the last stages of a backbone: a training loop over maps that were made before."""
+"""Tune the last stages of a backbone: a training loop over maps that were made before.
+
+It goes by steps, not by epochs: batches run on from one pass into the next, it is saved by the
+clock, and it has no validation of its own (what comes of it is weighed against heads by pictures
+that were kept out of it). The optimiser and the checkpoint are those of all trainings.
+"""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,16 +17,22 @@ import numpy.typing as npt
 import torch
 import torch.nn.functional as functional
 
-from seewhy.perception import checkpoint
 from seewhy.perception.backbones.backbone import Maps
+from seewhy.perception.checkpoint import Checkpoint
 from seewhy.perception.lesson import Targets
-from seewhy.perception.optimisation import load_optimizer, one_cycle, optimizer_tensors
+from seewhy.perception.optimisation import (
+    descend,
+    load_optimizer,
+    one_cycle,
+    optimizer_tensors,
+    slow_down,
+)
 from seewhy.perception.randomness import seed_of, seeded
 from seewhy.perception.side_by_side import side_by_side
 from seewhy.perception.stacking import Table, log_probabilities
 from seewhy.perception.tail import Tail
 
-__all__ = ["Checkpoint", "Schedule", "VariedMaps", "see_with_tail", "train_tail"]
+__all__ = ["Schedule", "VariedMaps", "see_with_tail", "train_tail"]
 
 SAVED_EVERY = 20.0
 """Seconds of training that a killed program loses at most."""
@@ -80,14 +90,6 @@ class VariedMaps:
         return torch.from_numpy(np.stack(maps)).float()
 
 
-@dataclass(frozen=True)
-class Checkpoint:
-    """Where an interrupted training finds where it was, and by what it knows that it is its own."""
-
-    file: Path
-    fingerprint: str
-
-
 @dataclass
 class _Position:
     """Where training stands between two steps: all but the tensors."""
@@ -125,9 +127,11 @@ def train_tail(
     """
     device = next(tail.parameters()).device
     answers = {name: torch.from_numpy(column).to(device) for name, column in maps.targets.items()}
-    largest = (schedule.rate, schedule.new_rate)
     optimizer = torch.optim.AdamW(
-        [{"params": tail.tuned()}, {"params": tail.new()}],
+        [
+            {"params": tail.tuned(), "largest": schedule.rate},
+            {"params": tail.new(), "largest": schedule.new_rate},
+        ],
         weight_decay=schedule.weight_decay,
         fused=True,
     )
@@ -147,8 +151,7 @@ def train_tail(
             del position.order[:_BATCH]
             shown = maps.some(batch, generator.integers(0, views, len(batch))).to(device)
             progress = (position.step + 0.5) / total
-            for group, rate in zip(optimizer.param_groups, largest, strict=True):
-                group["lr"] = rate * one_cycle(progress, rising=schedule.rising, least=0.0)
+            slow_down(optimizer, to=one_cycle(progress, rising=schedule.rising, least=0.0))
             _step(tail, optimizer, shown, {name: column[batch] for name, column in answers.items()})
             position.step += 1
             last = position.step == total
@@ -174,9 +177,7 @@ def _step(
         if bool((answer >= 0).any())
     ]
     if losses:
-        optimizer.zero_grad(set_to_none=True)
-        torch.stack(losses).mean().backward()  # type: ignore[no-untyped-call]
-        optimizer.step()
+        descend(torch.stack(losses).mean(), optimizer)
 
 
 def _save(
@@ -193,7 +194,7 @@ def _save(
         "optimizer": optimizer_tensors(optimizer),
         "random": {"state": torch.get_rng_state()},
     }
-    checkpoint.write(kept.file, kept.fingerprint, where, tensors)
+    kept.write(where, tensors)
 
 
 def _resumed(
@@ -203,7 +204,7 @@ def _resumed(
     kept: Checkpoint,
 ) -> _Position:
     """Where an earlier training was, with everything put as it was then; the start where none."""
-    found = checkpoint.read(kept.file, kept.fingerprint, _Position)
+    found = kept.read(_Position)
     if found is None:
         return _Position()
     position, tensors = found

@@ -8,7 +8,46 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["clearly_better", "folds", "split"]
+from seewhy.perception.labelled_pictures import LabelledPictures
+
+__all__ = ["clearly_better", "divided", "folds", "split"]
+
+
+def divided(
+    shown: LabelledPictures,
+    rows: npt.NDArray[np.int64],
+    labels: Sequence[object],
+    *,
+    share: float,
+    seed: int,
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Divide some of the pictures as they say themselves, or else as :func:`split` does.
+
+    Parameters
+    ----------
+    shown : LabelledPictures
+    rows : ndarray of int64
+        Which of them.
+    labels : sequence, of the length of ``rows``
+    share, seed
+        As for :func:`split`.
+
+    Returns
+    -------
+    train, validation : ndarray of int64
+        Places in ``rows``, ascending.
+
+    Examples
+    --------
+    >>> shown = LabelledPictures(np.zeros((3, 8, 8, 3)), {}, {}, validation=np.array([2]))
+    >>> divided(shown, np.array([0, 2]), ["a", "b"], share=0.2, seed=0)
+    (array([0]), array([1]))
+    """
+    if shown.validation is not None:
+        away = np.isin(rows, shown.validation)
+        return np.flatnonzero(~away), np.flatnonzero(away)
+    groups = None if shown.groups is None else [shown.groups[row] for row in rows]
+    return split(labels, share=share, seed=seed, groups=groups)
 
 
 def split(

@@ -31,7 +31,8 @@ from seewhy.evaluation import evaluate
 from seewhy.files.whole_files import write_whole
 from seewhy.perception.course import Course
 from seewhy.perception.domain_options import training_options
-from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.extractor import FeatureExtractor
+from seewhy.perception.fitting_extractor import fit_extractor
 from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.validation import split

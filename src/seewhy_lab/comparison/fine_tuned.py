@@ -15,7 +15,8 @@ from seewhy.data.dataset import Dataset
 from seewhy.perception.augmentation import augment
 from seewhy.perception.backbones.efficientnet_lite import efficientnet_lite0
 from seewhy.perception.device import device_of
-from seewhy.perception.optimisation import one_cycle
+from seewhy.perception.epochs import batches
+from seewhy.perception.optimisation import descend, one_cycle, slow_down
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.randomness import seeded
 from seewhy_lab.comparison.system import Drawings, Fitted
@@ -128,18 +129,13 @@ def _train(
         weight_decay=WEIGHT_DECAY,
     )
     x, y = torch.from_numpy(pictures), torch.from_numpy(targets)
-    steps = -(-len(x) // BATCH)
+    rows = torch.arange(len(x))
     network.train()
     for epoch in range(passes):
-        batches = torch.tensor_split(torch.randperm(len(x)), steps)
-        for step, batch in enumerate(batches):
-            for group in optimizer.param_groups:
-                group["lr"] = group["largest"] * one_cycle((epoch + step / steps) / passes)
-            logits = network(augment(x[batch].to(device), variations).clamp(0, 255))
-            loss = functional.cross_entropy(logits, y[batch].to(device))
-            optimizer.zero_grad(set_to_none=True)
-            loss.backward()  # type: ignore[no-untyped-call]
-            optimizer.step()
+        for batch in batches(rows, size=BATCH, epoch=epoch, epochs=passes):
+            slow_down(optimizer, to=one_cycle(batch.progress))
+            logits = network(augment(x[batch.rows].to(device), variations).clamp(0, 255))
+            descend(functional.cross_entropy(logits, y[batch.rows].to(device)), optimizer)
     network.eval()
 
 

@@ -8,10 +8,10 @@ from functools import cache
 
 from seewhy.data.dataset import Dataset
 from seewhy.domain.tables import CLASS
+from seewhy.perception.epochs import planned_epochs
 from seewhy.perception.extractor import FeatureExtractor
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
-from seewhy.perception.training import planned_epochs
 from seewhy_lab.comparison.system import Drawings, Fitted
 from seewhy_lab.comparison.variations import same_variations
 from seewhy_lab.experiments.seeing import class_network
@@ -76,7 +76,7 @@ def epochs_for(passes: int, *, pictures: int, fine_tune: bool = False) -> int:
 
     Examples
     --------
-    >>> from seewhy.perception.training import planned_epochs
+    >>> from seewhy.perception.epochs import planned_epochs
     >>> [planned_epochs(epochs_for(60, pictures=n), pictures=n) for n in (100, 500, 1667, 9000)]
     [60, 60, 60, 60]
     """

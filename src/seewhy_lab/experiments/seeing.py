@@ -29,7 +29,8 @@ from seewhy.perception.domain_options import (
     trained_together,
     training_options,
 )
-from seewhy.perception.extractor import FeatureExtractor, fit_extractor
+from seewhy.perception.extractor import FeatureExtractor
+from seewhy.perception.fitting_extractor import fit_extractor
 from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
