@@ -27,18 +27,16 @@ from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import load_domain
 from seewhy.files.locks import locked
 from seewhy.perception import fitting_eyes, training
+from seewhy_lab import comparison
+from seewhy_lab.commands import compare
+from seewhy_lab.comparison import fine_tuned, small_network, trials
+from seewhy_lab.comparison.catalogue import SYSTEMS
+from seewhy_lab.comparison.page import page
+from seewhy_lab.comparison.picture_sets import SETS, drawn_rows
+from seewhy_lab.comparison.system import Drawings, Fitted, System
 
 DOMAINS = Path(__file__).parents[1] / "src" / "seewhy_lab" / "comparison" / "domains"
-
-import compare  # noqa: E402
-import comparison  # noqa: E402
-
-from seewhy_lab.comparison import fine_tuned, small_network, trials  # noqa: E402
-from seewhy_lab.comparison.catalogue import SYSTEMS  # noqa: E402
-from seewhy_lab.comparison.page import page  # noqa: E402
-from seewhy_lab.comparison.picture_sets import SETS, drawn_rows  # noqa: E402
-from seewhy_lab.comparison.system import Drawings, Fitted, System  # noqa: E402
-from seewhy_lab.comparison.trials import Result, Trial, planned  # noqa: E402
+from seewhy_lab.comparison.trials import Result, Trial, planned
 
 PERSONS = (0, 1, 2, 3, 4, 6, 8)
 TESTED = {"0", "6", "8"}  # as `is_tested` says
