@@ -34,9 +34,9 @@ from seewhy_lab.comparison.catalogue import SYSTEMS
 from seewhy_lab.comparison.page import page
 from seewhy_lab.comparison.picture_sets import SETS, drawn_rows
 from seewhy_lab.comparison.system import Drawings, Fitted, System
+from seewhy_lab.comparison.trials import Result, Trial, planned
 
 DOMAINS = Path(__file__).parents[1] / "src" / "seewhy_lab" / "comparison" / "domains"
-from seewhy_lab.comparison.trials import Result, Trial, planned
 
 PERSONS = (0, 1, 2, 3, 4, 6, 8)
 TESTED = {"0", "6", "8"}  # as `is_tested` says
