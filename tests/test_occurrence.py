@@ -129,7 +129,7 @@ def test_an_agent_asks_the_scenes_that_it_knows(structures: Domain) -> None:
     little = replace(structures, knowledge=replace(structures.knowledge, axioms=axioms))
     agent = Agent(little)
     displaced = ("1", "wide", "no", "yes")
-    assert [change.vector for change in agent.reasoned.smallest(lone, "unstable")] == [displaced]
+    assert [change.vector for change in agent.reasoned.ways.smallest(lone, "unstable")] == [displaced]
     others: list[FeatureVector] = [
         (number, "wide", "no", shift) for number in "2345" for shift in ("no", "yes")
     ]
@@ -138,7 +138,7 @@ def test_an_agent_asks_the_scenes_that_it_knows(structures: Domain) -> None:
         ["stable"] * 40 + ["stable", "unstable"] * 40,
         answers=False,
     )
-    found = [change.vector for change in agent.reasoned.smallest(lone, "unstable")]
+    found = [change.vector for change in agent.reasoned.ways.smallest(lone, "unstable")]
     assert found == [("2", "wide", "no", "yes")]
     # That it needs another block, no axiom says: how it differs is what an axiom asks alone.
     differs = Question(Asks.DIFFERENCE_TO_CLASS, "", (), label="unstable")

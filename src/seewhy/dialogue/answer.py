@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from importlib import resources
 from urllib.parse import unquote
@@ -37,7 +37,8 @@ _MOST_CLASSES_NAMED = 4
 class AnswerType:
     """The form of an answer, the features that it mentions, the changes that it proposes.
 
-    ``values`` are what is believed, where the answer tells the value of a static.
+    ``values`` are what is believed, where the answer tells the value of a static. ``has_more`` says
+    that there are further changes as small as ``changes``; types that differ in it are one.
 
     Examples
     --------
@@ -58,6 +59,7 @@ class AnswerType:
     mentions: tuple[str, ...] = ()
     changes: tuple[Changes, ...] = ()
     values: tuple[str, ...] = ()
+    has_more: bool = field(default=False, compare=False)
 
     @property
     def identifier(self) -> str:
@@ -160,9 +162,15 @@ def word_answer(
             **_say_belief(domain, question, kind),
         },
     )
+    if kind.has_more:
+        said = f"{said.rstrip(' .')}; {_OTHER_WAYS[kind.form]}"
     return sentence(" ".join(said.split()))
 
 
+_OTHER_WAYS = {
+    "change": "there are other ways as small",
+    "difference": "there are other differences as small",
+}
 _WITHOUT_REASONS = {
     "reasons": "no_reasons",
     **{form: f"{form}_bare" for form in ("false_premise", "denied_not", "against", "difference")},

@@ -17,6 +17,7 @@ from seewhy.dialogue.reply import UNCERTAIN, UNKNOWN, Classification, Reply
 from seewhy.dialogue.shared_by_pictures import shared_by_pictures
 from seewhy.dialogue.telling import Look, Told, tell
 from seewhy.dialogue.tree_says import tree_says
+from seewhy.dialogue.usual import say_usual
 from seewhy.dialogue.weighing import Weighing
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
@@ -115,7 +116,8 @@ class Answering:
             label=spoken_of.label,
             probably=certainty_of(ground).adverb,
         )
-        text = " ".join([text, *(sentence(node.text) for node in learned)])
+        usual = say_usual(kind, justification)
+        text = " ".join(filter(None, [text, usual, *(sentence(node.text) for node in learned)]))
         if supposed is not None:
             text = word_supposed(
                 self.domain, question, text, label=scene.label or "", supposed=supposed.label or ""
@@ -163,7 +165,7 @@ class Answering:
         justification = scene.read_in(told.justification)
         return Reply(
             question,
-            told.text,
+            " ".join(filter(None, [told.text, say_usual(told.kind, justification)])),
             scene.method,
             justification,
             told.kind,

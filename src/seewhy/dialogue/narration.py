@@ -150,4 +150,4 @@ def _why_undecided(node: Node) -> str:
 
 def _says_more(axiom: Axiom) -> bool:
     """Whether an axiom says more than that its head is so, as facts without a sentence do not."""
-    return bool(axiom.body) or axiom.text != str(axiom).rstrip(".")
+    return bool(axiom.body) or axiom.has_sentence

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from seewhy.dialogue.answer import AnswerType, Changes
+from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.belief import ToldClass, believed_values, with_basis
 from seewhy.dialogue.question import Asks, Question
+from seewhy.dialogue.ways import Ways
 from seewhy.domain.domain import Domain
 from seewhy.domain.wording import join_words, say_literal
 from seewhy.knowledge.axiom import Literal
@@ -79,8 +80,7 @@ class ReasonedAnswers:
         self.why_class = lru_cache(maxsize=_NODES_REMEMBERED)(self._why_class)
         self.why_not_class = lru_cache(maxsize=_NODES_REMEMBERED)(self._why_not_class)
         self.undecided = lru_cache(maxsize=_SCENES_REMEMBERED)(self._undecided)
-        finder = ChangeFinder(reasoner, occurrence)
-        self.smallest = lru_cache(maxsize=_NODES_REMEMBERED)(finder.smallest)
+        self.ways = Ways(domain, ChangeFinder(reasoner, occurrence), self.why_class)
 
     def kind(self, question: Question, vector: FeatureVector, label: str) -> AnswerType:
         """Return the answer type alone, as :meth:`answer` does, without all of its justification.
@@ -106,9 +106,9 @@ class ReasonedAnswers:
                     return AnswerType("denied_not", self._ordered(features))
                 return AnswerType("against", self._against(vector, asked))
             case Asks.CHANGE_TO_CLASS:
-                return AnswerType("already") if same else self._change(vector, asked)
+                return AnswerType("already") if same else self.ways.change(vector, asked)
             case Asks.DIFFERENCE_TO_CLASS:
-                return AnswerType("same") if same else self._difference(vector, asked)
+                return AnswerType("same") if same else self.ways.difference(vector, asked)
             case Asks.FEATURE_VALUE | Asks.FEATURE_IS:
                 return self.feature(question, vector).kind
             case Asks.BELIEF_VALUE:
@@ -320,33 +320,12 @@ class ReasonedAnswers:
             refused if against is None else replace(refused, children=(against, *refused.children))
         )
 
-    def _alternatives(self, vector: FeatureVector, asked: str) -> tuple[Changes, ...]:
-        return tuple(
-            tuple((change.feature, change.after) for change in alternative.changes)
-            for alternative in self.smallest(vector, asked)
-            if alternative.changes
-        )
-
-    def _change(self, vector: FeatureVector, asked: str) -> AnswerType:
-        found = self._alternatives(vector, asked)
-        return AnswerType("change", changes=found) if found else AnswerType("no_change")
-
-    def _difference(self, vector: FeatureVector, asked: str) -> AnswerType:
-        """What the axioms ask of a change, without what only other scenes make go with it."""
-        alternatives = []
-        for alternative in self.smallest(vector, asked):
-            needed = self.why_class(alternative.vector, asked).features()
-            changes = [(change.feature, change.after) for change in alternative.changes]
-            asked_for = tuple(change for change in changes if change[0] in needed)
-            alternatives.append(asked_for or tuple(changes))
-        return difference(self.domain, tuple(dict.fromkeys(filter(None, alternatives))))
-
     def _changed(self, vector: FeatureVector, asked: str, kind: AnswerType) -> Node:
         """Why a scene is not of a class, and why it would be with the change."""
         refused = self.why_not_class(vector, asked)
         if not kind.changes:
             return refused
-        after = self.smallest(vector, asked)[0].vector
+        after = self.ways.smallest(vector, asked)[0].vector
         node = replace(
             self.why_class(after, asked),
             text=f"with this change, {self._say(self.domain.classes[asked].literal)}",
@@ -368,14 +347,6 @@ def _missed(refused: Node) -> set[str]:
     if nearest is None:
         return set(refused.features())
     return set().union(*(_missed(node) for node in nearest.children if not node.holds))
-
-
-def difference(domain: Domain, alternatives: tuple[Changes, ...]) -> AnswerType:
-    """Return the answer that a scene differs from a class by one of these changes."""
-    if not alternatives:
-        return AnswerType("no_difference")
-    changed = {feature for change in alternatives for feature, _ in change}
-    return AnswerType("difference", tuple(f for f in domain.features if f in changed), alternatives)
 
 
 def _belief(values: tuple[str, ...]) -> AnswerType:

@@ -16,7 +16,8 @@ import numpy as np
 
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.question import Asks, Question
-from seewhy.dialogue.reasoned import ReasonedAnswers, difference
+from seewhy.dialogue.reasoned import ReasonedAnswers
+from seewhy.dialogue.ways import difference
 from seewhy.domain.domain import Domain
 from seewhy.knowledge.scene import FeatureVector
 

@@ -220,6 +220,11 @@ class Axiom:
         return f"{head}{' if ' if body else ''}{body[:-2]}."
 
     @property
+    def has_sentence(self) -> bool:
+        """Whether its author says it in words, or its text is the statement itself."""
+        return self.text.rstrip(".") != str(self).rstrip(".")
+
+    @property
     def variables(self) -> tuple[str, ...]:
         """The variables of head and body, those of local conditions left out, in order.
 

@@ -20,7 +20,6 @@ from seewhy.planning.dialogue.action_words import (
 )
 from seewhy.planning.dialogue.clause_forms import gerund
 from seewhy.planning.dialogue.goal_words import say_goal
-from seewhy.planning.dialogue.instances import has_sentence
 from seewhy.planning.dialogue.query import Asks, Query, Told
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.dialogue.speech import Speech, sentences
@@ -76,7 +75,7 @@ def why_did(view: RunView, query: Query) -> Told:
 def _say_removed(removed: Removed, speech: Speech) -> str:
     """What was in a later action's way: the axiom, and the things as they lay."""
     axiom = removed.obstacle.axiom
-    rule = f'"{axiom.text}"' if has_sentence(axiom) else ""
+    rule = f'"{axiom.text}"' if axiom.has_sentence else ""
     lay = speech.every_past(removed.changed or removed.obstacle.holds)
     return (
         f"it also removed what stood in the way of {gerund(speech.do(removed.action))}: "

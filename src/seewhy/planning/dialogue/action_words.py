@@ -13,7 +13,7 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.dialogue.action_reason import Failing
-from seewhy.planning.dialogue.instances import Applied, has_sentence
+from seewhy.planning.dialogue.instances import Applied
 from seewhy.planning.dialogue.query import Query
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.dialogue.speech import Speech
@@ -39,7 +39,7 @@ def count_actions(actions: int) -> str:
 
 def say_obstacle(obstacles: Sequence[Applied], speech: Speech) -> str:
     """The first obstacle as a clause, those with a sentence before the others."""
-    ranked = sorted(obstacles, key=lambda applied: not has_sentence(applied.axiom))
+    ranked = sorted(obstacles, key=lambda applied: not applied.axiom.has_sentence)
     if not ranked:
         return ""
     first = ranked[0]
@@ -47,7 +47,7 @@ def say_obstacle(obstacles: Sequence[Applied], speech: Speech) -> str:
     literals += [complement_of(absent) for absent in first.absent]
     literals += [*first.statics, *map(complement_of, first.absent_statics)]
     said = speech.every_past(literals)
-    text = f'"{first.axiom.text}"' if has_sentence(first.axiom) else ""
+    text = f'"{first.axiom.text}"' if first.axiom.has_sentence else ""
     return ", and ".join(filter(None, [text, said]))
 
 

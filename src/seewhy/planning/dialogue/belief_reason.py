@@ -17,7 +17,7 @@ from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis.diagnosis import Diagnosis, SurpriseKind, diagnose
-from seewhy.planning.dialogue.instances import Instances, has_sentence, unified
+from seewhy.planning.dialogue.instances import Instances, unified
 from seewhy.planning.dialogue.speech import Speech
 from seewhy.planning.domain import PlanningDomain
 
@@ -318,7 +318,7 @@ def tell(reason: Reason, speech: Speech, *, now: int | None = None) -> list[str]
 def _tell(reason: Reason, speech: Speech, told: list[str], now: int | None) -> None:
     said = speech.said(reason.literal)
     children = reason.children
-    axiom = f'"{reason.axiom.text}"' if reason.axiom and has_sentence(reason.axiom) else ""
+    axiom = f'"{reason.axiom.text}"' if reason.axiom and reason.axiom.has_sentence else ""
     if reason.basis is Basis.OBSERVED:
         told.append(f"I saw at step {reason.step} that {said}")
     elif reason.basis is Basis.USUAL:

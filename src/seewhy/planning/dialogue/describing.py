@@ -8,7 +8,6 @@ import clingo
 
 from seewhy.domain.wording import join_words
 from seewhy.planning.dialogue.belief_reason import Beliefs
-from seewhy.planning.dialogue.instances import has_sentence
 from seewhy.planning.dialogue.speech import plural
 from seewhy.planning.dialogue.whereabouts import Place, places
 
@@ -53,7 +52,7 @@ def say_counted(beliefs: Beliefs, literal: clingo.Symbol, step: int) -> str | No
             for term in literal.arguments:
                 where = f" {fluent.preposition} {speech.name(term)}"
                 clauses = re.sub(rf"{re.escape(where)}(?=$| and |, )", " there", clauses)
-        rule = f'"{axiom.text}"' if has_sentence(axiom) else ""
+        rule = f'"{axiom.text}"' if axiom.has_sentence else ""
         if literal.positive:
             return f"{speech.say(literal)} because {clauses}"
         but = f"only {clauses}" if clauses else "I know of nothing that would make it otherwise"

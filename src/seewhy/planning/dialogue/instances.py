@@ -98,7 +98,7 @@ class Instances:
             atom.symbol.arguments[0] for atom in found.by_signature("applies", 1) if atom.is_fact
         )
         instances = [self._applied(narrowed, binding, facts) for binding in bindings]
-        if has_sentence(axiom):
+        if axiom.has_sentence:
             return instances
         return [replace(one, axiom=replace(one.axiom, text=str(one.axiom))) for one in instances]
 
@@ -155,11 +155,6 @@ class Instances:
         if rules:
             found = BoundedControl("\n".join([facts, *rules]), size=axioms_size([axiom], signature))
             yield from sorted(atom.symbol.arguments[0] for atom in found.by_signature("counted", 1))
-
-
-def has_sentence(axiom: Axiom) -> bool:
-    """Whether the author put a sentence above the axiom."""
-    return axiom.text.rstrip(".") != str(axiom).rstrip(".")
 
 
 def unified(axiom: Axiom, literal: Literal | None, symbol: clingo.Symbol) -> Axiom | None:
