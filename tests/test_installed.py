@@ -156,3 +156,13 @@ def test_the_knowledge_of_a_bundled_domain_is_checked_all_the_same(
     done = installed.run("seewhy", "check", "structure_stability", within=tmp_path)
     assert done.code == 0, done.err
     assert "note: the pictures of this domain are made by the laboratory" in done.out
+
+
+@pytest.mark.parametrize("command", ["experiment", "belgiumts"])
+def test_a_command_of_the_laboratory_says_where_that_is(
+    installed: Installed, tmp_path: Path, command: str
+) -> None:
+    done = installed.run("seewhy", command, "vqa", "--out", "results", within=tmp_path)
+    assert (done.code, done.out) == (2, "")
+    assert done.err.startswith(f"seewhy: 'seewhy {command}' is a command of the laboratory")
+    assert command not in installed.run("seewhy", "--help", within=tmp_path).out

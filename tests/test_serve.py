@@ -153,9 +153,17 @@ def test_a_name_with_folders_is_only_a_name(client: TestClient) -> None:
 
 
 def test_parts_that_are_missing(client: TestClient) -> None:
-    assert client.post("/ask", files=shown(tile())).status_code == 422
-    assert client.post("/ask", data={"question": "why?"}).status_code == 422
-    assert client.get("/ask").status_code == 405
+    no_question = client.post("/ask", files=shown(tile()))
+    assert (no_question.status_code, no_question.json()) == (
+        422,
+        {"error": "question: field required"},
+    )
+    assert client.post("/ask", data={"question": "why?"}).json() == {
+        "error": "image: field required"
+    }
+    wrong = client.get("/ask")
+    assert (wrong.status_code, wrong.json()) == (405, {"error": "Method Not Allowed"})
+    assert client.get("/nowhere").json() == {"error": "Not Found"}
 
 
 def test_more_than_a_request_may_hold(client: TestClient) -> None:

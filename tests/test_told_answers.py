@@ -255,6 +255,42 @@ def talk(structures_agent: Agent, *questions: str) -> list[tuple[str | None, ...
     return found
 
 
+@pytest.mark.parametrize(
+    ("questions", "answer"),
+    [
+        (
+            ("what if no block were displaced?", "why?"),
+            "You asked: what if no block is displaced? Suppose that no block is displaced. I see "
+            "that the structure has a wide base, and it is standing straight (each with a "
+            'probability of at least 0.90). Then the structure is stable, because "a structure on '
+            'a wide base does not fall when it stands straight and every block is balanced".',
+        ),
+        (
+            ("what if no block were displaced?", "how sure are you?"),
+            "My answer supposes that no block is displaced; beside that, I am sure: the least sure "
+            "is the width of the base, with a probability of 0.90.",
+        ),
+        (
+            ("what if a block were displaced?", "how sure are you?"),
+            "My answer supposes that a block is displaced; beside that, I am sure: nothing that it "
+            "rests on is uncertain.",
+        ),
+    ],
+)
+def test_what_was_supposed_is_not_told_as_seen(
+    structures_agent: Agent, questions: tuple[str, ...], answer: str
+) -> None:
+    scene = seen(structures_agent, "4", "wide", "no", "yes")
+    reply: Reply | None = None
+    for text in questions:
+        asked = structures_agent.questions.understand(
+            text, previous=reply.question if reply else None
+        )
+        reply = structures_agent.answer(scene, asked, previous=reply)
+    assert reply is not None
+    assert reply.text == answer
+
+
 def test_what_was_just_spoken_of_may_be_left_out(structures_agent: Agent) -> None:
     assert talk(structures_agent, "is it stable?", "and why?") == [
         ("is_class", "stable", None, None),

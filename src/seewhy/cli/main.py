@@ -66,6 +66,16 @@ def options(
     """Answers questions about pictures and says why."""
 
 
+def laboratory_lacks(context: typer.Context) -> None:
+    """Say that a command is the laboratory's, where that is not installed."""
+    from seewhy.errors import SeeWhyError
+
+    raise SeeWhyError(
+        f"'{context.command_path}' is a command of the laboratory ({LABORATORY}), which is not "
+        "installed; it comes with the source code of SeeWhy: 'pip install . ./lab' in a checkout"
+    )
+
+
 app.add_typer(data.app, name="data", help="Make datasets and look at them.")
 app.command("train")(train.train)
 app.command("evaluate")(evaluate.evaluate)
@@ -85,6 +95,10 @@ app.command("simulate")(simulate.simulate)
 app.command("demo")(demo.demo)
 if find_spec(LABORATORY) is not None:
     import_module(f"{LABORATORY}.cli").add_commands(app)
+else:
+    _anything = {"allow_extra_args": True, "ignore_unknown_options": True}
+    for _name in ("experiment", "belgiumts"):
+        app.command(_name, hidden=True, context_settings=_anything)(laboratory_lacks)
 
 
 def main() -> None:

@@ -14,6 +14,7 @@ from seewhy.dialogue.certainty import (
     weakest,
 )
 from seewhy.dialogue.reply import Reply
+from seewhy.dialogue.supposition import say_values, supposed_values
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.domain.wording import join_words, say_features, sentence
@@ -25,8 +26,11 @@ from seewhy.text.slots import filled
 def narrate(domain: Domain, reply: Reply) -> str:
     """Return the steps behind a reply: what was seen, what it implies, by which axiom or path."""
     justification = reply.justification
-    features = justification.features()
+    supposition = supposed_values(reply.kind)
+    features = [key for key in justification.features() if key not in supposition]
     parts = [f"you asked: {reply.question.text}?"] if reply.question.text else []
+    if supposition:
+        parts.append(f"suppose that {say_values(domain, supposition)}")
     if reply.supposed is not None:
         taken, supposed = (
             domain.classes[classification.label or ""].say
@@ -45,7 +49,10 @@ def narrate(domain: Domain, reply: Reply) -> str:
         begun = f"{adverb} {seen}" if adverb else f"I see that {seen}"
         told = f"I was told that {seen}"
         parts.append(told if reply.scene.told else f"{begun} ({each} {min(sure):.2f})")
-    parts += _steps(justification, _Said(justification, _class_ground(reply)))
+    steps = _steps(justification, _Said(justification, _class_ground(reply)))
+    if supposition and steps:
+        steps[0] = f"then {steps[0]}"
+    parts += steps
     if reply.kind.form == "no_belief":
         parts.append(justification.text)
     if reply.kind.form in ("undecided", "several", "contradictory"):

@@ -10,11 +10,12 @@ from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.certainty import SURE_FROM, Ground, least_sure
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reply import Classification, Reply
+from seewhy.dialogue.supposition import say_values, supposed_values
 from seewhy.dialogue.telling import Told
 from seewhy.dialogue.tree_says import tree_says
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
-from seewhy.domain.wording import join_clauses, join_words, say_features, sentence
+from seewhy.domain.wording import join_words, say_features, sentence
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.axiom import Axiom
@@ -77,8 +78,7 @@ class Weighing:
         vector = domain.vector({**values, **changes})
         label, node = self._decided(vector)
         ordered = [key for key in domain.features if key in changes]
-        clauses = [domain.features[key].say[changes[key]] for key in ordered]
-        condition = join_clauses(clauses, subject=domain.subject)
+        condition = say_values(domain, changes)
         kind = AnswerType("what_if", tuple(ordered), (tuple(changes.items()),))
         begun = f"{condition} as it is" if already else f"if {condition}"
         if label is None:
@@ -87,7 +87,7 @@ class Weighing:
         # "It is still stable": said where the class was known before and stays.
         still = "still " if label == scene.label and not already else ""
         reasons = [key for key in node.features() if key not in changes]
-        named = any("{it}" in clause for clause in clauses)
+        named = any("{it}" in domain.features[key].say[changes[key]] for key in ordered)
         because = say_features(domain, vector, reasons, subject="it")
         link = " and" if already else ""
         it = "it" if named else domain.subject
@@ -192,6 +192,12 @@ class Weighing:
             return Told(AnswerType("how_sure"), sentence(said), why)
         if previous is not None and label is None:
             ground, node = previous.least_sure, previous.justification
+            supposition = supposed_values(previous.kind)
+            if supposition:
+                begun = f"my answer supposes that {say_values(domain, supposition)}"
+                beside = f"beside that, {self._say_sure(scene, ground)}"
+                told = AnswerType("how_sure")
+                return Told(told, sentence(f"{begun}; {beside}"), node, ground)
         else:
             ground, node = least_sure(AnswerType("class"), scene, why), why
         return Told(AnswerType("how_sure"), sentence(self._say_sure(scene, ground)), node, ground)

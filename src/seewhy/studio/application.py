@@ -13,8 +13,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import FastAPI, File, Form, Request, Response, UploadFile
+from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
 
 from seewhy.errors import SeeWhyError
 from seewhy.perception.picture import picture_of_bytes
@@ -127,6 +129,16 @@ def application(agent: Agent, *, rules: AccessRules, limits: Limits | None = Non
     async def say_problem(_: Request, problem: SeeWhyError) -> Response:
         status = 503 if isinstance(problem, BusyError) else 422
         return JSONResponse({"error": str(problem)}, status)
+
+    @app.exception_handler(RequestValidationError)
+    async def say_parts(_: Request, problem: RequestValidationError) -> Response:
+        said = [f"{found['loc'][-1]}: {found['msg'].lower()}" for found in problem.errors()]
+        return JSONResponse({"error": "; ".join(said)}, 422)
+
+    @app.exception_handler(HTTPException)
+    async def say_status(_: Request, problem: HTTPException) -> Response:
+        headers = problem.headers
+        return JSONResponse({"error": str(problem.detail)}, problem.status_code, headers)
 
     @app.middleware("http")
     async def bounded(
