@@ -297,7 +297,7 @@ def test_a_wrong_answer_template_is_found_before_training(
         Agent(load_domain(folder))
     there_are = (
         "there are {it}, {reasons}, {changes}, {asked}, {class}, {explanation}, {scene}, "
-        "{required}, {belief}, {name}, {value}, {probably}"
+        "{required}, {belief}, {name}, {value}, {probably}, {open}"
     )
     message = message.replace("{SLOTS}", there_are)
     assert str(problem.value) == f"{folder}/questions.toml:{message}"

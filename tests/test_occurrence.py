@@ -129,7 +129,9 @@ def test_an_agent_asks_the_scenes_that_it_knows(structures: Domain) -> None:
     little = replace(structures, knowledge=replace(structures.knowledge, axioms=axioms))
     agent = Agent(little)
     displaced = ("1", "wide", "no", "yes")
-    assert [change.vector for change in agent.reasoned.ways.smallest(lone, "unstable")] == [displaced]
+    assert [change.vector for change in agent.reasoned.ways.smallest(lone, "unstable")] == [
+        displaced
+    ]
     others: list[FeatureVector] = [
         (number, "wide", "no", shift) for number in "2345" for shift in ("no", "yes")
     ]

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
+from seewhy.domain.belief import Belief, read_beliefs
+from seewhy.domain.place import Place
 from seewhy.domain.tables import (
     CLASS,
     EMBEDDED,
@@ -15,7 +17,6 @@ from seewhy.domain.tables import (
     RESERVED,
     SCENE,
     TOGETHER,
-    BeliefTable,
     ClassTable,
     DomainFile,
     FeatureTable,
@@ -25,12 +26,11 @@ from seewhy.domain.tables import (
     ReadingRule,
 )
 from seewhy.errors import DomainError, KnowledgeError
-from seewhy.files.toml_file import line_of, read_toml
+from seewhy.files.toml_file import read_toml
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.consistency import check_consistency
 from seewhy.knowledge.language import Knowledge, read_knowledge_file, read_literal
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
-from seewhy.knowledge.signature import PredicateKind
 from seewhy.text.nearest import did_you_mean
 
 FILES = ("domain.toml", "knowledge.al", "questions.toml")
@@ -68,21 +68,6 @@ class SceneClass:
 
 
 @dataclass(frozen=True)
-class Belief:
-    """A static ``key(scene, sort)`` that is no feature: its value is believed, not seen.
-
-    ``say`` has the slots {it} and {value}; ``words`` says each value, ``literals`` stands for it.
-    """
-
-    key: str
-    name: str
-    say: str
-    words: Mapping[str, str]
-    literals: Mapping[str, Literal]
-    acts: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
 class Domain:
     """Everything that a domain folder says.
 
@@ -96,7 +81,7 @@ class Domain:
         In the order of the file, which is the order of every feature vector.
     classes : mapping of str to SceneClass
     beliefs : mapping of str to Belief
-        Every static of the scene and one sort that is no feature.
+        Every static of the scene, by itself or with one sort, that is no feature.
     knowledge : Knowledge
     questions : QuestionsFile
     pictures : PictureTable
@@ -235,7 +220,7 @@ def load_domain(name: str | Path) -> Domain:
     table = read_toml(path, DomainFile)
     knowledge = read_knowledge_file(folder / "knowledge.al").without_change
     questions = read_toml(folder / "questions.toml", QuestionsFile)
-    place = _Place(path)
+    place = Place(path)
     _check_source(table, place)
     _check_scene(table, knowledge, place)
     features = {
@@ -248,6 +233,7 @@ def load_domain(name: str | Path) -> Domain:
     }
     _check_classes(classes, place)
     _check_shared_words(classes, features, place)
+    of_classes = {scene_class.literal.predicate for scene_class in classes.values()}
     domain = Domain(
         name=table.domain.name,
         title=table.domain.title,
@@ -255,7 +241,7 @@ def load_domain(name: str | Path) -> Domain:
         scene=table.domain.scene,
         features=MappingProxyType(features),
         classes=MappingProxyType(classes),
-        beliefs=MappingProxyType(_beliefs(table, knowledge, place)),
+        beliefs=MappingProxyType(read_beliefs(table, of_classes, knowledge, place)),
         knowledge=knowledge,
         questions=questions,
         pictures=table.pictures,
@@ -270,17 +256,7 @@ def load_domain(name: str | Path) -> Domain:
     return domain
 
 
-class _Place:
-    """Finds the line of a key in domain.toml when an error needs it."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-
-    def at(self, *keys: str) -> str:
-        return f"{self.path}:{line_of(self.path.read_text(encoding='utf-8-sig'), keys)}"
-
-
-def _check_source(table: DomainFile, place: _Place) -> None:
+def _check_source(table: DomainFile, place: Place) -> None:
     """Refuse a source that lies outside of the domain's folder, but for modules of SeeWhy's own."""
     source = table.domain.source
     if source is None or re.fullmatch(r"seewhy(_lab)?(\.[a-z][a-z0-9_]*)+", source):
@@ -294,7 +270,7 @@ def _check_source(table: DomainFile, place: _Place) -> None:
 
 
 def _check_shared_words(
-    classes: Mapping[str, SceneClass], features: Mapping[str, Feature], place: _Place
+    classes: Mapping[str, SceneClass], features: Mapping[str, Feature], place: Place
 ) -> None:
     """Refuse a word that stands for two classes, or for two values of one feature."""
     spoken: dict[str, str] = {}
@@ -316,7 +292,7 @@ def _check_shared_words(
                     )
 
 
-def _check_scene(table: DomainFile, knowledge: Knowledge, place: _Place) -> None:
+def _check_scene(table: DomainFile, knowledge: Knowledge, place: Place) -> None:
     sorts = knowledge.signature.sorts
     scene = table.domain.scene
     here = place.at("domain", "scene")
@@ -338,7 +314,7 @@ def _check_scene(table: DomainFile, knowledge: Knowledge, place: _Place) -> None
 
 
 def _feature(
-    key: str, table: FeatureTable, file: DomainFile, knowledge: Knowledge, place: _Place
+    key: str, table: FeatureTable, file: DomainFile, knowledge: Knowledge, place: Place
 ) -> Feature:
     predicate = knowledge.signature.predicates.get(key)
 
@@ -419,66 +395,7 @@ def _feature(
     )
 
 
-def _beliefs(file: DomainFile, knowledge: Knowledge, place: _Place) -> dict[str, Belief]:
-    """Every static of the scene and one sort that is no feature, with its words."""
-    scene = file.domain.scene
-    predicates = {
-        name: predicate
-        for name, predicate in knowledge.signature.predicates.items()
-        if predicate.kind is PredicateKind.STATIC
-        and len(predicate.sorts) == 2
-        and predicate.sorts[0] == scene
-        and name not in file.features
-    }
-    for key in file.beliefs:
-        if key in predicates:
-            continue
-        here = place.at("beliefs", key)
-        if key in file.features:
-            raise DomainError(
-                f"{here}: '{key}' is a feature, which is seen and not believed; say its values "
-                f"under [features.{key}.values] and remove [beliefs.{key}]"
-            )
-        declared = knowledge.signature.predicates.get(key)
-        if declared is None:
-            raise DomainError(
-                f"{here}: the belief '{key}' is not declared in knowledge.al; "
-                f"{did_you_mean(key, predicates)}"
-            )
-        raise DomainError(
-            f"{here}: the belief '{key}' must be declared as '#static {key}({scene}, SORT).', "
-            f"got '{declared}' ({declared.location})"
-        )
-    beliefs: dict[str, Belief] = {}
-    for key, predicate in predicates.items():
-        table = file.beliefs.get(key, BeliefTable())
-        members = knowledge.signature.members(predicate.sorts[1])
-        for value in table.values:
-            if value not in members:
-                raise DomainError(
-                    f"{place.at('beliefs', key, 'values', value)}: '{value}' is no value of "
-                    f"'{key}' in knowledge.al; {did_you_mean(value, members)}"
-                )
-        name = table.name or key.replace("_", " ")
-        beliefs[key] = Belief(
-            key=key,
-            name=name,
-            say=table.say or f"the {name} of {{it}} is {{value}}",
-            words=MappingProxyType(
-                {
-                    value: table.values.get(value, value.strip('"').replace("_", " "))
-                    for value in members
-                }
-            ),
-            literals=MappingProxyType(
-                {value: Literal(predicate=key, arguments=(scene, value)) for value in members}
-            ),
-            acts=table.acts,
-        )
-    return beliefs
-
-
-def _check_classes(classes: Mapping[str, SceneClass], place: _Place) -> None:
+def _check_classes(classes: Mapping[str, SceneClass], place: Place) -> None:
     keys: dict[Literal, str] = {}
     for key, scene_class in classes.items():
         first = keys.setdefault(scene_class.literal, key)
@@ -491,7 +408,7 @@ def _check_classes(classes: Mapping[str, SceneClass], place: _Place) -> None:
 
 
 def _class(
-    key: str, table: ClassTable, file: DomainFile, knowledge: Knowledge, place: _Place
+    key: str, table: ClassTable, file: DomainFile, knowledge: Knowledge, place: Place
 ) -> SceneClass:
     def here() -> str:
         # Finding a line reads the file anew: only where there is something to say about it.
