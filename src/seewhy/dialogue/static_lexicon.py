@@ -10,6 +10,7 @@ from seewhy.dialogue.inflection import lemma
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.belief import Belief
 from seewhy.domain.domain import Domain
+from seewhy.knowledge.axiom import Literal
 
 __all__ = ["Add", "add_statics", "static_clauses"]
 
@@ -49,15 +50,21 @@ def static_clauses(domain: Domain, belief: Belief) -> Iterator[tuple[str, str]]:
             said = belief.say.replace("{value}", words).removeprefix("{it} ")
             yield _undenied(belief, value, said)
     for axiom in domain.knowledge.axioms:
-        head = axiom.head
-        if head.predicate != belief.key or not axiom.has_sentence:
+        if axiom.head.predicate != belief.key or not axiom.has_sentence:
             continue
-        value = next((one for one, literal in belief.literals.items() if (
-            literal.positive == head.positive and literal.arguments[1:] == head.arguments[1:]
-        )), None)  # fmt: skip
         said = _said_of(domain, axiom.text)
-        if value is not None and said and len(said.split()) <= _LONGEST:
-            yield _undenied(belief, value, said)
+        if said and len(said.split()) <= _LONGEST:
+            for value in _concluded(belief, axiom.head):
+                yield _undenied(belief, value, said)
+
+
+def _concluded(belief: Belief, head: Literal) -> list[str]:
+    """The value of a static that an axiom's head stands for; none where it has a variable."""
+    return [
+        value
+        for value, literal in belief.literals.items()
+        if literal.positive == head.positive and literal.arguments[1:] == head.arguments[1:]
+    ]
 
 
 def _said_of(domain: Domain, text: str) -> str:
