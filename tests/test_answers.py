@@ -297,7 +297,7 @@ def test_a_wrong_answer_template_is_found_before_training(
         Agent(load_domain(folder))
     there_are = (
         "there are {it}, {reasons}, {changes}, {asked}, {class}, {explanation}, {scene}, "
-        "{required}, {belief}, {name}, {value}, {probably}"
+        "{required}, {belief}, {name}, {value}, {probably}, {open}"
     )
     message = message.replace("{SLOTS}", there_are)
     assert str(problem.value) == f"{folder}/questions.toml:{message}"
@@ -355,8 +355,8 @@ def test_reference_answers_where_the_knowledge_is_wrong(reasoning: Agent) -> Non
             "it is not so that the structure has three blocks",
         ),
         (Literal("lean", ("structure",), positive=False), "the structure is standing straight"),
-        (Literal("top_heavy", ("structure", "very")), "top heavy (the structure, very)"),
-        (Literal("windy", (), positive=False), "not: windy"),
+        (Literal("top_heavy", ("structure", "very")), "the top heavy of the structure is very"),
+        (Literal("windy", (), positive=False), "it is not windy"),
     ],
 )
 def test_a_literal_in_words(structures: Domain, literal: Literal, said: str) -> None:

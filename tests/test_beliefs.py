@@ -161,7 +161,7 @@ def test_a_fact_without_a_sentence_is_no_step_of_an_explanation(tmp_path: Path) 
     axioms += "response(S, be_careful) if kind(S, K), grave(K).\n"
     agent = Agent(load_domain(write_signs(tmp_path / "signs", axioms=axioms)))
     reply = ask(agent, FOUR["stop_sign"], "which response is it?")
-    assert "grave (stop sign)" in reply.justification.to_text()
+    assert "stop sign is grave" in reply.justification.to_text()
     explain = agent.questions.understand("explain")
     told = agent.answer(seen(agent, *FOUR["stop_sign"]), explain, previous=reply).text
     assert '"grave signs call for care"' in told
@@ -281,7 +281,8 @@ def test_an_answer_type_keeps_its_values() -> None:
         ),
         (
             '[beliefs.lit]\nname = "lit"\n',
-            "the belief 'lit' must be declared as '#static lit(sign, SORT).', got 'lit(sign)' (",
+            "the belief 'lit' must be declared as '#static lit(sign, SORT).' or, where it is no "
+            "class, '#static lit(sign).', got 'lit(kinds)' (",
         ),
         (
             BELIEFS.replace("uneven_road =", "unevn_road ="),
@@ -301,7 +302,7 @@ def test_an_answer_type_keeps_its_values() -> None:
 def test_a_wrong_table_of_beliefs_is_named_with_its_line(
     tmp_path: Path, beliefs: str, error: str
 ) -> None:
-    folder = write_signs(tmp_path / "signs", beliefs=beliefs, axioms="#static lit(sign).\n")
+    folder = write_signs(tmp_path / "signs", beliefs=beliefs, axioms="#static lit(kinds).\n")
     with pytest.raises(DomainError) as problem:
         load_domain(folder)
     place, _, said = str(problem.value).partition(": ")

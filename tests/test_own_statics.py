@@ -9,6 +9,7 @@ import pytest
 from seewhy.agent.agent import Agent
 from seewhy.dialogue.answer import AnswerType
 from seewhy.domain.domain import load_domain
+from seewhy.errors import QuestionError
 
 DOMAIN = """
 [domain]
@@ -68,11 +69,13 @@ def orchard(tmp_path: Path) -> Agent:
     return _agent(tmp_path / "orchard", KNOWLEDGE)
 
 
-def _agent(folder: Path, knowledge: str, *, domain: str = DOMAIN) -> Agent:
+def _agent(
+    folder: Path, knowledge: str, *, domain: str = DOMAIN, questions: str = QUESTIONS
+) -> Agent:
     folder.mkdir()
     (folder / "domain.toml").write_text(domain, encoding="utf-8")
     (folder / "knowledge.al").write_text(knowledge, encoding="utf-8")
-    (folder / "questions.toml").write_text(QUESTIONS, encoding="utf-8")
+    (folder / "questions.toml").write_text(questions, encoding="utf-8")
     return Agent(load_domain(folder))
 
 
@@ -171,3 +174,112 @@ def test_further_ways_do_not_change_which_answer_it_is() -> None:
     kind = AnswerType("change", changes=change, has_more=True)
     assert kind == AnswerType("change", changes=change)
     assert kind.identifier == "change()[colour=red]"
+
+
+# Statics of one's own ---------------------------------------------------------------------------
+
+GOOD = {"colour": "brown", "mouldy": "no"}
+BAD = {"colour": "red", "mouldy": "yes"}
+
+
+@pytest.mark.parametrize(
+    ("values", "question", "answer"),
+    [
+        (GOOD, "is it edible?", "Yes, the apple is edible."),
+        (GOOD, "can it be eaten?", "Yes, the apple is edible."),
+        (GOOD, "is the apple edible or not?", "Yes, the apple is edible."),
+        (
+            GOOD,
+            "why is it edible?",
+            'The apple is edible, since it is without mould: "a good apple can be eaten". '
+            f"{DEFAULT_SAID}",
+        ),
+        (BAD, "is it edible?", "No, the apple is not edible."),
+        (BAD, "is it not edible?", "Yes, the apple is not edible."),
+        (
+            BAD,
+            "why is it not edible?",
+            'The apple is not edible, since it is mouldy: "a bad apple cannot be eaten".',
+        ),
+        (
+            BAD,
+            "why can it be eaten?",
+            'But the apple is not edible, since it is mouldy: "a bad apple cannot be eaten".',
+        ),
+        (GOOD, "what does it need?", "The apple needs knife."),
+        (GOOD, "which tool does it need?", "The apple needs knife."),
+        (GOOD, "does it need a knife?", "Yes, the apple needs knife."),
+        (
+            GOOD,
+            "why does it need a knife?",
+            'The apple needs knife, since it is brown: "a brown apple needs a knife".',
+        ),
+        (
+            GOOD,
+            "does it need a brush?",
+            "Nothing that is known says that the apple needs brush; the apple needs knife.",
+        ),
+        (BAD, "what does it need?", "Nothing that is known says what the apple needs."),
+        (
+            BAD,
+            "why does it need a knife?",
+            'Nothing that is known says that the apple needs knife: "a brown apple needs a knife" '
+            "does not apply, since the apple is red.",
+        ),
+    ],
+)
+def test_statics_are_asked_without_templates(
+    orchard: Agent, values: dict[str, str], question: str, answer: str
+) -> None:
+    assert _ask(orchard, question, **values) == answer
+
+
+def test_statics_are_asked_and_said_in_the_words_of_the_folder(tmp_path: Path) -> None:
+    words = """
+[beliefs.edible]
+values.yes = "is fit to eat"
+values.no = "is not fit to eat"
+
+[beliefs.needs]
+values.knife = "a sharp knife"
+"""
+    agent = _agent(tmp_path / "orchard", KNOWLEDGE, domain=DOMAIN + words)
+    assert _ask(agent, "is it fit to eat?", **GOOD) == "Yes, the apple is fit to eat."
+    assert _ask(agent, "is it fit to eat?", **BAD) == "No, the apple is not fit to eat."
+    assert (
+        _ask(agent, "does it need a sharp knife?", **GOOD) == "Yes, the apple needs a sharp knife."
+    )
+
+
+def test_what_is_seen_is_preferred_to_a_static_of_the_same_word(tmp_path: Path) -> None:
+    known = KNOWLEDGE.replace(
+        "#static edible(apple).", "#static edible(apple). #static red(apple)."
+    )
+    agent = _agent(tmp_path / "orchard", known)
+    assert agent.questions.understand("is it red?").feature == "colour"
+
+
+def test_a_static_cannot_be_supposed(orchard: Agent) -> None:
+    with pytest.raises(QuestionError, match="'what if it were edible\\?' is not understood"):
+        orchard.questions.understand("what if it were edible?")
+
+
+@pytest.mark.parametrize(
+    ("declared", "value", "said"),
+    [
+        ("has(apple, flaw)", "bruise", "The apple has bruise."),
+        ("shows(apple, flaw)", "bruise", "The apple shows bruise."),
+        ("flaw_kind(apple, flaw)", "bruise", "The flaw kind of the apple is bruise."),
+        ("spoilt_by(apple, flaw)", "bruise", "The apple is spoilt by bruise."),
+    ],
+)
+def test_a_static_is_said_as_its_name_lets_it(
+    tmp_path: Path, declared: str, value: str, said: str
+) -> None:
+    name = declared.split("(")[0]
+    known = f"{KNOWLEDGE}#sort flaw = {{bruise, crack}}. #static {declared}."
+    known += f" {name}(A, {value}) if colour(A, brown)."
+    asked = f'{QUESTIONS}[[question]]\nasks = "belief_value"\npredicate = "{name}"\n'
+    asked += 'patterns = ["what of the flaw"]\n'
+    agent = _agent(tmp_path / "orchard", known, questions=asked)
+    assert _ask(agent, "what of the flaw?", **GOOD) == said

@@ -218,3 +218,106 @@ def test_without_words_the_names_make_clauses(tmp_path: Path, question: str) -> 
     domain = written(tmp_path, knowledge=NAMES_KNOWLEDGE, words=NAMES_WORDS)
     run = run_to(domain, "lit(lamp1)")
     assert answer(domain, run, question).text == NAMED[question]
+
+
+SHELVES_KNOWLEDGE = """
+#sort robot = {rob1}.
+#sort room = {hall, cellar}.
+#sort shelf = {rack}.
+#sort chest = {trunk}.
+#sort thing = {cup, watering_can}.
+#sort fill = {full, dry}.
+#fluent basic at(robot, room).
+#fluent basic stands(thing, room).
+#fluent basic lies(thing, shelf).
+#fluent basic kept(thing, chest).
+#fluent basic topping(thing, chest).
+#fluent basic empty(thing).
+#fluent basic can(robot, fill).
+#action move(robot, room).
+#action pour(robot, thing).
+move(R, P) causes at(R, P).
+pour(R, T) causes empty(T).
+pour(R, watering_can) causes can(R, dry).
+-can(R, full) if can(R, dry).
+-at(R, P2) if at(R, P1), P1 != P2.
+impossible move(R, P) if at(R, P).
+default -stands(T, P).
+default -lies(T, S).
+default -kept(T, C).
+default -topping(T, C).
+default -empty(T).
+"""
+SHELVES_WORDS = """
+[planning]
+name = "shelves"
+title = "Shelves"
+robot = "rob1"
+
+[things]
+hall = "the hall"
+cellar = "the cellar"
+rack = "the rack"
+trunk = "the trunk"
+watering_can = "the watering can"
+
+[fluents.at]
+say = "{0} is in {1}"
+deny = "{0} is not in {1}"
+
+[fluents.stands]
+say = "{0} is in {1}"
+deny = "{0} is not in {1}"
+
+[fluents.lies]
+say = "{0} is on {1}"
+deny = "{0} is not on {1}"
+
+[fluents.kept]
+say = "{0} is inside {1}"
+deny = "{0} is not inside {1}"
+
+[fluents.topping]
+say = "{0} is on {1}"
+deny = "{0} is not on {1}"
+
+[fluents.empty]
+say = "{0} is empty"
+deny = "{0} is not empty"
+
+[fluents.can]
+say = "the can of {0} is {1}"
+deny = "the can of {0} is not {1}"
+
+[actions.move]
+do = "move to {1}"
+did = "moved to {1}"
+
+[actions.pour]
+do = "empty {1}"
+did = "emptied {1}"
+"""
+SHELVES_HISTORY = """
+observed at(rob1, hall) at 0.
+observed can(rob1, full) at 0.
+"""
+SHELVES = {
+    "what is on the rack?": "I know of nothing on the rack; I have not looked there.",
+    "what is in the cellar?": "I know of nothing in the cellar; I have not looked there.",
+    "what is inside the trunk?": (
+        "I know of nothing inside or on the trunk; I have not looked there."
+    ),
+    "was the can of you full at step 0?": (
+        "Yes, the can of me was full. I saw at step 0 that the can of me was full."
+    ),
+    "was the watering can empty at step 0?": "No, the watering can was not empty. That is usual.",
+}
+
+
+@pytest.mark.parametrize("question", SHELVES)
+def test_places_and_nouns_are_said_as_what_they_are(tmp_path: Path, question: str) -> None:
+    domain = written(
+        tmp_path, knowledge=SHELVES_KNOWLEDGE, words=SHELVES_WORDS, history=SHELVES_HISTORY
+    )
+    run = run_to(domain, "empty(watering_can)")
+    assert answer(domain, run, question).text == SHELVES[question]

@@ -15,7 +15,7 @@ from urllib.parse import unquote
 
 from seewhy.dialogue.question import Question
 from seewhy.domain.domain import Domain
-from seewhy.domain.wording import join_words, say_features, sentence
+from seewhy.domain.wording import join_words, say_features, say_open, sentence
 from seewhy.errors import DomainError
 from seewhy.files.toml_file import line_of
 from seewhy.knowledge.scene import FeatureVector
@@ -27,7 +27,7 @@ Changes = tuple[tuple[str, str], ...]
 """What would have to change: (feature, new value) pairs."""
 SLOTS = (
     "it", "reasons", "changes", "asked", "class", "explanation", "scene", "required", "belief",
-    "name", "value", "probably",
+    "name", "value", "probably", "open",
 )  # fmt: skip
 """What the wording of an answer may speak of; see answers.toml."""
 _MOST_CLASSES_NAMED = 4
@@ -258,10 +258,11 @@ def _say_belief(domain: Domain, question: Question, kind: AnswerType) -> dict[st
     belief = domain.beliefs.get(question.predicate or "")
     if belief is None:
         name = domain.features[question.feature].name if question.feature else ""
-        return {"belief": "", "name": name, "value": ""}
+        return {"belief": "", "name": name, "value": "", "open": ""}
     value = join_words([belief.words.get(value, value) for value in kind.values])
     said = filled(belief.say, {"it": domain.subject, "value": value})
-    return {"belief": said, "name": belief.name, "value": value}
+    open_clause = say_open(domain, belief)
+    return {"belief": said, "name": belief.name, "value": value, "open": open_clause}
 
 
 def _say_changes(domain: Domain, alternatives: tuple[Changes, ...]) -> str:

@@ -15,7 +15,8 @@ from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience
 from seewhy.dialogue.reply import UNCERTAIN, UNKNOWN, Classification, Reply
 from seewhy.dialogue.shared_by_pictures import shared_by_pictures
-from seewhy.dialogue.telling import Look, Told, tell
+from seewhy.dialogue.telling import Look, tell
+from seewhy.dialogue.told import Told
 from seewhy.dialogue.tree_says import tree_says
 from seewhy.dialogue.usual import say_usual
 from seewhy.dialogue.weighing import Weighing

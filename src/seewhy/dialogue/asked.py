@@ -35,6 +35,9 @@ class Asks(StrEnum):
     DESCRIBE = "describe"
     HOW_MANY = "how_many"
     WHICH = "which"
+    BELIEF_IS = "belief_is"
+    WHY_BELIEF = "why_belief"
+    WHY_NOT_BELIEF = "why_not_belief"
 
 
 Query = tuple[str | None, ...]

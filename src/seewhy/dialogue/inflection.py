@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
+from itertools import pairwise
 
 import snowballstemmer
 
-__all__ = ["ARTICLES", "lemma"]
+__all__ = ["ARTICLES", "forbidden", "lemma", "lemmas"]
 
 ARTICLES = frozenset({"a", "an", "the", "any", "some"})
 """Words that change nothing of what is asked about a picture."""
@@ -52,3 +54,30 @@ def lemma(word: str) -> str:
     # "Narrower" compares, which "narrow" does not.
     compares = word.endswith(("er", "est")) and not stem.endswith(("er", "est"))
     return _IRREGULAR.get(word) or (word if compares else stem)
+
+
+def lemmas(words: Sequence[str]) -> list[str]:
+    """Return the lemmas of words; what "no" forbids stays a gerund, as in "no stopping".
+
+    Examples
+    --------
+    >>> lemmas(["no", "stopping", "sign"]), lemmas(["no", "stop", "sign"])
+    (['no', 'stopping', 'sign'], ['no', 'stop', 'sign'])
+    """
+    kept = forbidden(words)
+    return [word if word in kept else lemma(word) for word in words]
+
+
+def forbidden(words: Sequence[str]) -> frozenset[str]:
+    """Return the gerunds behind "no": "no stopping" forbids, "no stop sign" denies.
+
+    Examples
+    --------
+    >>> sorted(forbidden("is this a no overtaking sign".split()))
+    ['overtaking']
+    """
+    return frozenset(
+        word
+        for before, word in pairwise(words)
+        if before == "no" and word.endswith("ing") and lemma(word) != word
+    )

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from seewhy.dialogue.grammar import Binding, Match
 from seewhy.dialogue.inflection import ARTICLES, lemma
 from seewhy.dialogue.question_words import words_of
+from seewhy.dialogue.static_lexicon import add_statics
 from seewhy.domain.domain import Domain
 from seewhy.domain.feature import Feature
 
@@ -20,7 +21,8 @@ CATEGORIES = (
     "noun", "class", "class_bare", "class_noun", "class_modifier", "does_class", "adjective",
     "possession", "existing", "verb", "word", "feature", "quality", "counted", "counts", "piece",
     "part", "every", "state", "every_state", "change", "person", "group", "belief", "belief_act",
-    "asked_quality", "shared_noun", "kind_noun",
+    "asked_quality", "shared_noun", "kind_noun", "able", "obliged", "static_verb",
+    "static_relation", "static_sort",
 )  # fmt: skip
 """The phrases of the grammar that a domain's own words fill."""
 
@@ -109,6 +111,7 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
     _add_groups(domain, found, normalise)
     _add_features_alike(domain, found)
     _add_beliefs(domain, found, normalise)
+    add_statics(domain, normalise, lambda name, words, meaning: found[name].add(words, meaning))
     return found
 
 

@@ -22,6 +22,7 @@ __all__ = [
     "grouped",
     "joined",
     "neither",
+    "of_static",
     "persons",
     "plain",
     "polar",
@@ -249,6 +250,27 @@ def told(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
     yield from (_question(Asks.BELIEF_VALUE, predicate=key) for key in keys[:1])
 
 
+def of_static(domain: Domain, question: Question) -> Question | None:
+    """Return a question about a static in its own form; None where it cannot be asked of one."""
+    about = {question.feature, *(statement.feature for statement in question.statements)}
+    if about.isdisjoint(domain.beliefs):
+        return question
+    asks, value = _OF_A_STATIC.get(question.asks), question.value
+    if asks is None:
+        return None
+    if asks is Asks.BELIEF_VALUE and domain.beliefs[question.feature or ""].is_yes_or_no:
+        asks, value = Asks.BELIEF_IS, "yes"  # "is it edible or not?"
+    return _question(asks, predicate=question.feature, value=value)
+
+
+_OF_A_STATIC = {
+    Asks.FEATURE_IS: Asks.BELIEF_IS,
+    Asks.FEATURE_VALUE: Asks.BELIEF_VALUE,
+    Asks.WHY_VALUE: Asks.WHY_BELIEF,
+    Asks.WHY_NOT_VALUE: Asks.WHY_NOT_BELIEF,
+}
+
+
 def plain(asks: Asks) -> Iterator[Question]:
     """What names nothing of the domain."""
     yield _question(asks)
@@ -264,7 +286,12 @@ def _turned(domain: Domain, said: Said) -> Statement:
     if statement.label is not None:
         others = [key for key in domain.classes if key != statement.label]
         return Statement(label=others[0]) if len(others) == 1 else statement
-    values = domain.features[statement.feature or ""].values
+    belief = domain.beliefs.get(statement.feature or "")
+    if belief is not None:
+        # Of what may have several values, that one is not so says nothing of another.
+        values = tuple(belief.literals) if belief.is_yes_or_no else ()
+    else:
+        values = domain.features[statement.feature or ""].values
     others = [value for value in values if value != statement.value]
     return replace(statement, value=others[0]) if len(others) == 1 else statement
 

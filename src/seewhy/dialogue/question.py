@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from seewhy.dialogue.asked import Asks, Query, Question
 from seewhy.dialogue.asking_back import Suggestions
 from seewhy.dialogue.following_up import completed
 from seewhy.dialogue.grammar_file import around_phrases, aside_phrases, grammar_words
-from seewhy.dialogue.inflection import ARTICLES
+from seewhy.dialogue.inflection import ARTICLES, forbidden
 from seewhy.dialogue.lexicon import NUMBERS
 from seewhy.dialogue.question_words import CONTRACTIONS, words_of
 from seewhy.dialogue.readings import Readings
 from seewhy.dialogue.saying_questions import say_question
 from seewhy.dialogue.spelling import Spelling
+from seewhy.dialogue.static_lexicon import static_clauses
 from seewhy.dialogue.templates import as_what, embedded, expanded
 from seewhy.dialogue.vocabulary import SUBJECTS, Vocabulary
 from seewhy.domain.domain import Domain
@@ -115,7 +116,7 @@ class Questions:
 
     def _read(self, text: str, previous: Question | None) -> list[Question]:
         """What a text without typing errors may ask."""
-        by_template = self._known.get(self._vocabulary.for_templates(text))
+        by_template = self._template(self._known, text, self._vocabulary.for_templates(text))
         if by_template is not None and not (previous and by_template.asks is Asks.EXPLAIN):
             return [by_template]
         words = self._vocabulary.for_grammar(text)
@@ -129,13 +130,21 @@ class Questions:
         read = self._readings.read(words) or self._readings.read(self._vocabulary.bare(words))
         return [self._worded(question) for question in read]
 
+    def _template(
+        self, templates: Mapping[tuple[str, ...], Question], text: str, words: tuple[str, ...]
+    ) -> Question | None:
+        """The template of some words, where it forbids what the text forbids."""
+        found = templates.get(words)
+        same = found is not None and forbidden(words_of(text)) == forbidden(words_of(found.text))
+        return found if same else None
+
     def _embedded_in(self, text: str) -> Question | None:
         """The template behind "tell me" and the like, or one with "what" for "which"."""
         tokens = text.split()
         for start in range(min(len(tokens), _LONGEST_OPENING)):
             rest = self._vocabulary.for_templates(" ".join(tokens[start:]))
-            found = self._known.get(rest) if start else None
-            found = found or self._embedded.get(as_what(rest))
+            found = self._template(self._known, text, rest) if start else None
+            found = found or self._template(self._embedded, text, as_what(rest))
             opening = self._vocabulary.for_grammar(" ".join(tokens[:start]))
             if found is not None and self._readings.is_opening(opening):
                 return found
@@ -168,7 +177,8 @@ class Questions:
             for phrase in phrases:
                 spelled.update(words_of(phrase))
         for belief in domain.beliefs.values():
-            for phrase in (belief.name, *belief.words.values(), *belief.acts):
+            clauses = (clause for _, clause in static_clauses(domain, belief))
+            for phrase in (belief.name, *belief.words.values(), *belief.acts, *clauses):
                 spelled.update(words_of(phrase))
         return spelled
 

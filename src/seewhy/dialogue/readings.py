@@ -55,8 +55,9 @@ class Readings:
             found: dict[tuple[str | None, ...], Question] = {}
             for phrase, mean in rank:
                 for bindings in chart.whole(_phrase(phrase)):
-                    for question in mean(self.domain, bindings):
-                        if self._can_be_stated(question):
+                    for read in mean(self.domain, bindings):
+                        question = meaning.of_static(self.domain, read)
+                        if question is not None and self._can_be_stated(question):
                             found.setdefault(question.query, question)
             if found:
                 return self._best(list(found.values()))
@@ -75,7 +76,7 @@ class Readings:
         return not words or bool(Chart(self._grammar, words).whole(_phrase("intro")))
 
     def _best(self, found: list[Question]) -> list[Question]:
-        """Of several readings those that explain most: a class before a value."""
+        """Of several readings those that explain most: a class, a value, what follows."""
         classes = [
             question
             for question in found
@@ -83,6 +84,7 @@ class Readings:
         ]
         if classes:
             return classes
+        found = [question for question in found if question.predicate is None] or found
         plain = [self._plainly_named_in(question) for question in found]
         return [
             question for question, count in zip(found, plain, strict=True) if count == max(plain)
@@ -145,11 +147,8 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
         ("anybody", lambda domain, _: meaning.anybody(domain, nobody=False)),
         ("nobody", lambda domain, _: meaning.anybody(domain, nobody=True)),
         ("whether_or_not", meaning.whether_or_not),
-        (
-            "how_many_of_them",
-            lambda domain, bindings: meaning.grouped(domain, bindings, Asks.HOW_MANY),
-        ),
-        ("which_of_them", lambda domain, bindings: meaning.grouped(domain, bindings, Asks.WHICH)),
+        ("how_many_of_them", _grouped(Asks.HOW_MANY)),
+        ("which_of_them", _grouped(Asks.WHICH)),
         ("how_many_there", meaning.value),
     ),
     (

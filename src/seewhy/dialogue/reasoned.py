@@ -10,7 +10,7 @@ from seewhy.dialogue.belief import ToldClass, believed_values, with_basis
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.ways import Ways
 from seewhy.domain.domain import Domain
-from seewhy.domain.wording import join_words, say_literal
+from seewhy.domain.wording import join_words, say_literal, say_open
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.condition_nodes import once
@@ -113,7 +113,7 @@ class ReasonedAnswers:
                 return self.feature(question, vector).kind
             case Asks.BELIEF_VALUE:
                 predicate = question.predicate or ""
-                return _belief(believed_values(self.domain, self._about(vector, label), predicate))
+                return _belief(believed_values(self.domain, self.about(vector, label), predicate))
         raise ValueError(f"'{question.asks}' is not a question about the scene")
 
     def answer(self, question: Question, vector: FeatureVector, label: str) -> ReasonedAnswer:
@@ -158,7 +158,7 @@ class ReasonedAnswers:
         the class is told to it (:class:`~seewhy.dialogue.belief.ToldClass`).
         """
         belief = self.domain.beliefs[question.predicate or ""]
-        evidence = self._about(vector, label)
+        evidence = self.about(vector, label)
         values = believed_values(self.domain, evidence, belief.key)
         basis = replace(basis, literal=str(literal_of(key_of(self.domain.classes[label].literal))))
         nodes = tuple(
@@ -171,7 +171,7 @@ class ReasonedAnswers:
         said = join_words([belief.words[value] for value in values])
         text = belief.say.replace("{it}", self.domain.subject).replace("{value}", said)
         if not values:
-            text = f"nothing that is known says what the {belief.name} of {self.domain.subject} is"
+            text = f"nothing that is known says {say_open(self.domain, belief)}"
         node = Node(
             literal=f"{belief.key}({self.domain.scene}, _)",
             text=text,
@@ -284,7 +284,7 @@ class ReasonedAnswers:
     def _evidence(self, vector: FeatureVector) -> Evidence:
         return evidence_of(self.reasoner, vector, say=self._say)
 
-    def _about(self, vector: FeatureVector, label: str) -> Evidence:
+    def about(self, vector: FeatureVector, label: str) -> Evidence:
         """What is believed of a scene, its class included whoever gave it."""
         if self.reasoner.decide(vector).label == label:
             return self.evidence(vector)

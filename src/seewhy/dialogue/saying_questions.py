@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.domain.domain import Domain
-from seewhy.domain.wording import join_words
+from seewhy.domain.wording import join_words, say_literal
 
 __all__ = ["PLAIN_WORDINGS", "say_question"]
 
@@ -59,6 +59,12 @@ def say_question(domain: Domain, question: Question) -> str:
             return f"what is the {domain.features[question.feature or ''].name}"
         case Asks.BELIEF_VALUE:
             return f"what is the {domain.beliefs[question.predicate or ''].name}"
+        case Asks.BELIEF_IS:
+            return f"is it true that {_static(domain, question)}"
+        case Asks.WHY_BELIEF:
+            return f"why do you say that {_static(domain, question)}"
+        case Asks.WHY_NOT_BELIEF:
+            return f"why do you not say that {_static(domain, question)}"
         case Asks.HOW_SURE if question.label or question.feature:
             if question.feature:
                 return f"how sure are you about the {domain.features[question.feature].name}"
@@ -77,6 +83,11 @@ def say_question(domain: Domain, question: Question) -> str:
             names = join_words([domain.features[key].name for key in question.group], word="or")
             return f"who is there, {names}"
     return PLAIN_WORDINGS[question.asks]
+
+
+def _static(domain: Domain, question: Question) -> str:
+    belief = domain.beliefs[question.predicate or ""]
+    return say_literal(domain, belief.literals[question.value or ""])
 
 
 def _clause(domain: Domain, statement: Statement) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from seewhy.dialogue.answer import AnswerType
@@ -11,6 +10,8 @@ from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.certainty import Ground
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reply import Classification
+from seewhy.dialogue.static_answers import tell_static
+from seewhy.dialogue.told import Told
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.domain.wording import join_clauses, join_words, say_features, sentence
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from seewhy.perception.familiarity import NearPicture
     from seewhy.perception.where import Where
 
-__all__ = ["Look", "Told", "tell"]
+__all__ = ["Look", "tell"]
 
 
 class Look(Protocol):
@@ -32,19 +33,6 @@ class Look(Protocol):
 
     def nearest(self) -> Sequence[NearPicture]:
         """The pictures of training that are most like it, the most alike first."""
-
-
-@dataclass(frozen=True)
-class Told:
-    """An answer that no template words, with what it rests on.
-
-    ``least_sure`` is the least sure of that, where it is uncertain.
-    """
-
-    kind: AnswerType
-    text: str
-    justification: Node
-    least_sure: Ground | None = None
 
 
 def tell(
@@ -78,6 +66,8 @@ def tell(
     match question.asks:
         case Asks.WHY_VALUE | Asks.WHY_NOT_VALUE:
             return _seen_by(domain, reasoned, scene, question, look)
+        case Asks.BELIEF_IS | Asks.WHY_BELIEF | Asks.WHY_NOT_BELIEF:
+            return tell_static(domain, reasoned, scene, question, why)
         case Asks.WHERE:
             return _where(domain, reasoned, scene, question, look)
         case Asks.SIMILAR:

@@ -16,6 +16,7 @@ _TELLS_REASONS = {
     "against",
     "contrast",
     "what_if",
+    "static_reasons",
 }
 """Forms that say why something is so, or is not."""
 

@@ -8,7 +8,7 @@ from functools import lru_cache
 import snowballstemmer
 
 from seewhy.dialogue.grammar_file import around_phrases, aside_phrases
-from seewhy.dialogue.inflection import ARTICLES, lemma
+from seewhy.dialogue.inflection import ARTICLES, lemmas
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
@@ -87,7 +87,7 @@ class Vocabulary:
         words = [
             part for word in words_of(text) for part in _of_owner(word) if part not in ARTICLES
         ]
-        words = _replaced(list(map(lemma, words)), self._synonyms)
+        words = _replaced(lemmas(words), self._synonyms)
         return self._unfilled(tuple(_replaced(words, self._aside)))
 
     def bare(self, words: tuple[str, ...]) -> tuple[str, ...]:
@@ -127,7 +127,7 @@ def _stems(words: Sequence[str]) -> tuple[str, ...]:
 
 
 def _lemmas(words: Sequence[str]) -> tuple[str, ...]:
-    return tuple(lemma(word) for word in words if word not in ARTICLES)
+    return tuple(lemmas([word for word in words if word not in ARTICLES]))
 
 
 def _by_first(pairs: Sequence[_Pair]) -> dict[str, list[_Pair]]:

@@ -11,7 +11,7 @@ from seewhy.dialogue.certainty import SURE_FROM, Ground, least_sure
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reply import Classification, Reply
 from seewhy.dialogue.supposition import say_values, supposed_values
-from seewhy.dialogue.telling import Told
+from seewhy.dialogue.told import Told
 from seewhy.dialogue.tree_says import tree_says
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS

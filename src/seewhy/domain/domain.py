@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
-from seewhy.domain.belief import Belief, beliefs_of_file
+from seewhy.domain.belief import Belief, read_beliefs
 from seewhy.domain.feature import Feature, feature_of_table
 from seewhy.domain.folder import FILES, domain_folder
 from seewhy.domain.key_place import KeyPlace
@@ -156,6 +156,7 @@ def load_domain(name: str | Path) -> Domain:
     }
     check_literals(classes, place)
     _check_shared_words(classes, features, place)
+    of_classes = {scene_class.literal.predicate for scene_class in classes.values()}
     domain = Domain(
         name=table.domain.name,
         title=table.domain.title,
@@ -163,7 +164,7 @@ def load_domain(name: str | Path) -> Domain:
         scene=table.domain.scene,
         features=MappingProxyType(features),
         classes=MappingProxyType(classes),
-        beliefs=MappingProxyType(beliefs_of_file(table, knowledge, place)),
+        beliefs=MappingProxyType(read_beliefs(table, of_classes, knowledge, place)),
         knowledge=knowledge,
         questions=questions,
         pictures=table.pictures,

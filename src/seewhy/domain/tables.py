@@ -311,11 +311,13 @@ class BeliefTable(StrictTable):
     say: BeliefClause | None = Field(
         default=None,
         description="The clause that says a value, with {value} and perhaps {it}; where left out, "
-        "`the NAME of {it} is {value}`.",
+        "`the NAME of {it} is {value}`, or what the static's name makes of it, as `{it} needs "
+        "{value}` of `needs(apple, tool)`.",
     )
     values: dict[str, Word] = Field(
         default={},
-        description="How each value is said; where left out, as it stands in knowledge.al.",
+        description="How each value is said; where left out, as in knowledge.al. A static "
+        "of the picture alone has the values yes and no, as `can be eaten` and `cannot be eaten`.",
     )
     acts: tuple[Word, ...] = Field(
         default=(),

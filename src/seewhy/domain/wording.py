@@ -5,12 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from seewhy.domain.belief import Belief
 from seewhy.domain.domain import Domain
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.text.predicate_words import named_clause
 from seewhy.text.slots import filled
 
 _MOST_VALUES_LISTED = 3
+_FROM_SO_MANY_LISTED = 3
+"""Things of a predicate that no clause is made of."""
+_VERB_AND_VALUE = re.compile(r"\{it\} ([\w ]+) \{value\}")
 _PART_OF_IT = re.compile(r"^the ([^{}]+) of \{it\} ")
 
 
@@ -39,16 +44,43 @@ def say_literal(domain: Domain, literal: Literal) -> str:
                 return f"it is not so that {feature.say[value].replace('{it}', domain.subject)}"
     belief = domain.beliefs.get(literal.predicate)
     if belief is not None and literal.arguments[0] == domain.scene:
-        value = belief.words.get(literal.arguments[1], literal.arguments[1])
-        said = filled(belief.say, {"it": domain.subject, "value": value})
-        return said if literal.positive else f"it is not so that {said}"
-    words = literal.predicate.replace("_", " ")
+        return _say_belief(domain, belief, literal)
     about = [
-        domain.subject if argument == domain.scene else argument.replace("_", " ")
+        domain.subject if argument == domain.scene else argument.strip('"').replace("_", " ")
         for argument in literal.arguments
     ]
-    said = f"{words} ({', '.join(about)})" if about else words
+    if len(about) < _FROM_SO_MANY_LISTED:
+        return named_clause(literal.predicate, len(about))[not literal.positive].format(*about)
+    said = f"{literal.predicate.replace('_', ' ')} ({', '.join(about)})"
     return said if literal.positive else f"not: {said}"
+
+
+def say_open(domain: Domain, belief: Belief) -> str:
+    """Return a static without its value, as what is asked for.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> domain = load_domain("traffic_signs")
+    >>> say_open(domain, domain.beliefs["response"])
+    'what the response of the sign is'
+    """
+    found = _VERB_AND_VALUE.fullmatch(belief.say)
+    if found is None:
+        return f"what the {belief.name} of {domain.subject} is"
+    return f"what {domain.subject} {found.group(1)}"
+
+
+def _say_belief(domain: Domain, belief: Belief, literal: Literal) -> str:
+    value = next((value for value, other in belief.literals.items() if other == literal), None)
+    if value is not None:
+        return filled(belief.say, {"it": domain.subject, "value": belief.words[value]})
+    opposite = next(
+        (value for value, other in belief.literals.items() if other == literal.complement), None
+    )
+    said = belief.words[opposite] if opposite else str(literal.arguments[-1])
+    said = filled(belief.say, {"it": domain.subject, "value": said})
+    return said if literal.positive else f"it is not so that {said}"
 
 
 def say_features(

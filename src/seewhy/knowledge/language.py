@@ -1,38 +1,39 @@
 """Read the knowledge language: declarations and axioms, checked against the signature.
 
-The language is that of the paper (AL_d and answer set prolog) over clingo terms. ``if`` is
-replaced by ``:-``, and ``causes`` by ``;`` and blanks, which are as long, so that the positions
-that clingo's parser reports are those of the user's file.
+The language is that of the paper (AL_d and answer set prolog) over clingo terms.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
-import clingo
 from clingo import ast
 
 from seewhy.errors import KnowledgeError
+from seewhy.knowledge.argument_sorts import check_atom
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal
 from seewhy.knowledge.axiom_kinds import check_kinds
 from seewhy.knowledge.declarations import Declarations
 from seewhy.knowledge.number_range import check_numbers
+from seewhy.knowledge.rule_nodes import (
+    atoms,
+    body_atoms,
+    function_of,
+    head_of,
+    literal_of,
+    nodes,
+    single,
+    spaced,
+)
+from seewhy.knowledge.rule_syntax import parse_rule
+from seewhy.knowledge.safety import check_safety
 from seewhy.knowledge.signature import Signature, Sort
 from seewhy.knowledge.statements import NumberError, Statement, one_line, statements
-from seewhy.text.nearest import did_you_mean
 
-_WORD = re.compile(r"\"(?:[^\"\\]|\\.)*\"|[A-Za-z0-9_']+")
-_CLINGO_ERROR = re.compile(r":(\d+):(\d+)(?:-[\d:]+)?: error: (.+)", re.DOTALL)
-_FIRST_WORDS = {
-    "default": AxiomKind.DEFAULT,
-    "impossible": AxiomKind.EXECUTABILITY_CONDITION,
-}
 _HERE = re.compile(r"^:\d+:\d+: ")
-_UNSAFE = re.compile(r":(\d+):(\d+)(?:-[\d:]+)?: note: '(\S+)' is unsafe")
 
 
 @dataclass(frozen=True)
@@ -163,7 +164,7 @@ def _read_axioms(
     read: list[Axiom] = []
     for number, statement in enumerate(rules, start=1):
         try:
-            kind, rule = _parse_rule(statement)
+            kind, rule = parse_rule(statement)
             read.append(_read_axiom(statement, kind, rule, signature, f"{letter}{number}"))
         except RecursionError:
             raise KnowledgeError(
@@ -172,7 +173,7 @@ def _read_axioms(
             ) from None
         parsed.append((statement, kind, rule))
     axioms = tuple(read)
-    _check_safety(
+    check_safety(
         [
             (
                 statement,
@@ -214,78 +215,12 @@ def read_literal(text: str) -> Literal:
     except (RuntimeError, ValueError):
         found = []
     rules = [node for node in found if node.ast_type is ast.ASTType.Rule]
-    literal = _head_of(rules[0]) if len(rules) == 1 and not rules[0].body else None
+    literal = head_of(rules[0]) if len(rules) == 1 and not rules[0].body else None
     if literal is None:
         raise KnowledgeError(
             f"'{one_line(text)}' is not a literal; write one such as stable(S) or -stable(S)"
         )
     return literal
-
-
-def _parse_rule(statement: Statement) -> tuple[AxiomKind, ast.AST]:
-    """Turn a statement into clingo's syntax tree without moving any character."""
-    text, location = statement.text, statement.location
-    kind = AxiomKind.STATE_CONSTRAINT
-    if ":-" in re.sub(r'"(?:[^"\\]|\\.)*"', "", text):
-        raise KnowledgeError(f"{location}: found ':-'; write 'if' between head and body")
-    words = [m for m in _WORD.finditer(text) if not m.group().startswith('"')]
-    if words and words[0].group() in _FIRST_WORDS:
-        kind = _FIRST_WORDS[words[0].group()]
-        text = " " * words[0].end() + text[words[0].end() :]
-        if text.lstrip().startswith("#"):
-            raise KnowledgeError(
-                f"{location}: found '{statement.line}', expected a literal after "
-                f"'{words[0].group()}'"
-            )
-    causes = [word for word in words if word.group() == "causes"]
-    if len(causes) > 1 or (causes and kind is not AxiomKind.STATE_CONSTRAINT):
-        other = "causes" if len(causes) > 1 else words[0].group()
-        raise KnowledgeError(
-            f"{location}: found '{other}' and 'causes' in one statement; a causal law reads "
-            "'action causes fluent if condition, condition.'"
-        )
-    if causes:
-        kind = AxiomKind.CAUSAL_LAW
-        text = f"{text[: causes[0].start()]};     {text[causes[0].end() :]}"
-    ifs = [word for word in words if word.group() == "if"]
-    if len(ifs) > 1:
-        raise KnowledgeError(
-            f"{location}: found 'if' {len(ifs)} times in one statement; "
-            "end the statement before the second with a full stop"
-        )
-    if ifs:
-        text = f"{text[: ifs[0].start()]}:-{text[ifs[0].end() :]}"
-    padded = "\n" * (location.line - 1) + " " * (location.column - 1) + text + "."
-    messages: list[str] = []
-    found: list[ast.AST] = []
-    try:
-        ast.parse_string(padded, found.append, logger=lambda _, m: messages.append(m))
-    except RuntimeError:
-        raise KnowledgeError(_syntax_message(messages, statement)) from None
-    rules = [node for node in found if node.ast_type is ast.ASTType.Rule]
-    if len(rules) != 1 or len(found) != 2:
-        raise KnowledgeError(
-            f"{location}: found '{statement.line}', expected an axiom: head, 'if', conditions"
-        )
-    return kind, rules[0]
-
-
-def _syntax_message(messages: list[str], statement: Statement) -> str:
-    match = next(filter(None, map(_CLINGO_ERROR.search, messages)), None)
-    if match is None:
-        return (
-            f"{statement.location}: the statement that begins here cannot be read; "
-            "check its spelling"
-        )
-    what = one_line(match.group(3))
-    place = statement.place(int(match.group(1)), int(match.group(2)))
-    what = (
-        what.replace(":-", "if")
-        .replace("<IDENTIFIER>", "a name")
-        .replace("<VARIABLE>", "a variable")
-        .replace("EOF", "the end")
-    )
-    return f"{place}: {what}; an axiom reads 'head if condition, condition.'"
 
 
 def _read_axiom(
@@ -298,9 +233,9 @@ def _read_axiom(
             "it is declared, an axiom cannot add to them"
         )
     variable_sorts: dict[str, Sort] = {}
-    for atom in _atoms(rule):
-        _check_atom(atom, signature, statement, variable_sorts)
-    for variable in sorted({node.name for node in _nodes(rule, ast.ASTType.Variable)}):
+    for atom in atoms(rule):
+        check_atom(atom, signature, statement, variable_sorts)
+    for variable in sorted({node.name for node in nodes(rule, ast.ASTType.Variable)}):
         if variable.endswith("__"):
             raise KnowledgeError(
                 f"{statement.location}: '{variable}' is no variable: names that end in '__' are "
@@ -317,7 +252,7 @@ def _read_axiom(
         location=statement.location,
         action=action,
     )
-    check_kinds(axiom, [_function_of(atom).name for atom in _body_atoms(rule)], signature)
+    check_kinds(axiom, [function_of(atom).name for atom in body_atoms(rule)], signature)
     return axiom if axiom.text else Axiom(**{**axiom.__dict__, "text": str(axiom).rstrip(".")})
 
 
@@ -331,14 +266,14 @@ def _action_and_head(
             if rule.head.ast_type is ast.ASTType.Disjunction
             else []
         )
-        action, effect = (_single(part) for part in parts) if len(parts) == 2 else (None, None)
+        action, effect = (single(part) for part in parts) if len(parts) == 2 else (None, None)
         if action is None or effect is None or not action.positive:
             raise KnowledgeError(
                 f"{statement.location}: a causal law reads 'action causes fluent if condition, "
                 f"condition.', with one action and one literal, got '{statement.line}'"
             )
         return action, effect
-    head = _head_of(rule)
+    head = head_of(rule)
     if head is None:
         got = "none" if str(rule.head) == "#false" else f"'{rule.head}'"
         raise KnowledgeError(
@@ -373,189 +308,11 @@ def _read_condition(element: ast.AST, statement: Statement) -> Condition:
         )
     if element.ast_type is not ast.ASTType.Literal:
         return Condition(text=str(element))
-    text = _spaced(element)
+    text = spaced(element)
     if element.sign == ast.Sign.DoubleNegation:
         return Condition(text=text)
     return Condition(
         text=text,
-        literal=_literal_of(element),
-        absent=element.sign == ast.Sign.Negation and _literal_of(element) is not None,
+        literal=literal_of(element),
+        absent=element.sign == ast.Sign.Negation and literal_of(element) is not None,
     )
-
-
-def _spaced(element: ast.AST) -> str:
-    """The text of a body element in the language's own spelling."""
-    literal = _literal_of(element)
-    if literal is None:
-        return str(element)
-    signs = {ast.Sign.Negation: "not ", ast.Sign.DoubleNegation: "not not "}
-    return f"{signs.get(element.sign, '')}{literal}"
-
-
-def _head_of(rule: ast.AST) -> Literal | None:
-    """The head where it is one literal: neither ``not …`` nor the several of a range or pool."""
-    return _single(rule.head)
-
-
-def _single(node: ast.AST) -> Literal | None:
-    head = _literal_of(node)
-    if head is None or node.sign != ast.Sign.NoSign:
-        return None
-    return None if _nodes(node, ast.ASTType.Interval, ast.ASTType.Pool) else head
-
-
-def _literal_of(node: ast.AST) -> Literal | None:
-    if node.ast_type is not ast.ASTType.Literal or node.atom.ast_type is not (
-        ast.ASTType.SymbolicAtom
-    ):
-        return None
-    symbol, positive = node.atom.symbol, True
-    while symbol.ast_type is ast.ASTType.UnaryOperation:
-        symbol, positive = symbol.argument, not positive
-    if symbol.ast_type is not ast.ASTType.Function:
-        return None
-    return Literal(
-        predicate=symbol.name,
-        arguments=tuple(str(argument) for argument in symbol.arguments),
-        positive=positive,
-    )
-
-
-def _atoms(node: ast.AST) -> list[ast.AST]:
-    return _nodes(node, ast.ASTType.SymbolicAtom)
-
-
-def _nodes(node: ast.AST, *kinds: ast.ASTType) -> list[ast.AST]:
-    """The nodes of some kinds, those inside of such left out, in the order of the text."""
-    found: list[ast.AST] = []
-
-    class Collect(ast.Transformer):
-        def visit(self, ast: ast.AST, *args: Any, **kwargs: Any) -> Any:
-            if ast.ast_type in kinds:
-                found.append(ast)
-                return ast
-            return super().visit(ast, *args, **kwargs)
-
-    Collect().visit(node)
-    return found
-
-
-def _body_atoms(rule: ast.AST) -> Iterator[ast.AST]:
-    for element in rule.body:
-        yield from _atoms(element)
-
-
-def _function_of(atom: ast.AST) -> ast.AST:
-    """The predicate with its arguments, without classical negation."""
-    symbol: ast.AST = atom.symbol
-    while symbol.ast_type is ast.ASTType.UnaryOperation:
-        symbol = symbol.argument
-    return symbol
-
-
-def _check_atom(
-    atom: ast.AST, signature: Signature, statement: Statement, variable_sorts: dict[str, Sort]
-) -> None:
-    symbol = _function_of(atom)
-    begin = symbol.location.begin
-    here = statement.place(begin.line, begin.column)
-    if symbol.ast_type is not ast.ASTType.Function:
-        raise KnowledgeError(f"{here}: '{symbol}' is no literal; write predicate(argument, …)")
-    if symbol.name in signature.sorts:
-        sorts: tuple[str, ...] = (symbol.name,)
-    elif symbol.name in signature.predicates:
-        sorts = signature.predicates[symbol.name].sorts
-    else:
-        names = [*signature.predicates, *signature.sorts]
-        known = [name for name in names if not name.endswith("__")]
-        raise KnowledgeError(
-            f"{here}: '{symbol.name}' is not declared; {did_you_mean(symbol.name, known)}"
-        )
-    if len(symbol.arguments) != len(sorts):
-        shown = f" ({', '.join(sorts)})" if sorts else ""
-        raise KnowledgeError(
-            f"{here}: '{symbol.name}' takes {len(sorts)} argument{'s' * (len(sorts) != 1)}"
-            f"{shown}, got {len(symbol.arguments)}"
-        )
-    for argument, sort in zip(symbol.arguments, sorts, strict=True):
-        _check_argument(argument, signature.sorts[sort], symbol.name, statement, variable_sorts)
-
-
-def _check_argument(
-    argument: ast.AST,
-    sort: Sort,
-    predicate: str,
-    statement: Statement,
-    variable_sorts: dict[str, Sort],
-) -> None:
-    begin = argument.location.begin
-    here = statement.place(begin.line, begin.column)
-    if argument.ast_type is ast.ASTType.Variable and argument.name != "_":
-        known = variable_sorts.setdefault(argument.name, sort)
-        disjoint = known.name != sort.name and not (
-            set(known.members or ()) & set(sort.members or ())
-        )
-        if disjoint:
-            raise KnowledgeError(
-                f"{here}: '{argument.name}' is of sort '{known.name}' elsewhere in this axiom, "
-                f"but '{predicate}' takes '{sort.name}' here; use two variables"
-            )
-    elif argument.ast_type in (ast.ASTType.SymbolicTerm, ast.ASTType.Function):
-        value = str(argument)
-        if sort.members is None:
-            raise KnowledgeError(
-                f"{here}: '{predicate}' takes the {sort.name} of the picture here, got "
-                f"'{value}'; use a variable such as S"
-            )
-        if value not in sort.members:
-            raise KnowledgeError(
-                f"{here}: '{value}' is not of sort '{sort.name}', which '{predicate}' takes "
-                f"here; {did_you_mean(value, sort.members)}"
-            )
-
-
-def _check_safety(rules: list[tuple[Statement, ast.AST, tuple[str, ...]]]) -> None:
-    """Ask clingo whether every variable is bound by a positive condition.
-
-    The variables that a rule comes with are bound: they range over their sort.
-    """
-    messages: list[str] = []
-    control = clingo.Control(logger=lambda _, m: messages.append(m))
-    # No instance of a rule is ever built: the added condition holds nowhere.
-    never = _parse_condition("never__")
-    try:
-        with ast.ProgramBuilder(control) as builder:
-            for _, rule, bound in rules:
-                builder.add(rule.update(body=[*rule.body, never, _bound(bound)]))
-        control.ground([("base", [])])
-    except RuntimeError:
-        found = [pattern.search(m) for pattern in (_UNSAFE, _CLINGO_ERROR) for m in messages]
-        match = next(filter(None, found), None)
-        if match is None:
-            raise
-        line, column, what = int(match.group(1)), int(match.group(2)), match.group(3)
-        begun = [
-            statement
-            for statement, *_ in rules
-            if (statement.location.line, statement.location.column) <= (line, column)
-        ]
-        place = begun[-1].place(line, column)
-        if match.re is _CLINGO_ERROR:
-            raise KnowledgeError(f"{place}: {one_line(what)}; remove it") from None
-        if what.startswith("#Anon"):
-            what = "_"
-        raise KnowledgeError(
-            f"{place}: nothing says what '{what}' ranges over; use it in a condition without "
-            "'not', a sort such as structure(S) for instance"
-        ) from None
-
-
-def _bound(variables: Sequence[str]) -> ast.AST:
-    return _parse_condition(f"bound__({', '.join(variables)})" if variables else "never__")
-
-
-def _parse_condition(text: str) -> ast.AST:
-    found: list[ast.AST] = []
-    ast.parse_string(f":- {text}.", found.append)
-    condition: ast.AST = found[1].body[0]
-    return condition

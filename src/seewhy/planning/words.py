@@ -10,8 +10,8 @@ import clingo
 
 from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis.diagnosis import Surprise, SurpriseKind
-from seewhy.planning.predicate_words import named_clause, past_clause, past_form
 from seewhy.planning.tables import ActionTable, FluentTable
+from seewhy.text.predicate_words import named_clause, past_clause, past_form
 
 _SLOT = re.compile(r"\{(\d+)\}")
 

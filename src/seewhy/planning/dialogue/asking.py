@@ -24,7 +24,7 @@ from seewhy.planning.dialogue.question_templates import (
     question_templates,
 )
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.predicate_words import base_form
+from seewhy.text.predicate_words import base_form
 
 LONGEST_QUESTION = 300
 """Characters; nothing in a controlled vocabulary is nearly as long."""

@@ -15,12 +15,12 @@ from seewhy.planning.dialogue.describing import describe_place, say_counted
 from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.speech import Speech, sentences
 from seewhy.planning.dialogue.supposing import known_at
+from seewhy.planning.dialogue.whereabouts import Place, place_of, places, whereabouts
 from seewhy.planning.dialogue.whereabouts import contents as whats_at
-from seewhy.planning.dialogue.whereabouts import place_of, places, whereabouts
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
 from seewhy.planning.planner.mutex import mutexes
-from seewhy.planning.predicate_words import past
+from seewhy.text.predicate_words import past
 
 
 class BeliefAnswers:
@@ -176,14 +176,15 @@ class BeliefAnswers:
         return sentences(said), {"literals": [str(literal) for literal in found]}
 
     def _nothing(self, place: str, beliefs: Beliefs, step: int) -> str:
-        first = next(fluent for fluent in places(self.domain) if self._is_place(place))
+        fluents = [fluent for fluent in places(self.domain) if self._can_be_at(fluent, place)]
+        where = " or ".join(dict.fromkeys(fluent.preposition for fluent in fluents))
         looked = any(
             at <= step and str(seen.arguments[other.place]) == place
             for seen, at in beliefs.observations
             for other in places(self.domain)
             if seen.name == other.predicate
         )
-        said = f"I know of nothing {first.preposition} {self.speech.name(place)}"
+        said = f"I know of nothing {where} {self.speech.name(place)}"
         return said if looked else f"{said}; I have not looked there"
 
     def _because(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:
@@ -238,11 +239,12 @@ class BeliefAnswers:
         return sentences(said), {"ruled_out": [str(literal) for literal in ruled_out]}
 
     def _is_place(self, term: str) -> bool:
+        return any(self._can_be_at(fluent, term) for fluent in places(self.domain))
+
+    def _can_be_at(self, fluent: Place, term: str) -> bool:
+        """Whether things can be at a place in the way of a fluent: in a room, on a shelf."""
         signature = self.domain.knowledge.signature
-        return any(
-            term in signature.members(signature.predicates[fluent.predicate].sorts[fluent.place])
-            for fluent in places(self.domain)
-        )
+        return term in signature.members(signature.predicates[fluent.predicate].sorts[fluent.place])
 
 
 def none_of(question: str) -> str:

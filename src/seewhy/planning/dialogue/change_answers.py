@@ -21,7 +21,7 @@ from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.dialogue.speech import sentences
 from seewhy.planning.execution.execution import Decision, Step
 from seewhy.planning.execution.plan_monitoring import state_after
-from seewhy.planning.predicate_words import past
+from seewhy.text.predicate_words import past
 
 _CHANGING = (Decision.REPLAN, Decision.SKIP, Decision.GIVE_UP)
 

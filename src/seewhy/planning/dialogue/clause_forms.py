@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from seewhy.planning.dialogue.speech import plural
-from seewhy.planning.predicate_words import base_form
+from seewhy.text.predicate_words import base_form, verb_place
 
 SLOT = re.compile(r"\{(\d+)\}")
 _AUXILIARIES = ("is", "are", "can", "was", "would", "could", "will")
@@ -26,9 +26,9 @@ def question_form(clause: str) -> str:
     ('is {0} in {1}', 'does {0} hold {1}')
     """
     words = clause.split()
-    for place, word in enumerate(words):
-        if word in _AUXILIARIES:
-            return " ".join([word, *words[:place], *words[place + 1 :]])
+    place = verb_place(words, _AUXILIARIES)
+    if place is not None:
+        return " ".join([words[place], *words[:place], *words[place + 1 :]])
     after = next((n for n, word in enumerate(words) if SLOT.fullmatch(word)), 0) + 1
     if after >= len(words):
         return f"is it so that {clause}"

@@ -21,7 +21,7 @@ from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.dialogue.speech import sentences
 from seewhy.planning.execution.execution import Decision, Outcome
-from seewhy.planning.predicate_words import past
+from seewhy.text.predicate_words import past
 
 
 def goal(view: RunView, query: Query) -> Told:

@@ -10,8 +10,8 @@ import clingo
 
 from seewhy.domain.wording import join_words, say_one_of, sentence
 from seewhy.planning.diagnosis.diagnosis import Surprise
-from seewhy.planning.predicate_words import base_form, past
 from seewhy.planning.words import PlanningWords
+from seewhy.text.predicate_words import base_form, past
 
 _ME = "\x01"
 _PLURAL = {"is": "are", "has": "have", "does": "do", "was": "were", "had": "had"}

@@ -3,8 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Sequence
 
-__all__ = ["PREPOSITIONS", "base_form", "named_clause", "past", "past_clause", "past_form"]
+__all__ = [
+    "PREPOSITIONS",
+    "base_form",
+    "named_clause",
+    "past",
+    "past_clause",
+    "past_form",
+    "verb_place",
+]
 
 _PAST = {"is": "was", "are": "were", "am": "was", "has": "had", "have": "had", "does": "did",
          "do": "did", "can": "could"}  # fmt: skip
@@ -17,6 +26,9 @@ _IRREGULAR = {"hold": "held", "stand": "stood", "lie": "lay", "lean": "leant", "
               "speak": "spoke", "think": "thought", "win": "won"}  # fmt: skip
 _VERB = re.compile(r"^((?:an? |the )?\{\d+\}) (\w+s)\b")
 
+_NOUNS_TOO = frozenset({"can", "will"})
+_DETERMINERS = frozenset({"a", "an", "the", "my", "your", "his", "her", "its", "our", "their",
+                          "this", "that", "no", "every", "each"})  # fmt: skip
 PREPOSITIONS = frozenset({"in", "at", "on", "under", "behind", "near", "inside", "beside", "to",
                           "of", "with", "by", "from", "for", "above", "below", "over", "into",
                           "between", "through", "against"})  # fmt: skip
@@ -79,10 +91,33 @@ def past(clause: str) -> str:
     'the kitchen was closed'
     """
     words = clause.split(" ")
+    place = verb_place(words, _PAST)
+    if place is None:
+        return clause
+    return " ".join([*words[:place], _PAST[words[place]], *words[place + 1 :]])
+
+
+def verb_place(words: Sequence[str], verbs: Collection[str]) -> int | None:
+    """Return the place of the first of some verbs in a clause; a noun of its spelling is none.
+
+    Examples
+    --------
+    >>> verb_place("the can of me is empty".split(), {"is", "can"})
+    4
+    >>> verb_place("the robot can lift it".split(), {"is", "can"})
+    2
+    """
     for place, word in enumerate(words):
-        if word in _PAST:
-            return " ".join([*words[:place], _PAST[word], *words[place + 1 :]])
-    return clause
+        if word in verbs and not (word in _NOUNS_TOO and _is_noun(words, place)):
+            return place
+    return None
+
+
+def _is_noun(words: Sequence[str], place: int) -> bool:
+    """Whether a word stands where nouns do: behind an article, or in front of a verb."""
+    after = words[place + 1] if place + 1 < len(words) else ""
+    before = words[place - 1] if place else ""
+    return before in _DETERMINERS or after in {*_PAST, *PREPOSITIONS, *_NOUNS_TOO, ""}
 
 
 def past_clause(clause: str) -> str:
