@@ -135,7 +135,7 @@ def is_too_many(system: System, count: int) -> bool:
 
     Examples
     --------
-    >>> from comparison.catalogue import SYSTEMS
+    >>> from seewhy_lab.comparison.catalogue import SYSTEMS
     >>> [is_too_many(SYSTEMS["fine_tuned"], count) for count in (500, 501, ALL)]
     [False, True, True]
     """
