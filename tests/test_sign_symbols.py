@@ -13,12 +13,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from seewhy.domain.folder import domain_folder
 from seewhy.errors import DomainError
 from seewhy_lab.simulators.traffic_signs.outlines import arc, flatten, stroke, turned
 from seewhy_lab.simulators.traffic_signs.symbols import ROLES, Fill, looks, symbol, symbol_names
 
 FOLDER = files("seewhy_lab.simulators.traffic_signs")
-ROWS = list(csv.DictReader((FOLDER / "classes.csv").read_text(encoding="utf-8").splitlines()))
+CLASSES = domain_folder("traffic_signs") / "classes.csv"
+ROWS = list(csv.DictReader(CLASSES.read_text(encoding="utf-8").splitlines()))
 DATA = tomllib.loads((FOLDER / "symbols.toml").read_text(encoding="utf-8"))
 SHOWN = sorted(
     {(row[key], row["class"]) for row in ROWS for key in ("primary_symbol", "secondary_symbol")}

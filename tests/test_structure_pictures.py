@@ -9,13 +9,12 @@ import sys
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 
 import clingo
 import numpy as np
 import pytest
 
-from seewhy_lab.simulators import structure_stability
+from seewhy.domain.folder import domain_folder
 from seewhy_lab.simulators.structure_stability.annotation import GAPS, annotate, is_clear, measure
 from seewhy_lab.simulators.structure_stability.generation import random_structure
 from seewhy_lab.simulators.structure_stability.physics import build_model, release
@@ -249,7 +248,7 @@ def test_between_40_and_60_percent_are_stable(sample: list[tuple[dict[str, str],
 
 AXIOMS = [
     line.replace(" if ", " :- ")
-    for line in Path(structure_stability.__file__).with_name("knowledge.al").read_text().split("\n")
+    for line in (domain_folder("structure_stability") / "knowledge.al").read_text().split("\n")
     if line and not line.startswith(("#", "%"))
 ]
 

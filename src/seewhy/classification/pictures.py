@@ -117,7 +117,7 @@ def reasons_of(agent: Agent) -> Callable[[Sequence[Classification]], list[str]]:
     >>> import seewhy
     >>> agent = seewhy.Agent(seewhy.load_domain("structure_stability"))
     >>> reasons_of(agent)([agent.classify_values({"block_displaced": "yes"})])
-    ['The structure is unstable because a block is displaced.']
+    ['A block is displaced.']
     """
     questions = {
         question.label: question

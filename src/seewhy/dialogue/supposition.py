@@ -29,7 +29,7 @@ def say_values(domain: Domain, values: Mapping[str, str]) -> str:
     --------
     >>> from seewhy.domain.domain import load_domain
     >>> say_values(load_domain("structure_stability"), {"lean": "yes", "base": "wide"})
-    'the structure has a wide base and leans to one side'
+    'the structure has a wide base, and it leans to one side'
     """
     clauses = [domain.features[key].say[values[key]] for key in domain.features if key in values]
     return join_clauses(clauses, subject=domain.subject)
