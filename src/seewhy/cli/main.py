@@ -30,6 +30,7 @@ from seewhy.cli import (
     reference,
     serve,
     simulate,
+    studio,
     trace,
     train,
 )
@@ -86,6 +87,7 @@ app.command("chat")(chat.chat)
 app.command("decide")(decide.decide)
 app.command("classify")(classify.classify)
 app.command("serve")(serve.serve)
+app.command("studio")(studio.studio)
 app.command("trace")(trace.trace)
 app.command("new")(new.new)
 app.command("check")(check.check)
