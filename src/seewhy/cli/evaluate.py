@@ -134,7 +134,7 @@ def _evaluated(agent: Agent, dataset: Dataset, *, questions: int, seed: int) -> 
 
 def _curve(agent: Agent, dataset: Dataset, model: Path) -> LearningCurve:
     from seewhy.evaluation.curve import CurvePoint, learning_curve
-    from seewhy.evaluation.share import percent
+    from seewhy.text.percentage import percent
 
     folder = model.resolve()
     with progress() as bars:

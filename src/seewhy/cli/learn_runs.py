@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seewhy.cli.axiom_lines import axiom_dict
-from seewhy.cli.screen import percent, print_json, remark, say
+from seewhy.cli.screen import print_json, remark, say
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.knowledge.axiom import Axiom
