@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Literal, get_args
 
 from seewhy.errors import DatasetError
-from seewhy.text.nearest import did_you_mean
 
 __all__ = ["FORMATS", "SAID", "Format", "format_called"]
 
@@ -42,4 +41,6 @@ def format_called(name: str) -> Format:
     for known in FORMATS:
         if known == name:
             return known
+    from seewhy.text.nearest import did_you_mean  # slow to import, and most names are right
+
     raise DatasetError(f"'{name}' is no format that is imported; {did_you_mean(name, FORMATS)}")
