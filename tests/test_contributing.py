@@ -47,10 +47,10 @@ def test_every_page_is_linked_from_the_first() -> None:
 
 
 def test_the_heuristic_finds_plans_as_short(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(a_star, "LowerBound", a_star.LowerBound)
+    monkeypatch.setattr(a_star, "LandmarkHeuristic", a_star.LandmarkHeuristic)
     (program,) = programs("contributing/planner_heuristic.md")
     exec(program, {"__name__": "heuristic"})
-    assert a_star.LowerBound.__name__ == "GoalHolds"
+    assert a_star.LandmarkHeuristic.__name__ == "GoalHolds"
 
 
 def test_the_backbone_embeds_pictures(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,13 +17,13 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.language import Knowledge
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.diagnosis.diagnosis import diagnose
-from seewhy.planning.diagnosis.persistence_doubt import Doubt
+from seewhy.planning.diagnosis.persistence_doubt import PersistenceDoubt
 from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.execution import execution
 from seewhy.planning.execution.environment import PlanningEnvironment
 from seewhy.planning.execution.execution import Decision, Outcome, Run, execute
 from seewhy.planning.execution.plan_monitoring import suppositions
-from seewhy.planning.execution.world import World
+from seewhy.planning.execution.transition_function import World
 from seewhy.planning.goal import Goal, read_goal
 from seewhy.planning.planner.planner import Plan
 from seewhy_lab.gymnasium_environment import GymnasiumEnvironment
@@ -267,9 +267,9 @@ def test_the_clock_of_planning_runs_in_looking_for_plans_alone(
 
     monkeypatch.setattr(execution.time, "process_time", lambda: float(clock["now"]))
     taking(execution, "plan", "plan", 1)
-    for name in ("diagnose", "follow", "suppositions", "holds_in"):
+    for name in ("diagnose", "reaches_goal", "suppositions", "goal_holds"):
         taking(execution, name, name, 3600)
-    taking(Doubt, "applied", "doubt", 3600)
+    taking(PersistenceDoubt, "applied", "doubt", 3600)
     in_the_way = execution._Robot._in_the_way
 
     def explained(*arguments: Any) -> Any:

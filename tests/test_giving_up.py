@@ -16,7 +16,7 @@ from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import Knowledge, read_knowledge
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.diagnosis.diagnosis import diagnose
-from seewhy.planning.diagnosis.persistence_doubt import Doubt
+from seewhy.planning.diagnosis.persistence_doubt import PersistenceDoubt
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.execution import Decision, execute
 from seewhy.planning.goal import Goal, read_goal
@@ -56,7 +56,7 @@ def one_after_the_other(
     domain: PlanningDomain, goal: Goal, now: State, last_seen: dict[clingo.Symbol, int]
 ) -> tuple[bool, Plan]:
     """The old way: one age of doubt after the other, the least first; whether it was doubted."""
-    doubt = Doubt(domain.knowledge)
+    doubt = PersistenceDoubt(domain.knowledge)
     found = plan(domain.knowledge, goal, start=now, horizon=domain.horizon)
     doubted = False
     for before in sorted({0, *(n for fluent, n in last_seen.items() if fluent in doubt.fluents)}):
@@ -72,7 +72,7 @@ def in_the_way(
     domain: PlanningDomain, goal: Goal, now: State, last_seen: dict[clingo.Symbol, int]
 ) -> list[clingo.Symbol]:
     """What is seen last that alone, were it otherwise, would leave a plan."""
-    doubt = Doubt(domain.knowledge)
+    doubt = PersistenceDoubt(domain.knowledge)
     latest = max(last_seen.values(), default=0)
     found = []
     for fluent in sorted(fluent for fluent, step in last_seen.items() if step == latest):

@@ -25,9 +25,9 @@ from seewhy.knowledge.scene import SceneSchema
 from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.dialogue.instances import Instances
 from seewhy.planning.execution.plan_monitoring import suppositions
-from seewhy.planning.execution.world import Transitions
+from seewhy.planning.execution.transition_function import TransitionFunction
 from seewhy.planning.goal import read_goal
-from seewhy.planning.planner.goal_test import holds_in
+from seewhy.planning.planner.goal_test import goal_holds
 from seewhy.planning.planner.planner import plan
 
 NAME = re.compile(r"(?<![\w'])_*[a-z][\w']*")
@@ -92,7 +92,7 @@ def lamps(names: dict[str, str]) -> list[object]:
         plan(known, goal, start=start, answer_sets=by_answer_sets)
         for by_answer_sets in (False, True)
     ]
-    transitions = Transitions(known)
+    transitions = TransitionFunction(known)
     world = transitions.complete([])
     probe = TransitionProbe(known, following=1)
     return [
@@ -106,7 +106,7 @@ def lamps(names: dict[str, str]) -> list[object]:
             for made in plans
         ],
         {*suppositions(known, goal, plans[0].actions, start=start)},
-        holds_in(known, goal, plans[0].states[-1].holds),
+        goal_holds(known, goal, plans[0].states[-1].holds),
         {(action, transitions.after(world, [action])) for action in transitions.actions},
         [(action, probe.find(action=action) is None) for action in probe.actions],
         [

@@ -341,9 +341,9 @@ def test_whatever_the_words_the_domain_works(
     subject: str,
 ) -> None:
     """It passes the check, and every question that it has can be answered."""
+    from seewhy.data.annotation_formats import format_called
     from seewhy.data.importers.annotation import AnnotatedPicture, Notes
     from seewhy.data.importers.folder_files import FolderFiles
-    from seewhy.data.importers.formats import format_called
     from seewhy.data.importers.reading import ReadSource
     from seewhy.data.importers.request import ImportRequest
     from seewhy.data.importers.vocabulary import vocabulary_of

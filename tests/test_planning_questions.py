@@ -19,7 +19,7 @@ from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.dialogue.replying import answer
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.execution import Run, execute
-from seewhy.planning.execution.world import Transitions, World
+from seewhy.planning.execution.transition_function import TransitionFunction, World
 from seewhy.planning.goal import read_goal
 from seewhy.planning.tables import ActionTable, FluentTable
 from seewhy.planning.words import PlanningWords
@@ -36,8 +36,8 @@ def term(text: str) -> clingo.Symbol:
 
 
 @pytest.fixture(scope="module")
-def transitions() -> Transitions:
-    return Transitions(OFFICE.knowledge)
+def transitions() -> TransitionFunction:
+    return TransitionFunction(OFFICE.knowledge)
 
 
 def seen_in(state: World) -> list[Literal]:
@@ -52,7 +52,7 @@ def seen_in(state: World) -> list[Literal]:
 
 
 def office_run(
-    transitions: Transitions,
+    transitions: TransitionFunction,
     *literals: str,
     script: Callable[[int, World], World] = lambda _, state: state,
 ) -> Run:
@@ -76,17 +76,17 @@ def not_begun() -> Run:
 
 
 @pytest.fixture(scope="module")
-def delivered(transitions: Transitions) -> Run:
+def delivered(transitions: TransitionFunction) -> Run:
     return office_run(transitions, *CLUTTER)
 
 
 @pytest.fixture(scope="module")
-def met(transitions: Transitions) -> Run:
+def met(transitions: TransitionFunction) -> Run:
     return office_run(transitions, "loc(sally,kitchen)")
 
 
 @pytest.fixture(scope="module")
-def lost(transitions: Transitions) -> Run:
+def lost(transitions: TransitionFunction) -> Run:
     def lose(step: int, state: World) -> World:
         return transitions.after(state, [term("lose(m1)")]) or state if step == 1 else state
 
@@ -94,7 +94,7 @@ def lost(transitions: Transitions) -> Run:
 
 
 @pytest.fixture(scope="module")
-def shut_in(transitions: Transitions) -> Run:
+def shut_in(transitions: TransitionFunction) -> Run:
     return office_run(
         transitions,
         "closed(kitchen)",
@@ -365,7 +365,7 @@ def test_a_word_that_is_not_known_is_never_passed_over(delivered: Run, question:
 
 
 @pytest.fixture(scope="module")
-def begun(transitions: Transitions) -> Run:
+def begun(transitions: TransitionFunction) -> Run:
     """A run that has come no further than its first action."""
     usual = sorted(diagnose(OFFICE.knowledge, OFFICE.history).states[0].holds)
     state = transitions.complete(usual)
@@ -396,7 +396,7 @@ BEGUN = {
 }
 
 
-def failed_once(transitions: Transitions) -> Run:
+def failed_once(transitions: TransitionFunction) -> Run:
     """A run in which the second action has no effect at first."""
     kept: list[World] = []
 
@@ -408,7 +408,7 @@ def failed_once(transitions: Transitions) -> Run:
 
 
 @pytest.fixture(scope="module")
-def failed(transitions: Transitions) -> Run:
+def failed(transitions: TransitionFunction) -> Run:
     return failed_once(transitions)
 
 
@@ -844,7 +844,9 @@ def test_what_would_have_left_no_way_to_the_goal() -> None:
     assert asked(last, "did you melt the key?", domain) == "No, I did not melt the key."
 
 
-def test_a_hope_that_was_disappointed_is_why_the_plan_changed(transitions: Transitions) -> None:
+def test_a_hope_that_was_disappointed_is_why_the_plan_changed(
+    transitions: TransitionFunction,
+) -> None:
     run = office_run(transitions, "loc(sally,johns_office)")
     told = asked(run, "why did the plan change?").split(" At step ")
     assert told[0].startswith("At step 2 I saw that Sally was not in her office. ")
@@ -852,7 +854,7 @@ def test_a_hope_that_was_disappointed_is_why_the_plan_changed(transitions: Trans
     assert all("Sally was in her office" not in line for line in told)
 
 
-def test_what_a_sensor_got_wrong_is_said(transitions: Transitions) -> None:
+def test_what_a_sensor_got_wrong_is_said(transitions: TransitionFunction) -> None:
     state = transitions.complete(sorted(diagnose(OFFICE.knowledge, OFFICE.history).states[0].holds))
     erring = replace(OFFICE, sensing=tuple(replace(sensor, error=0.1) for sensor in OFFICE.sensing))
     steps = itertools.count()

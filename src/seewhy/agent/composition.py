@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from seewhy.agent.deciding import Deciding
-from seewhy.agent.parts import Follows, Held
-from seewhy.agent.reading import PictureReading
+from seewhy.agent.part_attribute import part_attribute
+from seewhy.agent.picture_reader import PictureReader
 from seewhy.agent.reading_weights import ReadingWeights
 from seewhy.agent.seeing import Seeing
 from seewhy.agent.settings import settings_for
@@ -60,32 +60,26 @@ class Composition:
         What the domain is asked.
     """
 
-    seed: Held[int] = Held("settings")
-    eyes: Held[str] = Held("settings")
-    device: Held[str] = Held("settings")
-    reading: Held[ReadingRule] = Held("settings")
-    gate: Held[float | None] = Held("settings")
-    known_share: Held[float] = Held("settings")
-    trust: Held[float] = Held("settings")
+    seed: int = part_attribute("settings.seed")
+    eyes: str = part_attribute("settings.eyes")
+    device: str = part_attribute("settings.device")
+    reading: ReadingRule = part_attribute("settings.reading")
+    gate: float | None = part_attribute("settings.gate")
+    known_share: float = part_attribute("settings.known_share")
+    trust: float = part_attribute("settings.trust")
 
-    given: Follows[Domain] = Follows("known")
-    learned: Follows[tuple[Axiom, ...]] = Follows("known")
-    withdrawn: Follows[tuple[Withdrawn, ...]] = Follows("known")
-    minimality: Follows[Minimality] = Follows("known")
-    domain: Follows[Domain] = Follows("known")
-    reasoner: Follows[Reasoner] = Follows("known")
-    reasoned: Follows[ReasonedAnswers] = Follows("known")
-    reference: Follows[ReferenceAnswers] = Follows("known")
-    experience: Held[Experience] = Held("known")
+    experience: Experience = part_attribute("known.experience")
 
-    extractor: Held[FeatureExtractor | Eyes | None] = Held("seeing")
-    familiarity: Held[Familiarity | None] = Held("seeing")
-    validation_scores: Held[Mapping[ReadingRule, list[float]]] = Held("seeing")
-    reading_weights: Held[Mapping[ReadingRule, ReadingWeights]] = Held("seeing")
+    extractor: FeatureExtractor | Eyes | None = part_attribute("seeing.extractor")
+    familiarity: Familiarity | None = part_attribute("seeing.familiarity")
+    validation_scores: Mapping[ReadingRule, list[float]] = part_attribute(
+        "seeing.validation_scores"
+    )
+    reading_weights: Mapping[ReadingRule, ReadingWeights] = part_attribute("seeing.reading_weights")
 
-    trained_on: Held[frozenset[str]] = Held("training_pictures")
-    without_class: Held[frozenset[str]] = Held("training_pictures")
-    without: Held[tuple[str, ...]] = Held("training_pictures")
+    trained_on: frozenset[str] = part_attribute("training_pictures.trained_on")
+    without_class: frozenset[str] = part_attribute("training_pictures.without_class")
+    without: tuple[str, ...] = part_attribute("training_pictures.without")
 
     def __init__(
         self,
@@ -121,7 +115,47 @@ class Composition:
         self.tree = self.known.untrained_tree()
         self.answerer: RecurrentAnswerer | None = None
         self.training_pictures = TrainingPictures()
-        self._reading_by: PictureReading | None = None
+        self._reading_by: PictureReader | None = None
+
+    @property
+    def given(self) -> Domain:
+        """The domain as its folder says it."""
+        return self.known.given
+
+    @property
+    def learned(self) -> tuple[Axiom, ...]:
+        """The axioms that were learned."""
+        return self.known.learned
+
+    @property
+    def withdrawn(self) -> tuple[Withdrawn, ...]:
+        """The axioms that are known no more; given ones among them are set aside."""
+        return self.known.withdrawn
+
+    @property
+    def minimality(self) -> Minimality:
+        """Which exceptions to defaults are preferred."""
+        return self.known.minimality
+
+    @property
+    def domain(self) -> Domain:
+        """The domain that is reasoned with: with what was learned, without what is set aside."""
+        return self.known.domain
+
+    @property
+    def reasoner(self) -> Reasoner:
+        """What reasons with it."""
+        return self.known.reasoner
+
+    @property
+    def reasoned(self) -> ReasonedAnswers:
+        """Answers by what is known."""
+        return self.known.reasoned
+
+    @property
+    def reference(self) -> ReferenceAnswers:
+        """What correct answers say about annotated scenes."""
+        return self.known.reference
 
     @property
     def deciding(self) -> Deciding:
@@ -129,11 +163,9 @@ class Composition:
         return Deciding(self.known, self.tree)
 
     @property
-    def reading_by(self) -> PictureReading:
+    def reading_by(self) -> PictureReader:
         """What reads the features of pictures; it is kept until another part takes some place."""
-        by_now = PictureReading(
-            self.deciding, self.seeing, self.settings.believed_from(self.domain)
-        )
+        by_now = PictureReader(self.deciding, self.seeing, self.settings.believed_from(self.domain))
         if self._reading_by != by_now:
             self._reading_by = by_now
         return self._reading_by

@@ -9,8 +9,8 @@ import numpy as np
 
 from seewhy.agent.fitting_reading_weights import fit_reading_weights
 from seewhy.agent.growing import grow, labelled_pictures
+from seewhy.agent.picture_reader import PictureReader
 from seewhy.agent.pretraining import Pretrained, is_drawn
-from seewhy.agent.reading import PictureReading
 from seewhy.agent.reading_weights import ReadingWeights
 from seewhy.agent.seeing import Seeing, likeness
 from seewhy.agent.settings import Settings
@@ -231,7 +231,7 @@ def _grown_networks(
     )
 
 
-def known_from_training(taught: Taught, reading: PictureReading) -> Seeing:
+def known_from_training(taught: Taught, reading: PictureReader) -> Seeing:
     """Return what sees with what is known of it, now that what it sees can be decided.
 
     What is seen is weighed by pictures that taught it nothing, for both consistent readings; and
@@ -247,7 +247,7 @@ def known_from_training(taught: Taught, reading: PictureReading) -> Seeing:
     return replace(seeing, validation_scores=scores)
 
 
-def _reading_weights(taught: Taught, reading: PictureReading) -> dict[ReadingRule, ReadingWeights]:
+def _reading_weights(taught: Taught, reading: PictureReader) -> dict[ReadingRule, ReadingWeights]:
     held = taught.held_out
     if held is None or not len(held.rows):
         return {}
@@ -259,7 +259,7 @@ def _reading_weights(taught: Taught, reading: PictureReading) -> dict[ReadingRul
     }
 
 
-def _validation_scores(taught: Taught, reading: PictureReading) -> dict[ReadingRule, list[float]]:
+def _validation_scores(taught: Taught, reading: PictureReader) -> dict[ReadingRule, list[float]]:
     if taught.scores is not None:
         return dict.fromkeys(READINGS, taught.scores)
     judged, familiarity = taught.judged, taught.familiarity

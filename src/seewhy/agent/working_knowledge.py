@@ -104,14 +104,8 @@ class WorkingKnowledge:
         KnowledgeError
             If no learned axiom has this identifier.
         """
-        found = {axiom.identifier: axiom for axiom in self.learned}
-        if identifier not in found:
-            raise KnowledgeError(
-                f"'{identifier}' is no learned axiom; {did_you_mean(identifier, list(found))}"
-                if found
-                else f"'{identifier}' is no learned axiom: none was learned"
-            )
-        return found[identifier]
+        said = "is no learned axiom"
+        return _called(identifier, self.learned, otherwise=said, none="none was learned")
 
     def axiom_set_aside(self, identifier: str) -> Axiom:
         """Return a given axiom that is set aside.
@@ -122,16 +116,8 @@ class WorkingKnowledge:
             If no axiom with this identifier is set aside.
         """
         aside = _set_aside(self.withdrawn)
-        found = {
-            axiom.identifier: axiom for axiom in self.given.knowledge.axioms if str(axiom) in aside
-        }
-        if identifier not in found:
-            raise KnowledgeError(
-                f"'{identifier}' is not set aside; {did_you_mean(identifier, list(found))}"
-                if found
-                else f"'{identifier}' is not set aside: no given axiom is"
-            )
-        return found[identifier]
+        axioms = [axiom for axiom in self.given.knowledge.axioms if str(axiom) in aside]
+        return _called(identifier, axioms, otherwise="is not set aside", none="no given axiom is")
 
     def restoring(self, axiom: Axiom) -> WorkingKnowledge:
         """The same with a given axiom that was set aside."""
@@ -175,6 +161,15 @@ def working_knowledge(
         domain=domain,
         reasoner=Reasoner(domain.knowledge, domain.schema, minimality=minimality),
     )
+
+
+def _called(identifier: str, axioms: Sequence[Axiom], *, otherwise: str, none: str) -> Axiom:
+    """The axiom with an identifier; ``none`` says why there is no axiom to choose from."""
+    found = {axiom.identifier: axiom for axiom in axioms}
+    if identifier in found:
+        return found[identifier]
+    remedy = f"; {did_you_mean(identifier, list(found))}" if found else f": {none}"
+    raise KnowledgeError(f"'{identifier}' {otherwise}{remedy}")
 
 
 def _set_aside(withdrawn: Sequence[Withdrawn]) -> set[str]:

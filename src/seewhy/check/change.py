@@ -18,9 +18,9 @@ from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Location, PredicateKind, Signature
 from seewhy.knowledge.statements import statements
 from seewhy.planning.diagnosis.belief_state import State
-from seewhy.planning.diagnosis.diagnosis import diagnose, entries_in_the_way
+from seewhy.planning.diagnosis.diagnosis import diagnose, smallest_correction_set
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.planner.reachability import reachable
+from seewhy.planning.planner.relaxed_reachability import reachable
 
 
 def check_change(domain: PlanningDomain) -> tuple[str, ...]:
@@ -251,7 +251,7 @@ def _start(domain: PlanningDomain) -> State:
     try:
         return diagnose(domain.knowledge, domain.history).now
     except PlanningError as problem:
-        wrong = entries_in_the_way(domain.knowledge, domain.history) or ()
+        wrong = smallest_correction_set(domain.knowledge, domain.history) or ()
         place = _place_of(wrong, domain)
         raise PlanningError(f"{place}: {problem}" if place else str(problem)) from None
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from seewhy.cli.screen import percent
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent

@@ -11,7 +11,8 @@ import typer
 
 from seewhy.cli import data_import
 from seewhy.cli.options import DomainName, Json, Outside, Seed
-from seewhy.cli.screen import percent, print_json, progress, remark, say
+from seewhy.cli.screen import print_json, progress, remark, say
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.domain.domain import Domain

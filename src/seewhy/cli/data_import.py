@@ -23,14 +23,15 @@ from seewhy.cli.import_options import (
     request_of,
 )
 from seewhy.cli.options import Json
-from seewhy.cli.screen import percent, print_json, progress, remark, say
+from seewhy.cli.screen import print_json, progress, remark, say
+from seewhy.data.annotation_formats import FORMATS, format_called
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from seewhy.data.importers import ImportedDataset, ImportRequest, Note
 
-FORMATS = ("folder", "coco", "voc", "yolo", "labelstudio", "cvat", "table")
 _MOST_NAMED = 5
 _MOST_CLASSES = 12
 
@@ -154,15 +155,10 @@ def _counted(counts: dict[str, int], total: int) -> str:
 
 def _check_format(name: str) -> None:
     from seewhy.errors import SeeWhyError
-    from seewhy.text.nearest import did_you_mean
 
-    if name not in FORMATS:
-        path = Path(name)
-        if path.exists():
-            raise SeeWhyError(
-                f"'{name}' is a source; say its format before it: {', '.join(FORMATS)}"
-            )
-        raise SeeWhyError(f"'{name}' is no format that is imported; {did_you_mean(name, FORMATS)}")
+    if name not in FORMATS and Path(name).exists():
+        raise SeeWhyError(f"'{name}' is a source; say its format before it: {', '.join(FORMATS)}")
+    format_called(name)
 
 
 def _one_source(sources: Sequence[Path]) -> Path:

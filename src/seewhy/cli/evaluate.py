@@ -19,6 +19,7 @@ from seewhy.cli.options import (
     Seed,
 )
 from seewhy.cli.screen import print_json, progress, remark, say, warn
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent
@@ -134,7 +135,6 @@ def _evaluated(agent: Agent, dataset: Dataset, *, questions: int, seed: int) -> 
 
 def _curve(agent: Agent, dataset: Dataset, model: Path) -> LearningCurve:
     from seewhy.evaluation.curve import CurvePoint, learning_curve
-    from seewhy.evaluation.share import percent
 
     folder = model.resolve()
     with progress() as bars:

@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seewhy.cli.axiom_lines import axiom_dict
-from seewhy.cli.screen import percent, print_json, remark, say
+from seewhy.cli.screen import print_json, remark, say
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.knowledge.axiom import Axiom
     from seewhy.planning.domain import PlanningDomain
-    from seewhy.planning.learning.learning import LearnedFromRuns
+    from seewhy.planning.learning.learning_defaults import LearnedFromRuns
 
 Accept = Callable[[Sequence["Axiom"]], Sequence["Axiom"]]
 """Which of the axioms found are taken over."""
@@ -33,7 +34,7 @@ def learn_from_record(
     from seewhy.files.whole_files import write_whole
     from seewhy.knowledge.history import read_history_file
     from seewhy.knowledge.learned_file import learned_text
-    from seewhy.planning.learning.learning import SUPPORT, learn_from_runs
+    from seewhy.planning.learning.learning_defaults import SUPPORT, learn_from_runs
 
     files = _records(runs)
     found = learn_from_runs(

@@ -27,6 +27,8 @@ from rich.segment import Segment
 from rich.table import Table
 from rich.text import Text
 
+from seewhy.text.percentage import percent
+
 _OBEYED = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
 """Control characters but tabs and line ends, and what embeds or overrides a reading direction."""
 
@@ -101,17 +103,6 @@ def print_json(value: Any, *, lines: bool = True) -> None:
     text = json.dumps(value, indent=2 if lines else None, ensure_ascii=False)
     sys.stdout.write(_OBEYED.sub(lambda found: f"\\u{ord(found[0]):04x}", text) + "\n")
     sys.stdout.flush()
-
-
-def percent(share: float) -> str:
-    """Return a share as a percentage with one decimal.
-
-    Examples
-    --------
-    >>> percent(0.9312)
-    '93.1 %'
-    """
-    return f"{100 * share:.1f} %"
 
 
 def share_of_cases(of: float | None) -> str:

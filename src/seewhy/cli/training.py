@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from seewhy.cli.screen import percent, progress, remark
+from seewhy.cli.screen import progress, remark
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID

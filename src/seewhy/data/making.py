@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 from collections import Counter
 from collections.abc import Callable
@@ -16,6 +15,7 @@ from seewhy.data.dataset import TABLE
 from seewhy.data.picture_source import draw_picture, load_source
 from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError, DomainError
+from seewhy.files.csv_text import csv_text
 from seewhy.files.locks import sole_writer
 from seewhy.files.whole_files import put_all_on_disk, whole_file, write_whole
 from seewhy.knowledge.scene import FeatureVector
@@ -245,13 +245,11 @@ def _is_picture(file: Path) -> bool:
 def _write_table(
     folder: Path, domain: Domain, rows: list[tuple[dict[str, str], str]], test_share: float
 ) -> None:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["image", "class", *domain.features, "split"])
+    lines = []
     for index, (features, label) in enumerate(rows):
         # Spread evenly: every third for a third, whatever the count.
         is_test = int((index + 1) * test_share) > int(index * test_share)
-        writer.writerow(
+        lines.append(
             [
                 f"images/{index:06d}.png",
                 label,
@@ -259,4 +257,5 @@ def _write_table(
                 "test" if is_test else "train",
             ]
         )
-    write_whole(folder / TABLE, text.getvalue())
+    columns = ["image", "class", *domain.features, "split"]
+    write_whole(folder / TABLE, csv_text(columns, lines))

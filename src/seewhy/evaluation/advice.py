@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from seewhy.domain.tables import CLASS
-from seewhy.evaluation.share import percent
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.evaluation.recognition import Recognition

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from seewhy.evaluation.share import percent
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.evaluation.curve import LearningCurve

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-__all__ = ["Share", "percent"]
+__all__ = ["Share"]
 
 LEVEL = 0.95
 """Of the intervals beside shares."""
@@ -44,14 +44,3 @@ class Share:
 
         found = binomtest(self.right, self.of).proportion_ci(LEVEL, method="wilson")
         return float(found.low), float(found.high)
-
-
-def percent(share: float) -> str:
-    """Return a share as a percentage with one decimal.
-
-    Examples
-    --------
-    >>> percent(0.9312)
-    '93.1 %'
-    """
-    return f"{100 * share:.1f} %"

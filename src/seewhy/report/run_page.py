@@ -12,7 +12,7 @@ from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.run_narration import narrate_end, narrate_step
 from seewhy.planning.execution.simulation import Simulation
-from seewhy.planning.execution.world import World
+from seewhy.planning.execution.transition_function import World
 from seewhy.planning.words import PlanningWords
 from seewhy.report.card import embedded
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import json
 import warnings
@@ -17,6 +16,7 @@ from PIL import Image, ImageOps, PngImagePlugin, UnidentifiedImageError
 from seewhy.data.dataset import TABLE
 from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError, PictureError
+from seewhy.files.csv_text import csv_text
 from seewhy.files.whole_files import put_all_on_disk, whole_file, write_whole
 from seewhy.perception.picture_file import LARGEST_MEGAPIXELS, SMALLEST_SIDE
 from seewhy_lab.belgiumts.classes import SignClass, read_classes
@@ -292,17 +292,9 @@ def _scenes(scenes: Sequence[_Scene], domain: Domain) -> str:
         )
         for scene in scenes
     )
-    return _csv(("image", "class", *domain.features, "split", "group"), rows)
+    return csv_text(("image", "class", *domain.features, "split", "group"), rows)
 
 
 def _regions(scenes: Sequence[_Scene]) -> str:
     rows = ((scene.image, *scene.region) for scene in scenes if scene.region is not None)
-    return _csv(("image", "left", "top", "right", "bottom"), rows)
-
-
-def _csv(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(rows)
-    return text.getvalue()
+    return csv_text(("image", "left", "top", "right", "bottom"), rows)

@@ -36,28 +36,14 @@ from seewhy.perception.fitting_extractor import fit_extractor
 from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.rehearsal import Rehearsal
 from seewhy.perception.validation import split
+from seewhy_lab.experiments.drawing import FOLDS, in_fold
 
 DOMAIN = "traffic_signs"
 SIZES = (100, 200, 500, 1000, 2000, 0)  # 0: all
-FOLDS = 5
 READINGS: tuple[ReadingRule, ...] = ("argmax", "consistent")  # no network of ours sees the class
 # The convolutions of the largest of the seven networks, and a dense layer twice as wide: nearly as
 # many weights as the seven have together (the rows say how many).
 CHANNELS, DENSE = (24, 48, 96, 192), 384
-
-
-def in_fold(scenes: Dataset, fold: int) -> np.ndarray[Any, Any]:
-    """Which scenes are tested on: every class gives its share of poles, poles stay whole."""
-    poles: dict[str, dict[str, None]] = {}
-    for scene in scenes.scenes:
-        poles.setdefault(str(scene.label), {}).setdefault(scene.group, None)
-    rng = np.random.default_rng(0)
-    tested: set[str] = set()
-    for label in sorted(poles):
-        shuffled = [str(pole) for pole in rng.permutation(list(poles[label]))]
-        first = int(rng.integers(FOLDS))  # or rare classes would all fall into the first folds
-        tested |= {pole for n, pole in enumerate(shuffled) if (n + first) % FOLDS == fold}
-    return np.array([scene.group in tested for scene in scenes.scenes])
 
 
 def trial_data(data: Path, *, seed: int, size: int) -> Dataset:

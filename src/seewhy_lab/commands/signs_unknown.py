@@ -25,8 +25,9 @@ from seewhy.data.dataset import Dataset
 from seewhy.dialogue.reply import UNKNOWN, Classification
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.perception.picture import as_picture
-from seewhy_lab.commands.signs_against_end_to_end import DOMAIN, FOLDS, in_fold
+from seewhy_lab.commands.signs_against_end_to_end import DOMAIN
 from seewhy_lab.commands.signs_zero_shot import decided_vectors
+from seewhy_lab.experiments.drawing import FOLDS, in_fold
 from seewhy_lab.simulators.traffic_signs.non_signs import draw_non_sign
 
 BINS = (0.0, 0.5, 0.7, 0.9, 0.99, 1.0)

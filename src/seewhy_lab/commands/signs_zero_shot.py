@@ -24,7 +24,8 @@ from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.files.whole_files import write_whole
 from seewhy.knowledge.scene import FeatureVector
-from seewhy_lab.commands.signs_against_end_to_end import DOMAIN, end_to_end, in_fold
+from seewhy_lab.commands.signs_against_end_to_end import DOMAIN, end_to_end
+from seewhy_lab.experiments.drawing import in_fold
 
 TURNS = 4
 COLUMNS = ("SeeWhy", "not known", "SeeWhy, all answered", "end to end")

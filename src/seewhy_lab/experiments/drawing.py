@@ -23,7 +23,16 @@ from seewhy.files.whole_files import whole_file
 from seewhy_lab.experiments.experiment import ALL, Setting, Trial, say_size
 from seewhy_lab.experiments.settings import SETTINGS
 
-__all__ = ["POOL", "available", "divide", "in_fold", "load_pictures", "pool_of", "require_enough"]
+__all__ = [
+    "FOLDS",
+    "POOL",
+    "available",
+    "divide",
+    "in_fold",
+    "load_pictures",
+    "pool_of",
+    "require_enough",
+]
 
 FOLDS = 5
 """Where pictures have groups, a fifth of the groups of every class is tested on."""

@@ -1,7 +1,7 @@
 """Datasets from the labels that people have: class folders, exports of labelling tools, tables."""
 
+from seewhy.data.annotation_formats import FORMATS
 from seewhy.data.importers.annotation import Note
-from seewhy.data.importers.formats import FORMATS
 from seewhy.data.importers.imported import ImportedDataset
 from seewhy.data.importers.reading import read_source
 from seewhy.data.importers.request import ImportRequest

@@ -1,10 +1,10 @@
-"""The formats that are imported, and which of them a source is in."""
+"""Which format a source is in, and what reads it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Literal, get_args
 
+from seewhy.data.annotation_formats import SAID, Format, format_called
 from seewhy.data.importers.annotation import AnnotatedPicture
 from seewhy.data.importers.class_folders import read_class_folders
 from seewhy.data.importers.coco import coco_files, read_coco
@@ -16,44 +16,8 @@ from seewhy.data.importers.source import Source
 from seewhy.data.importers.voc import is_voc, read_voc
 from seewhy.data.importers.yolo import read_yolo, yolo_files
 from seewhy.errors import DatasetError
-from seewhy.text.nearest import did_you_mean
-
-Format = Literal["folder", "coco", "voc", "yolo", "labelstudio", "cvat", "table"]
-"""What a source may be in."""
-
-FORMATS: tuple[Format, ...] = get_args(Format)
-
-SAID = {
-    "folder": "class folders",
-    "coco": "COCO",
-    "voc": "Pascal VOC",
-    "yolo": "YOLO",
-    "labelstudio": "Label Studio",
-    "cvat": "CVAT for images",
-    "table": "a table with a row a picture",
-}
-"""Format → how it is called in a sentence."""
 
 Reader = Callable[[Source], Iterator[AnnotatedPicture]]
-
-
-def format_called(name: str) -> Format:
-    """Return the format of a name.
-
-    Raises
-    ------
-    DatasetError
-        If there is none; the text gives the nearest.
-
-    Examples
-    --------
-    >>> format_called("coco")
-    'coco'
-    """
-    for known in FORMATS:
-        if known == name:
-            return known
-    raise DatasetError(f"'{name}' is no format that is imported; {did_you_mean(name, FORMATS)}")
 
 
 def reader_of(format: Format) -> Reader:

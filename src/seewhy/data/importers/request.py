@@ -17,7 +17,7 @@ class ImportRequest:
     source : Path
         A folder, a zip archive, or the file that a tool exported.
     format : str
-        One of :data:`~seewhy.data.importers.formats.FORMATS`.
+        One of :data:`~seewhy.data.annotation_formats.FORMATS`.
     pictures : Path or None
         The folder or archive of the pictures, where they lie elsewhere.
     features : Path or None

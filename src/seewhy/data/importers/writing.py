@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import shutil
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -31,6 +30,7 @@ from seewhy.data.importers.vocabulary import (
     named_features,
 )
 from seewhy.errors import DatasetError, PictureError
+from seewhy.files.csv_text import csv_text
 from seewhy.files.locks import sole_writer
 from seewhy.files.whole_files import put_all_on_disk, whole_file, write_whole
 
@@ -142,7 +142,7 @@ def class_table(class_features: ClassFeatures, vocabulary: Vocabulary) -> str:
         if words in class_features.values:
             values = named_features(class_features.values[words], vocabulary.features)
             rows.append([name, *(values.get(column, "") for column in columns)])
-    return _csv(["class", *columns], rows)
+    return csv_text(["class", *columns], rows)
 
 
 class _Writer:
@@ -325,14 +325,6 @@ def _opened(stack: ExitStack, path: Path, columns: Sequence[str]) -> Any:
     rows = csv.writer(stream, lineterminator="\n")
     rows.writerow(columns)
     return rows
-
-
-def _csv(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(rows)
-    return text.getvalue()
 
 
 def _corners(box: Box) -> tuple[float, float, float, float]:

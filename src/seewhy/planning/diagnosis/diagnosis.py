@@ -272,7 +272,7 @@ def _surprises(
             )
 
 
-def entries_in_the_way(
+def smallest_correction_set(
     knowledge: Knowledge, history: History
 ) -> tuple[Observation | Occurrence, ...] | None:
     """Return what a history that nothing explains should not say, as few entries as possible.
@@ -286,7 +286,7 @@ def entries_in_the_way(
     >>> known = read_knowledge("#fluent basic dark. #fluent basic lit. -lit if dark.")
     >>> both = read_history("observed dark at 0. observed lit at 0. observed lit at 1.",
     ...     known.signature)
-    >>> [str(entry) for entry in entries_in_the_way(known, both)]
+    >>> [str(entry) for entry in smallest_correction_set(known, both)]
     ['observed dark at 0.']
     """
     entries: list[Observation | Occurrence] = [*history.observations, *history.occurrences]
@@ -310,7 +310,7 @@ def entries_in_the_way(
 
 def unexplained(knowledge: Knowledge, history: History) -> str:
     """Say which entries of a history that nothing explains would have to be otherwise."""
-    wrong = entries_in_the_way(knowledge, history)
+    wrong = smallest_correction_set(knowledge, history)
     if wrong is None:
         return (
             f"{knowledge.file}: no state satisfies the axioms, whatever is observed; look for "

@@ -17,7 +17,7 @@ from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.planner.mutex import mutexes
 
 
-class Doubt:
+class PersistenceDoubt:
     """What may have changed unseen under a domain's knowledge: what exogenous actions change.
 
     Examples
@@ -26,7 +26,7 @@ class Doubt:
     >>> known = read_knowledge("#fluent basic open. #fluent basic lit. #action exogenous shut. "
     ...     "shut causes -open.")
     >>> state = State(frozenset({clingo.Function("open"), clingo.Function("lit")}))
-    >>> after = Doubt(known).applied(state, {clingo.Function("open"): 3}, before=4)
+    >>> after = PersistenceDoubt(known).applied(state, {clingo.Function("open"): 3}, before=4)
     >>> [str(fluent) for fluent in after.positive()], [str(fluent) for fluent in after.unknown]
     (['lit'], ['open'])
     """

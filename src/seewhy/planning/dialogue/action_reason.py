@@ -13,11 +13,11 @@ from seewhy.knowledge.dynamics import constraints, of_kind
 from seewhy.knowledge.ground import fluent_of, key_of
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis.belief_state import State
-from seewhy.planning.diagnosis.persistence_doubt import Doubt
+from seewhy.planning.diagnosis.persistence_doubt import PersistenceDoubt
 from seewhy.planning.dialogue.instances import Applied, Instances
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Decision, Run, Step
-from seewhy.planning.execution.plan_monitoring import follow, state_after
+from seewhy.planning.execution.plan_monitoring import reaches_goal, state_after
 from seewhy.planning.planner.planner import Plan, plan
 
 
@@ -164,7 +164,7 @@ class Intentions:
             if after is None:
                 return Failing(place, action, before, self.obstacles(action, before))
             before = after
-        if follow(knowledge, self.run.goal, actions, start=start):
+        if reaches_goal(knowledge, self.run.goal, actions, start=start):
             return None
         return Failing(len(actions), None, before)
 
@@ -206,7 +206,7 @@ class Intentions:
         for literal in step.sensed:
             symbol = clingo.parse_term(key_of(literal))
             seen[fluent_of(symbol)] = step.number
-        doubt = Doubt(self.domain.knowledge)
+        doubt = PersistenceDoubt(self.domain.knowledge)
         return doubt.applied(step.believed, seen, before=step.number)
 
     def _plan(self, start: State) -> Plan:

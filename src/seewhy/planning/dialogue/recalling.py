@@ -16,7 +16,7 @@ from seewhy.planning.dialogue.supposing import known_at
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Decision, Outcome, Run, Step, execute
 from seewhy.planning.goal import Goal
-from seewhy.planning.planner.goal_test import holds_in
+from seewhy.planning.planner.goal_test import goal_holds
 
 
 def recalled(domain: PlanningDomain, run: Run) -> Run:
@@ -111,5 +111,5 @@ def _as_intended(domain: PlanningDomain, run: Run, done: list[tuple[int, clingo.
         decision = Decision.PERSIST if place else Decision.PLAN
         steps.append(Step(number, sensed, found.now, new, decision, plan, action=action))
     now = diagnose(knowledge, history, sensors_err=domain.sensors_err).now
-    achieved = holds_in(knowledge, run.goal, now.holds)
+    achieved = goal_holds(knowledge, run.goal, now.holds)
     return replace(run, steps=steps, outcome=Outcome.ACHIEVED if achieved else None)

@@ -15,9 +15,9 @@ from seewhy.knowledge.ground import literal_of
 from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.sensing import Sensors
-from seewhy.planning.execution.world import Transitions, World
+from seewhy.planning.execution.transition_function import TransitionFunction, World
 from seewhy.planning.goal import Goal
-from seewhy.planning.planner.goal_test import holds_in
+from seewhy.planning.planner.goal_test import goal_holds
 
 if TYPE_CHECKING:
     from seewhy.planning.execution.sight import Look, Sight
@@ -80,7 +80,7 @@ class PlanningEnvironment:
         self.domain = domain
         self.goal = goal
         self.steps = steps
-        self.transitions = Transitions(domain.knowledge)
+        self.transitions = TransitionFunction(domain.knowledge)
         self.sensors = Sensors(domain.knowledge, domain.sensing)
         self.actions = self.transitions.actions
         self.fluents = sorted(self.transitions.fluents)
@@ -125,7 +125,7 @@ class PlanningEnvironment:
         self.state = following
         self.done += 1
         observation, misread = self._sense()
-        reached = self.goal is not None and holds_in(self.domain.knowledge, self.goal, self.state)
+        reached = self.goal is not None and goal_holds(self.domain.knowledge, self.goal, self.state)
         happening = Happening(chosen, fails, tuple(events), misread)
         return (
             observation,

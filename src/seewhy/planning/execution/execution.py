@@ -18,12 +18,12 @@ from seewhy.knowledge.ground import complement_of, fluent_of, literal_of
 from seewhy.knowledge.history import History
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.diagnosis.diagnosis import Surprise, diagnose
-from seewhy.planning.diagnosis.persistence_doubt import Doubt
+from seewhy.planning.diagnosis.persistence_doubt import PersistenceDoubt
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.execution.plan_monitoring import follow, suppositions
+from seewhy.planning.execution.plan_monitoring import reaches_goal, suppositions
 from seewhy.planning.execution.sensing import condition_to_sense
 from seewhy.planning.goal import Goal, read_goal
-from seewhy.planning.planner.goal_test import holds_in
+from seewhy.planning.planner.goal_test import goal_holds
 from seewhy.planning.planner.planner import Plan, PlanStatus, plan
 from seewhy.text.notebook import html_line, html_table
 
@@ -194,7 +194,7 @@ class _Robot:
         self.intended: tuple[clingo.Symbol, ...] = ()
         self.began = False
         self.doubted_before: int | None = None
-        self.doubt = Doubt(domain.knowledge)
+        self.doubt = PersistenceDoubt(domain.knowledge)
         self.planned_for = 0.0
 
     def decide(
@@ -211,7 +211,7 @@ class _Robot:
 
     def _choice(self, history: History, now: State) -> dict[str, Any]:
         knowledge, goal = self.domain.knowledge, self.goal
-        if holds_in(knowledge, goal, now.holds):
+        if goal_holds(knowledge, goal, now.holds):
             return {"decision": Decision.STOP, "plan": (), "skipped": self.intended}
         last_seen = _last_seen(history)
         start = now
@@ -220,7 +220,7 @@ class _Robot:
         # The shortest rest that will do: what stands before it became needless.
         for skipped in reversed(range(len(self.intended))):
             rest = self.intended[skipped:]
-            if follow(knowledge, goal, rest, start=start):
+            if reaches_goal(knowledge, goal, rest, start=start):
                 return {
                     "decision": Decision.SKIP if skipped else Decision.PERSIST,
                     "plan": rest,

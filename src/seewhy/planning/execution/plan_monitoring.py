@@ -16,7 +16,7 @@ from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.goal import REACHED, Goal, with_goal
 
 
-def follow(
+def reaches_goal(
     knowledge: Knowledge, goal: Goal, actions: Sequence[clingo.Symbol], *, start: State
 ) -> bool:
     """Whether the actions can be done one after the other from ``start``, and end in the goal.

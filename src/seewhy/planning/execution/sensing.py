@@ -14,7 +14,7 @@ from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import at_step, fixed_rules, rule
 from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge, read_axioms, read_literal
-from seewhy.planning.execution.world import World
+from seewhy.planning.execution.transition_function import World
 from seewhy.planning.goal import example_fluent
 
 _PLACE = re.compile(r"^sensing:\d+:\d+: ")

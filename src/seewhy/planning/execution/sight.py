@@ -16,7 +16,7 @@ from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import PlanningError
 from seewhy.planning.domain import FILE, PlanningDomain
 from seewhy.planning.execution.sensing import Sensors, condition_to_sense
-from seewhy.planning.execution.world import World
+from seewhy.planning.execution.transition_function import World
 
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent

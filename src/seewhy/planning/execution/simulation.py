@@ -13,9 +13,9 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.environment import Happening, PlanningEnvironment
 from seewhy.planning.execution.execution import Run, execute
-from seewhy.planning.execution.world import World
+from seewhy.planning.execution.transition_function import World
 from seewhy.planning.goal import Goal
-from seewhy.planning.planner.goal_test import holds_in
+from seewhy.planning.planner.goal_test import goal_holds
 
 if TYPE_CHECKING:
     from seewhy.planning.execution.sight import Look, Sight
@@ -114,7 +114,7 @@ def simulate(
     )
     for run in runs:
         steps = len(run.steps)
-        achieved = holds_in(truth.knowledge, goal, worlds[steps - 1])
+        achieved = goal_holds(truth.knowledge, goal, worlds[steps - 1])
         # The run goes on in place; what is given away stays as it is now.
         now = replace(run, steps=list(run.steps))
         yield Simulation(now, worlds[:steps], happenings[:steps], looks[:steps], achieved)

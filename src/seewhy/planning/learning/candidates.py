@@ -14,14 +14,14 @@ from seewhy.induction.scene_table import SceneTable, scene_table
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.planning.learning.features import YES, FluentFeatures
+from seewhy.planning.learning.learned_defaults import excluded, single
 from seewhy.planning.learning.preference import preferred
-from seewhy.planning.learning.usual import excluded, single
 
 _AS_OFTEN_WRONG = 0.05
 """What is usual is right more often than wrong: so unlikely is the opposite."""
 
 
-def usual_candidates(
+def default_candidates(
     features: FluentFeatures, table: SceneTable, decide: Decide, options: LearningOptions
 ) -> list[Candidate]:
     """Return the candidates by which a fluent usually holds, each one axiom.
@@ -41,7 +41,7 @@ def usual_candidates(
     >>> vectors = [features.vector(case.fluent) for case in cases] * 20
     >>> table = scene_table(features.values, vectors, ["yes", "yes", "no"] * 20)
     >>> decide = decide_by_candidates(features.values)
-    >>> usual = usual_candidates(features, table, decide, LearningOptions())
+    >>> usual = default_candidates(features, table, decide, LearningOptions())
     >>> [candidate.conditions for candidate in usual]
     [(PathCondition(feature='work_place(0, 1)', values=('yes',)),)]
     """

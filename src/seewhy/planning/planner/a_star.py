@@ -9,8 +9,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from seewhy.planning.planner.ground_problem import GroundProblem, Literals, Operator
-from seewhy.planning.planner.landmarks import LowerBound
-from seewhy.planning.planner.shortest_walks import FAR
+from seewhy.planning.planner.held_karp import FAR
+from seewhy.planning.planner.landmarks import LandmarkHeuristic
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,8 @@ class Move:
         return state & ~removes | adds
 
 
-class Closure:
-    """States with their defined fluents as they follow from the others."""
+class DerivedFluents:
+    """The defined fluents of states, worked out from the others."""
 
     def __init__(self, problem: GroundProblem) -> None:
         self.strata = [
@@ -84,7 +84,7 @@ class Closure:
         return state
 
 
-def search(
+def a_star(
     problem: GroundProblem,
     *,
     horizon: int,
@@ -102,10 +102,10 @@ def search(
 class _Search:
     def __init__(self, problem: GroundProblem) -> None:
         self.problem = problem
-        self.bounds = [LowerBound(problem, goal) for goal in problem.goals]
+        self.bounds = [LandmarkHeuristic(problem, goal) for goal in problem.goals]
         self.goals = [bits(goal) for goal in problem.goals]
         moves = [Move(number, operator) for number, operator in enumerate(problem.operators)]
-        self.closed = Closure(problem)
+        self.with_derived = DerivedFluents(problem)
         # Most operators ask for one value of the same group: only those of it are looked at.
         groups = [bits(group)[0] for group in problem.groups]
         self.group = max(
@@ -116,7 +116,7 @@ class _Search:
             self.moves.setdefault(move.true & self.group, []).append(move)
 
     def run(self, horizon: int, expansions: int, until: float | None) -> SearchResult:
-        begin = self.closed(bits(self.problem.start)[0])
+        begin = self.with_derived(bits(self.problem.start)[0])
         least = self._bound(begin)
         best = {begin: 0}
         came: dict[int, tuple[int, int]] = {}
@@ -139,7 +139,7 @@ class _Search:
                 return SearchResult(None, (), total, exhausted=False)
             left -= 1
             for move in self._possible(state):
-                after = self.closed(move.after(state))
+                after = self.with_derived(move.after(state))
                 if done + 1 < best.get(after, FAR):
                     best[after] = done + 1
                     came[after] = (state, move.number)

@@ -14,9 +14,10 @@ from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.goal import REACHED
 from seewhy.planning.planner.action_operators import ActionOperators
+from seewhy.planning.planner.axiom_conditions import asks_more
+from seewhy.planning.planner.axiom_instances import instances
 from seewhy.planning.planner.ground_problem import GroundProblem, Literals, is_consistent
 from seewhy.planning.planner.pruning import UnprunedProblem, pruned
-from seewhy.planning.planner.reachability import asks_more, instances
 from seewhy.planning.planner.unsayable import unsayable
 
 __all__ = ["ground_problem"]

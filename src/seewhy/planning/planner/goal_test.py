@@ -13,7 +13,7 @@ from seewhy.knowledge.language import Knowledge
 from seewhy.planning.goal import Goal, with_goal
 
 
-def holds_in(knowledge: Knowledge, goal: Goal, literals: Iterable[clingo.Symbol]) -> bool:
+def goal_holds(knowledge: Knowledge, goal: Goal, literals: Iterable[clingo.Symbol]) -> bool:
     """Whether the conditions of the goal hold where these literals do.
 
     Examples
@@ -21,7 +21,7 @@ def holds_in(knowledge: Knowledge, goal: Goal, literals: Iterable[clingo.Symbol]
     >>> from seewhy.knowledge.language import read_knowledge
     >>> from seewhy.planning.goal import read_goal
     >>> known = read_knowledge("#sort place = {a, b}. #fluent basic at(place).")
-    >>> holds_in(known, read_goal("at(L), L != a", known), [clingo.parse_term("at(b)")])
+    >>> goal_holds(known, read_goal("at(L), L != a", known), [clingo.parse_term("at(b)")])
     True
     """
     aimed = with_goal(knowledge, goal)

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from seewhy.planning.planner.ground_problem import GroundProblem, Literals
-from seewhy.planning.planner.shortest_walks import FAR, MOST_STOPS, Walks
+from seewhy.planning.planner.held_karp import FAR, MOST_STOPS, HeldKarpWalks
 
 
 @dataclass(frozen=True)
@@ -21,11 +21,11 @@ class _Tour:
     """A group of fluents of which one holds, with the walks past what landmarks need of it."""
 
     group: int  # as bits
-    walks: Walks
+    walks: HeldKarpWalks
     stops: dict[int, int]  # landmark -> the bit of its stop
 
 
-class LowerBound:
+class LandmarkHeuristic:
     """A lower bound for the number of actions from a state to a goal.
 
     Parameters
@@ -127,7 +127,7 @@ class LowerBound:
             tours.append(
                 _Tour(
                     group=sum(1 << value - 1 for value in group),
-                    walks=Walks(into, stops, ends[0] if ends else None),
+                    walks=HeldKarpWalks(into, stops, ends[0] if ends else None),
                     stops={fact: bits[value] for fact, value in wanted.items() if value in bits},
                 )
             )

@@ -1,4 +1,4 @@
-"""Search forwards from a start of which not all is known: what is unknown is as a plan needs it.
+"""Uniform-cost search from a start of which not all is known: that is as a plan needs it.
 
 A state says of every fluent that it is true, false, or still open. An action that asks for an open
 fluent settles it; so the states are as many as what plans ask about, and not as many as the worlds
@@ -13,9 +13,9 @@ import time
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from seewhy.planning.planner.a_star import Closure, Move, SearchResult, bits
+from seewhy.planning.planner.a_star import DerivedFluents, Move, SearchResult, bits
 from seewhy.planning.planner.ground_problem import GroundProblem
-from seewhy.planning.planner.shortest_walks import FAR
+from seewhy.planning.planner.held_karp import FAR
 
 
 class _Known(NamedTuple):
@@ -25,7 +25,7 @@ class _Known(NamedTuple):
     open: int
 
 
-def search_open(
+def search_with_unknowns(
     problem: GroundProblem,
     *,
     horizon: int,
@@ -35,7 +35,7 @@ def search_open(
     """Return a shortest plan with at most ``horizon`` actions, if there is one.
 
     Of plans that are as short, it is one that asks least often about what is open at first.
-    Gives up as :func:`seewhy.planning.planner.a_star.search` does.
+    Gives up as :func:`seewhy.planning.planner.a_star.a_star` does.
     """
     return _OpenSearch(problem).run(horizon, expansions, until)
 
@@ -48,7 +48,7 @@ class _OpenSearch:
         self.groups = [bits(group)[0] for group in problem.exclusive]
         self.open, _ = bits(problem.open)
         # What is defined follows from what is known alone.
-        self.closed = Closure(problem)
+        self.with_derived = DerivedFluents(problem)
 
     def run(self, horizon: int, expansions: int, until: float | None) -> SearchResult:
         begin = self._begin()
@@ -79,7 +79,7 @@ class _OpenSearch:
 
     def _begin(self) -> _Known:
         """The start, with what is only ever asked for in one way being that way."""
-        state = _Known(self.closed(bits(self.problem.start)[0]), self.open)
+        state = _Known(self.with_derived(bits(self.problem.start)[0]), self.open)
         wanted = denied = 0
         for true, false in (*self.goals, *((move.true, move.false) for move in self.moves)):
             wanted |= true
@@ -116,7 +116,7 @@ class _OpenSearch:
             before = self._assumed(state, move.true, move.false)
             if before is not None:
                 for settled in self._settled(before, move):
-                    after = self.closed(move.after(settled.true))
+                    after = self.with_derived(move.after(settled.true))
                     yield move, _Known(after, settled.open & ~self._changed(settled, move))
 
     def _settled(self, state: _Known, move: Move) -> Iterator[_Known]:
@@ -155,7 +155,7 @@ class _OpenSearch:
             assert known is not None
             for candidate in self._settled(known, move):
                 after = _Known(
-                    self.closed(move.after(candidate.true)),
+                    self.with_derived(move.after(candidate.true)),
                     candidate.open & ~self._changed(candidate, move),
                 )
                 if after == state:

@@ -16,13 +16,13 @@ from seewhy.agent.reading_weights import UNWEIGHTED
 from seewhy.agent.seeing import Pictures, Seeing, likeness
 from seewhy.domain.reading_rule import ReadingRule
 
-__all__ = ["PictureReading"]
+__all__ = ["PictureReader"]
 
 Probabilities = Mapping[str, NDArray[np.float64]]
 
 
 @dataclass(frozen=True)
-class PictureReading:
+class PictureReader:
     """Reads pictures in any of the ways that there are.
 
     Two are equal that read by the same parts: candidates that one has listed are the other's.

@@ -1,4 +1,4 @@
-"""The simulated world's own course: states that are complete, and the next one of each.
+"""The transition function of the simulated world: from a complete state to the next.
 
 The same axioms that the robot reasons with say what happens; the world knows everything.
 """
@@ -25,7 +25,7 @@ _FREE = """
 """
 
 
-class Transitions:
+class TransitionFunction:
     """The transition function of a domain's knowledge, grounded once.
 
     Examples
@@ -34,7 +34,7 @@ class Transitions:
     >>> known = read_knowledge('''
     ... #fluent basic lit. #action press. press causes lit. impossible press if lit.
     ... ''')
-    >>> transitions = Transitions(known)
+    >>> transitions = TransitionFunction(known)
     >>> dark = transitions.complete([])
     >>> press = clingo.Function("press")
     >>> [str(literal) for literal in transitions.after(dark, [press])]

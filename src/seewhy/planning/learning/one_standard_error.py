@@ -1,4 +1,4 @@
-"""How often what is usual may be otherwise: what the record itself suggests."""
+"""How often what is usual may be otherwise, by the one-standard-error rule of cross-validation."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from seewhy.induction.learning import LearningOptions, decide_by_candidates
 from seewhy.induction.scene_table import scene_table
 from seewhy.knowledge.reasoner import Decision
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.planning.learning.candidates import usual_candidates
+from seewhy.planning.learning.candidates import default_candidates
 from seewhy.planning.learning.cases import Case
 from seewhy.planning.learning.features import NO, YES, FluentFeatures
 
@@ -69,5 +69,5 @@ def _predictor(
         return by_all([candidate for candidate in some if candidate.label == YES], asked)
 
     table = scene_table(features.values, vectors, labels)
-    holding = usual_candidates(features, table, decide, options)
+    holding = default_candidates(features, table, decide, options)
     return lambda some: [decision.label or NO for decision in decide(holding, some)]

@@ -14,7 +14,7 @@ MOST_STOPS = 18
 """Of more stops, these many are counted: the table of walks doubles with every one."""
 
 
-class Walks:
+class HeldKarpWalks:
     """The lengths of shortest walks past any subset of given stops, from anywhere.
 
     Parameters
@@ -26,7 +26,7 @@ class Walks:
     Examples
     --------
     >>> line = {1: {2}, 2: {1, 3}, 3: {2, 4}, 4: {3}}
-    >>> walks = Walks(line, [1, 4], end=None)
+    >>> walks = HeldKarpWalks(line, [1, 4], end=None)
     >>> walks.length(2, stops=0b11), walks.length(2, stops=0b10)
     (4, 2)
     """

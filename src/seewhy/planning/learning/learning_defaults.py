@@ -23,14 +23,14 @@ from seewhy.knowledge.scene import FeatureVector
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.domain import PlanningDomain
-from seewhy.planning.learning.candidates import exceptions, usual_candidates
+from seewhy.planning.learning.candidates import default_candidates, exceptions
 from seewhy.planning.learning.cases import Case, cases_of
+from seewhy.planning.learning.default_sentence import default_sentence
 from seewhy.planning.learning.features import NO, YES, FluentFeatures, features_of
+from seewhy.planning.learning.learned_defaults import default_statement, single
+from seewhy.planning.learning.one_standard_error import suggested_tolerance
 from seewhy.planning.learning.preference import preferred
 from seewhy.planning.learning.relations import Facts
-from seewhy.planning.learning.tolerance import suggested_tolerance
-from seewhy.planning.learning.usual import single, usual_statement
-from seewhy.planning.learning.usual_sentence import usual_sentence
 from seewhy.planning.learning.validation import Rejected, at_first, check_explained, validated
 
 __all__ = ["THINGS", "LearnedFromRuns", "Rejected", "learn_from_runs"]
@@ -84,7 +84,7 @@ def learn_from_runs(
         The least share, of the observations that nothing explains, that an axiom speaks about.
     tolerance : float, optional
         How often what is usual may be otherwise; by default the record decides it, for every
-        fluent (:func:`~seewhy.planning.learning.tolerance.suggested_tolerance`).
+        fluent (:func:`~seewhy.planning.learning.one_standard_error.suggested_tolerance`).
     seed : int
 
     Notes
@@ -164,7 +164,7 @@ def _learned(
     vectors = [features.vector(case.fluent) for case in cases]
     labels = [YES if case.holds else NO for case in cases]
     table = scene_table(features.values, vectors, labels)
-    usual = usual_candidates(features, table, _by_diagnosis(domain, features, cases), options)
+    usual = default_candidates(features, table, _by_diagnosis(domain, features, cases), options)
     denied = dict.fromkeys(
         exception for candidate in usual for exception in exceptions(candidate, features, table)
     )
@@ -174,8 +174,8 @@ def _learned(
 def _axiom(
     candidate: Candidate, features: FluentFeatures, domain: PlanningDomain, table: SceneTable
 ) -> Axiom:
-    said = usual_sentence(candidate, features, domain.words)
-    text = f"%% {said}\n{usual_statement(candidate, features)}"
+    said = default_sentence(candidate, features, domain.words)
+    text = f"%% {said}\n{default_statement(candidate, features)}"
     (axiom,) = read_axioms(text, domain.knowledge.signature)
     spoken = tally(candidate, table)
     return replace(
@@ -204,7 +204,7 @@ def _by_diagnosis(
         if holding not in remembered:
             same = [preferred(candidate, features, table) for candidate in holding]
             text = "\n".join(
-                usual_statement(part, features)
+                default_statement(part, features)
                 for candidate in same
                 for part in single(candidate, features)
             )

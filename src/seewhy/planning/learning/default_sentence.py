@@ -7,19 +7,19 @@ from collections.abc import Mapping
 
 from seewhy.induction.candidate import Candidate
 from seewhy.planning.learning.features import YES, FluentFeatures
-from seewhy.planning.learning.usual import narrowest_sorts, things_left_out, things_named
+from seewhy.planning.learning.learned_defaults import narrowest_sorts, things_left_out, things_named
 from seewhy.planning.tables import FluentTable
 from seewhy.planning.words import PlanningWords, in_sequence
 
-__all__ = ["usual_sentence"]
+__all__ = ["default_sentence"]
 
 _ARTICLE_AND_SLOT = re.compile(r"(?:\b(?:an?|the) )?\{(\d+)\}")
 
 
-def usual_sentence(candidate: Candidate, features: FluentFeatures, words: PlanningWords) -> str:
+def default_sentence(candidate: Candidate, features: FluentFeatures, words: PlanningWords) -> str:
     """Return what is usually so as "if a person works in a place, then usually …".
 
-    ``candidate`` is one of :func:`seewhy.planning.learning.usual.single`.
+    ``candidate`` is one of :func:`seewhy.planning.learning.learned_defaults.single`.
 
     Examples
     --------
@@ -35,7 +35,7 @@ def usual_sentence(candidate: Candidate, features: FluentFeatures, words: Planni
     >>> features = features_of(office.knowledge.signature, Facts(office.knowledge), cases)
     >>> at_work = PathCondition("work_place(0, 1)", ("yes",))
     >>> not_bob = PathCondition("argument 0", ("sally", "sarah"))
-    >>> usual_sentence(Candidate("yes", (at_work, not_bob)), features, office.words)
+    >>> default_sentence(Candidate("yes", (at_work, not_bob)), features, office.words)
     'if a person other than Bob works in a place, then usually the person is in the place'
     """
     things = _Things(candidate, features, words)

@@ -11,12 +11,12 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.planning.learning.features import NO, YES, FluentFeatures
 
 __all__ = [
+    "default_statement",
     "excluded",
     "narrowest_sorts",
     "single",
     "things_left_out",
     "things_named",
-    "usual_statement",
 ]
 
 _SPARE = "XYZUVW"
@@ -65,7 +65,7 @@ def things_left_out(condition: PathCondition, features: FluentFeatures) -> list[
     return [v for v in features.values[condition.feature] if v not in condition.values]
 
 
-def usual_statement(candidate: Candidate, features: FluentFeatures) -> str:
+def default_statement(candidate: Candidate, features: FluentFeatures) -> str:
     """Return the axiom that says what one of :func:`single` says.
 
     Examples
@@ -81,10 +81,10 @@ def usual_statement(candidate: Candidate, features: FluentFeatures) -> str:
     >>> features = features_of(office.signature, Facts(office), cases)
     >>> at_work = PathCondition("work_place(0, 1)", ("yes",))
     >>> not_bob = PathCondition("argument 0", ("sally", "sarah"))
-    >>> usual_statement(Candidate("yes", (at_work, not_bob)), features)
+    >>> default_statement(Candidate("yes", (at_work, not_bob)), features)
     'loc(P, L) if work_place(P, L), P != bob, not -loc(P, L).'
     >>> bob = PathCondition("argument 0", ("bob",))
-    >>> usual_statement(Candidate("no", (at_work, bob)), features)
+    >>> default_statement(Candidate("no", (at_work, bob)), features)
     '-loc(bob, P) if work_place(bob, P), not loc(bob, P).'
     """
     terms = _terms(candidate, features)
