@@ -64,8 +64,8 @@ def _check_argument(
             )
     elif argument.ast_type in (ast.ASTType.SymbolicTerm, ast.ASTType.Function):
         value = str(argument)
-        if sort.members is None or sort.found:
-            what, variable = ("a", "T") if sort.found else ("the", "S")
+        if sort.members is None or sort.of_things:
+            what, variable = ("a", "T") if sort.of_things else ("the", "S")
             raise KnowledgeError(
                 f"{here}: '{predicate}' takes {what} {sort.name} of the picture here, got "
                 f"'{value}'; use a variable such as {variable}"

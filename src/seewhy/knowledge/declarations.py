@@ -111,7 +111,7 @@ def _read_sort(statement: Statement, sorts: Mapping[str, Sort]) -> Sort:
     members: tuple[str, ...] | None = None
     if definition == _THINGS and _THINGS not in sorts:
         _refuse_second_found(name, statement, sorts)
-        return Sort(name=name, members=None, location=statement.location, found=True)
+        return Sort(name=name, members=None, location=statement.location, of_things=True)
     if definition:
         span = _RANGE.match(definition)
         if span:
@@ -139,7 +139,7 @@ def _read_sort(statement: Statement, sorts: Mapping[str, Sort]) -> Sort:
 
 
 def _refuse_second_found(name: str, statement: Statement, sorts: Mapping[str, Sort]) -> None:
-    first = next((sort for sort in sorts.values() if sort.found), None)
+    first = next((sort for sort in sorts.values() if sort.of_things), None)
     if first is not None:
         raise KnowledgeError(
             f"{statement.location}: '{name}' is a second sort of things (the first, "
@@ -192,7 +192,7 @@ def _read_union(
         if sorts[part].members is None:
             raise KnowledgeError(
                 f"{statement.location}: sort '{name}' is made of '{part}', which stands for "
-                f"{'what is found in ' if sorts[part].found else ''}the picture; give it sorts "
+                f"{'what is found in ' if sorts[part].of_things else ''}the picture; give it sorts "
                 "with members"
             )
         members.update(dict.fromkeys(sorts[part].members or ()))

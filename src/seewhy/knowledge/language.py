@@ -69,7 +69,7 @@ class Knowledge:
         ('block1', 'block2')
         """
         sorts = self.signature.sorts
-        found = self.signature.found_sort
+        found = self.signature.sort_of_things
         if found is None:
             raise KnowledgeError(
                 f"{self.file}: no sort is that of the things in a picture; declare one as "

@@ -50,7 +50,7 @@ class Sort:
     """A named set of terms.
 
     ``members`` is None for the sort that stands for the scene itself: its only member is the
-    picture at hand. ``found`` says that the members are things that may be found in a picture or
+    picture at hand. ``of_things`` says that the members are things that may be found in a picture or
     not, so that being one of them is itself something to believe; how many there may be is said
     by the domain, and until then they are None, too.
     """
@@ -58,7 +58,7 @@ class Sort:
     name: str
     members: tuple[str, ...] | None
     location: Location
-    found: bool = False
+    of_things: bool = False
 
 
 @dataclass(frozen=True)
@@ -95,13 +95,13 @@ class Signature:
         return self.kind(predicate) is not PredicateKind.STATIC
 
     @property
-    def found_sort(self) -> Sort | None:
+    def sort_of_things(self) -> Sort | None:
         """The sort of the things that are found in pictures, if there is one."""
-        return next((sort for sort in self.sorts.values() if sort.found), None)
+        return next((sort for sort in self.sorts.values() if sort.of_things), None)
 
     def is_given(self, name: str) -> bool:
         """Whether a name is that of a sort whose members are the same in every picture."""
-        return name in self.sorts and not self.sorts[name].found
+        return name in self.sorts and not self.sorts[name].of_things
 
     @property
     def given_sorts(self) -> frozenset[str]:

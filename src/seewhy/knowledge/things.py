@@ -91,7 +91,7 @@ def schema_with_things(
     >>> list(schema_with_things(schema, known.with_things(2).signature, {"on": 1}).features)
     ['thing(thing1)', 'thing(thing2)', 'on(thing1,thing2)', 'on(thing2,thing1)']
     """
-    found = signature.found_sort
+    found = signature.sort_of_things
     assert found is not None and found.members is not None, "the things are not counted"
     presence = {thing: of_things(found.name, thing) for thing in found.members}
     features: dict[str, Mapping[str, Literal]] = {
