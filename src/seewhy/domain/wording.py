@@ -36,11 +36,11 @@ def say_literal(domain: Domain, literal: Literal) -> str:
             return f"{domain.subject} is {scene_class.say}"
     feature = domain.features.get(literal.predicate)
     if feature is not None:
-        for value, own_literal in feature.literals.items():
-            if own_literal == literal:
+        for value, known in feature.literals.items():
+            if known == literal:
                 return feature.say[value].replace("{it}", domain.subject)
-        for value, own_literal in feature.literals.items():
-            if own_literal == literal.complement:
+        for value, known in feature.literals.items():
+            if known == literal.complement:
                 return f"it is not so that {feature.say[value].replace('{it}', domain.subject)}"
     belief = domain.beliefs.get(literal.predicate)
     if belief is not None and literal.arguments[0] == domain.scene:
