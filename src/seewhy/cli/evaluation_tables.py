@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from seewhy.cli.screen import add_row, output, percent, say, share_of_cases, table
+from seewhy.cli.screen import add_row, output, say, share_of_cases, table
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.evaluation import Evaluation
