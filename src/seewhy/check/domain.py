@@ -153,13 +153,13 @@ def _said_odd(loop: Sequence[Axiom]) -> str:
     return f"{loop[0].location}: {say_odd_loop(loop)}"
 
 
-def feature_vectors(domain: Domain, *, most: int = MOST_VECTORS) -> list[FeatureVector]:
-    """Return all feature vectors of a domain, or a sample where there are more than ``most``."""
+def feature_vectors(domain: Domain) -> list[FeatureVector]:
+    """Return all feature vectors of a domain, or a sample where there are too many."""
     values = [feature.values for feature in domain.features.values()]
-    if prod(map(len, values)) <= most:
+    if prod(map(len, values)) <= MOST_VECTORS:
         return [tuple(vector) for vector in product(*values)]
     generator = np.random.default_rng(0)
     return [
         tuple(possible[int(generator.integers(len(possible)))] for possible in values)
-        for _ in range(most)
+        for _ in range(MOST_VECTORS)
     ]

@@ -134,7 +134,7 @@ def draw_together(clauses: Sequence[str]) -> list[str]:
     ]
 
 
-def join_clauses(clauses: Sequence[str], *, subject: str, word: str = "and") -> str:
+def join_clauses(clauses: Sequence[str], *, subject: str) -> str:
     """Join clauses, naming the subject in the first clause that has one and then saying "it".
 
     Examples
@@ -149,9 +149,7 @@ def join_clauses(clauses: Sequence[str], *, subject: str, word: str = "and") -> 
         if first:
             clause = clause.replace("{it}", subject, 1)
         named.append(_PART_OF_IT.sub(r"its \1 ", clause).replace("{it}", "it"))
-    if len(named) > 1 and word == "and":
-        return f"{', '.join(named[:-1])}, and {named[-1]}"
-    return join_words(named, word=word)
+    return f"{', '.join(named[:-1])}, and {named[-1]}" if len(named) > 1 else "".join(named)
 
 
 def join_words(words: Sequence[str], *, word: str = "and") -> str:

@@ -123,7 +123,7 @@ def box(
     )
 
 
-def ball(size: Point, at: Point, colour: Colour, *, gloss: float = 0.0) -> Solid:
+def ball(size: Point, at: Point, colour: Colour) -> Solid:
     """An ellipsoid of the given width, depth and height with its middle at `at`."""
     width, depth, height = size
     return Solid(
@@ -131,7 +131,6 @@ def ball(size: Point, at: Point, colour: Colour, *, gloss: float = 0.0) -> Solid
         size=(width / 2.0, depth / 2.0, height / 2.0),
         at=at,
         colour=colour,
-        gloss=gloss,
     )
 
 
