@@ -93,6 +93,8 @@ BAD = {
     "data show data --domain structure_stability": "data/scenes.csv:1: 'colour' is no feature of "
     "the domain 'structure_stability'",
     "frobnicate": "no such command 'frobnicate'; 'seewhy --help' says what there is",
+    "clasify model": "no such command 'clasify'; did you mean 'classify'? ('seewhy --help' says "
+    "what there is)",
     "ask": "missing argument 'MODEL'; 'seewhy ask --help' says what there is",
     "ask model tile.png 'is it good?' --jsn": "no such option: --jsn",
     "train tiles --data data": "missing option '--out'; 'seewhy train --help' says what there is",

@@ -18,17 +18,26 @@ KNOWN = ("incomplete", "learned", "explained", "full")
 QUESTIONS = ("answers", "answers_strict", "explanations_strict", "explanations_sufficient")
 
 TABLES: list[tuple[str, str, str, list[tuple[str, str]]]] = [
-    ("docs/results.md", "### Structures", "structures/vqa",
-     [*(("accuracy", system) for system in CLASSIFY),
-      *((key, system) for key in QUESTIONS for system in ASKED)]),
+    *(("docs/results.md", f"#### {heading}{domain}{read}\n", experiment,
+       [(key, system) for key in keys for system in systems])
+      for domain, read, experiment in (
+          ("structures", "", "structures/vqa"),
+          ("signs", "", "signs/vqa-with_class"),
+          ("signs", ", read as the domain says", "signs/vqa"))
+      for heading, keys, systems in (
+          ("Classes of ", ("accuracy",), CLASSIFY),
+          ("Answers about ", QUESTIONS[:2], ASKED),
+          ("Explanatory answers about ", QUESTIONS[2:], ASKED))),
+    *(("docs/results.md", f"#### {heading}\n", f"{domain}/axioms",
+       [(key, system) for key in keys for system in KNOWN])
+      for domain in ("structures", "signs")
+      for heading, keys in (
+          (f"Classes of {domain}, axioms learned again", ("accuracy",)),
+          (f"Answers about {domain}, axioms learned again", QUESTIONS[:2]),
+          (f"Explanatory answers about {domain}, axioms learned again", QUESTIONS[2:]),
+          (f"What the knowledge of {domain} decides", ("by_knowledge", "agreement")))),
     ("docs/results.md", "**How the classes came", "structures/reading",
      [("accuracy", system) for system in READ]),
-    ("docs/results.md", "### Traffic signs", "signs/vqa-with_class",
-     [*(("accuracy", system) for system in CLASSIFY),
-      *((key, system) for key in QUESTIONS for system in ASKED)]),
-    ("docs/results.md", "**As the domain says, H1", "signs/vqa",
-     [*(("accuracy", system) for system in CLASSIFY),
-      *((key, system) for key in QUESTIONS for system in ASKED)]),
     ("docs/results.md", "The ways of reading side by side", "signs/reading",
      [("accuracy", system) for system in READ]),
     ("docs/results.md", "## What each coupling", "structures/ablation",
@@ -37,12 +46,6 @@ TABLES: list[tuple[str, str, str, list[tuple[str, str]]]] = [
     ("docs/results.md", "**A gate of confidence", "structures/confidence",
      [(key, system) for key in ("accuracy", "answers")
       for system in ("no_gate", "gate_50", "gate_70", "gate_90")]),
-    ("docs/results.md", "## Axioms learned again", "structures/axioms",
-     [(key, system) for key in ("accuracy", *QUESTIONS, "by_knowledge", "agreement")
-      for system in KNOWN]),
-    ("docs/results.md", "### Signs, a quarter", "signs/axioms",
-     [(key, system) for key in ("accuracy", *QUESTIONS, "by_knowledge", "agreement")
-      for system in KNOWN]),
     ("README.md", "## The paper's claims", "structures/vqa",
      [("accuracy", "seewhy"), ("accuracy", "end_to_end"), ("accuracy", "frozen"),
       ("answers", "believing"), ("answers", "end_to_end")]),

@@ -30,6 +30,7 @@ from seewhy.cli import (
     reference,
     serve,
     simulate,
+    studio,
     trace,
     train,
 )
@@ -86,6 +87,7 @@ app.command("chat")(chat.chat)
 app.command("decide")(decide.decide)
 app.command("classify")(classify.classify)
 app.command("serve")(serve.serve)
+app.command("studio")(studio.studio)
 app.command("trace")(trace.trace)
 app.command("new")(new.new)
 app.command("check")(check.check)
@@ -164,7 +166,9 @@ def _complain_of_usage(problem: Any) -> None:
     if type(problem).__name__ == "NoArgsIsHelpError":
         return  # the help is on the screen
     command = context.command_path if context is not None else "seewhy"
-    complain(f"{text[:1].lower()}{text[1:]}; '{command} --help' says what there is")
+    text = f"{text[:1].lower()}{text[1:]}".replace(". Did you mean", "; did you mean")
+    where = f"'{command} --help' says what there is"
+    complain(f"{text} ({where})" if text.endswith("?") else f"{text}; {where}")
 
 
 if __name__ == "__main__":

@@ -26,16 +26,13 @@ def check_atom(
     here = statement.place(begin.line, begin.column)
     if symbol.ast_type is not ast.ASTType.Function:
         raise KnowledgeError(f"{here}: '{symbol}' is no literal; write predicate(argument, …)")
-    if symbol.name in signature.sorts:
-        sorts: tuple[str, ...] = (symbol.name,)
-    elif symbol.name in signature.predicates:
-        sorts = signature.predicates[symbol.name].sorts
-    else:
+    if symbol.name not in signature.sorts and symbol.name not in signature.predicates:
         names = [*signature.predicates, *signature.sorts]
         known = [name for name in names if not name.endswith("__")]
         raise KnowledgeError(
             f"{here}: '{symbol.name}' is not declared; {did_you_mean(symbol.name, known)}"
         )
+    sorts = signature.argument_sorts(symbol.name)
     if len(symbol.arguments) != len(sorts):
         shown = f" ({', '.join(sorts)})" if sorts else ""
         raise KnowledgeError(
@@ -67,10 +64,11 @@ def _check_argument(
             )
     elif argument.ast_type in (ast.ASTType.SymbolicTerm, ast.ASTType.Function):
         value = str(argument)
-        if sort.members is None:
+        if sort.members is None or sort.of_things:
+            what, variable = ("a", "T") if sort.of_things else ("the", "S")
             raise KnowledgeError(
-                f"{here}: '{predicate}' takes the {sort.name} of the picture here, got "
-                f"'{value}'; use a variable such as S"
+                f"{here}: '{predicate}' takes {what} {sort.name} of the picture here, got "
+                f"'{value}'; use a variable such as {variable}"
             )
         if value not in sort.members:
             raise KnowledgeError(

@@ -78,6 +78,8 @@ class BoundedControl:
         Options for clingo.
     parts : sequence of (str, list of clingo.Symbol)
         What is grounded at first.
+    observer : clingo.Observer, optional
+        Is told the ground program, which is not solved then.
 
     Raises
     ------
@@ -98,12 +100,15 @@ class BoundedControl:
         size: GroundingSize,
         arguments: Sequence[str] = (),
         parts: Sequence[tuple[str, Sequence[clingo.Symbol]]] = (("base", ()),),
+        observer: clingo.Observer | None = None,
     ) -> None:
         self.size = size
         self.lock = threading.RLock()
         self._abandoned: threading.Thread | None = None
         self._conflicts = ""
         self._control = clingo.Control(["--warn=none", *arguments], logger=lambda *_: None)
+        if observer is not None:
+            self._control.register_observer(observer, replace=True)
         self._control.add("base", [], program)
         if size.instances > SMALL:
             _try_out(program, arguments, parts, size)

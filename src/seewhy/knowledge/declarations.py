@@ -26,6 +26,9 @@ _KINDS = {
     "#action exogenous": PredicateKind.EXOGENOUS_ACTION,
     "#action": PredicateKind.ACTION,
 }
+_THINGS = "things"
+"""What a sort is made of whose members are found in the picture."""
+
 _DIRECTIVES = ("#sort", "#static", "#fluent", "#action")
 _MOST_MEMBERS = 10_000
 _WORDS = ("not", "if", "causes")
@@ -101,10 +104,14 @@ def _read_sort(statement: Statement, sorts: Mapping[str, Sort]) -> Sort:
     if match is None:
         raise KnowledgeError(
             f"{statement.location}: a sort is declared as '#sort name.', '#sort name = 1..5.', "
-            f"'#sort name = {{a, b}}.' or '#sort name = sort + sort.', got '{statement.line}'"
+            f"'#sort name = {{a, b}}.', '#sort name = sort + sort.' or, of what is found in the "
+            f"picture, '#sort name = things.', got '{statement.line}'"
         )
     name, definition = match.group(1), (match.group(2) or "").strip()
     members: tuple[str, ...] | None = None
+    if definition == _THINGS and _THINGS not in sorts:
+        _refuse_second_found(name, statement, sorts)
+        return Sort(name=name, members=None, location=statement.location, of_things=True)
     if definition:
         span = _RANGE.match(definition)
         if span:
@@ -129,6 +136,16 @@ def _read_sort(statement: Statement, sorts: Mapping[str, Sort]) -> Sort:
                 f"{statement.location}: sort '{name}' lists '{twice}' twice; remove one of them"
             )
     return Sort(name=name, members=members, location=statement.location)
+
+
+def _refuse_second_found(name: str, statement: Statement, sorts: Mapping[str, Sort]) -> None:
+    first = next((sort for sort in sorts.values() if sort.of_things), None)
+    if first is not None:
+        raise KnowledgeError(
+            f"{statement.location}: '{name}' is a second sort of things (the first, "
+            f"'{first.name}', is at {first.location}); let all things be of one sort, and what "
+            "kind of thing each is be a static of it"
+        )
 
 
 def _read_range(first: str, last: str, name: str, statement: Statement) -> tuple[str, ...]:
@@ -174,8 +191,9 @@ def _read_union(
             )
         if sorts[part].members is None:
             raise KnowledgeError(
-                f"{statement.location}: sort '{name}' is made of '{part}', which stands for the "
-                "picture; give it sorts with members"
+                f"{statement.location}: sort '{name}' is made of '{part}', which stands for "
+                f"{'what is found in ' if sorts[part].of_things else ''}the picture; give it sorts "
+                "with members"
             )
         members.update(dict.fromkeys(sorts[part].members or ()))
     return tuple(members)

@@ -53,13 +53,13 @@ class Grounding:
         self._control = BoundedControl(program, size=size, arguments=arguments)
         self._search: Search | None = None
         self._predicates: dict[tuple[str, int], dict[clingo.Symbol, int]] = {}
-        self._observed = tuple(
-            {
+        self._observed = {
+            feature: {
                 value: self._needed(f"observed({feature}, {UNKNOWN if value is None else value})")
                 for value in (None, *literals)
             }
             for feature, literals in schema.features.items()
-        )
+        }
         self.strict = self._needed("strict")
         self.classes = tuple(
             (name, number)
@@ -69,7 +69,7 @@ class Grounding:
 
     def observed(self, feature: str, value: str | None) -> int:
         """Return the solver literal that says what value of a feature was seen."""
-        return self._observed[list(self.schema.features).index(feature)][value]
+        return self._observed[feature][value]
 
     def literal(self, atom: str) -> int | None:
         """Return the solver literal of an atom; None where it can never hold."""
@@ -91,7 +91,8 @@ class Grounding:
             If the vector does not fit the features of the schema.
         """
         try:
-            return [table[value] for table, value in zip(self._observed, vector, strict=True)]
+            tables = self._observed.values()
+            return [table[value] for table, value in zip(tables, vector, strict=True)]
         except (KeyError, ValueError):
             names = ", ".join(self.schema.features)
             raise ValueError(

@@ -131,8 +131,7 @@ def axiom_instances(axiom: Axiom, signature: Signature) -> int:
     ]
     for text in filter(None, texts):
         for name, arguments in _atoms(text):
-            sorts = (name,) if name in signature.sorts else signature.predicates[name].sorts
-            for argument, sort in zip(arguments, sorts, strict=True):
+            for argument, sort in zip(arguments, signature.argument_sorts(name), strict=True):
                 for variable in variables_in(argument):
                     members = _members(sort, signature)
                     domains[variable] = min(members, domains.get(variable, members))

@@ -52,6 +52,40 @@ class Knowledge:
             self, axioms=tuple(axiom for axiom in self.axioms if not changes(axiom.head.predicate))
         )
 
+    def with_things(self, most: int) -> Knowledge:
+        """Return the knowledge of pictures with at most so many things.
+
+        The things are named after their sort: ``block1``, ``block2`` and so on.
+
+        Raises
+        ------
+        KnowledgeError
+            If there is no sort of things, or something else has the name of one.
+
+        Examples
+        --------
+        >>> known = read_knowledge("#sort block = things. #static large(block).")
+        >>> known.with_things(2).signature.members("block")
+        ('block1', 'block2')
+        """
+        sorts = self.signature.sorts
+        found = self.signature.sort_of_things
+        if found is None:
+            raise KnowledgeError(
+                f"{self.file}: no sort is that of the things in a picture; declare one as "
+                "'#sort thing = things.'"
+            )
+        names = tuple(f"{found.name}{number}" for number in range(1, most + 1))
+        for sort in sorts.values():
+            taken = {sort.name, *(sort.members or ())}.intersection(names)
+            if taken and sort.name != found.name:
+                raise KnowledgeError(
+                    f"{sort.location}: '{min(taken)}' is how a thing of the picture is called; "
+                    "call it otherwise"
+                )
+        counted = {**sorts, found.name: replace(found, members=names)}
+        return replace(self, signature=replace(self.signature, sorts=counted))
+
     def without_sort(self, sort: str) -> Knowledge:
         """What is left without a sort, the predicates of it, and the axioms about these.
 

@@ -166,12 +166,12 @@ class PossibleInstances:
         """What one condition asks for; None where it speaks of no literal."""
         literal = condition.literal
         if literal is not None:
-            if literal.predicate in self.signature.sorts:
+            if self.signature.is_given(literal.predicate):
                 return None
             literal = literal.substitute(binding)
             if all(map(_CONSTANT.fullmatch, literal.arguments)) or _is_one(literal):
                 return Belief(key_of(literal), not condition.absent)
-        elif not predicates_in(condition.text) - set(self.signature.sorts):
+        elif not predicates_in(condition.text) - self.signature.given_sorts:
             return None
         text = substitute(condition.text, binding)
         if text not in self._joint:

@@ -77,7 +77,7 @@ def held(condition: str, signature: Signature) -> str:
     >>> held("not -p(X)", Signature())
     'not holds(-p(X))'
     """
-    return _held(condition, frozenset(signature.sorts))
+    return _held(condition, signature.given_sorts)
 
 
 @lru_cache(maxsize=4096)
@@ -139,6 +139,9 @@ def _observations(schema: SceneSchema) -> Iterator[str]:
             for value, literal in literals.items():
                 # One rule a value: as many as there are pairs would be too many of hundreds.
                 yield f"holds({literal.complement}) :- {unseen}, not observed({feature}, {value})."
+    for feature, presences in schema.requires.items():
+        for presence in presences:
+            yield f":- not observed({presence}, yes), not observed({feature}, {UNKNOWN})."
 
 
 def axiom_rules(

@@ -11,7 +11,7 @@ from typing import Literal as OneOf
 import clingo
 
 from seewhy.knowledge.axiom import Axiom, AxiomKind
-from seewhy.knowledge.batch import SCENES, Batch, speaks_of_one_scene
+from seewhy.knowledge.batch import SCENES, Batch
 from seewhy.knowledge.grounding import Grounding, Search
 from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
 from seewhy.knowledge.language import Knowledge
@@ -22,7 +22,7 @@ from seewhy.knowledge.scene import FeatureVector, SceneSchema
 from seewhy.knowledge.sufficient import SufficientFeatures
 
 Minimality = OneOf["cardinality", "inclusion"]
-_WORTH_A_BATCH = 32  # new scenes for which grounding several copies pays
+_WORTH_A_BATCH = 32  # new scenes for which it pays to sort the ground rules into layers
 _REMEMBERED = 2_000  # scenes whose whole answer sets are kept; classes are all kept
 _MOST_ANSWER_SETS = 16
 
@@ -175,27 +175,27 @@ class Reasoner:
         """Classify many scenes; equal feature vectors are solved once."""
         # In the order given, so that nothing depends on how strings hash.
         new = [vector for vector in dict.fromkeys(vectors) if vector not in self._decisions]
-        if len(new) >= _WORTH_A_BATCH and self._batch is not None:
-            self._decide_in_batches(new, self._batch)
+        if len(new) >= _WORTH_A_BATCH:
+            self._decide_in_batches(new)
         return [self.decide(vector) for vector in vectors]
 
     @cached_property
-    def _batch(self) -> Batch | None:
-        if speaks_of_one_scene(self.knowledge, self.schema):
-            return Batch(self.knowledge, self.schema)
-        return None
+    def _batch(self) -> Batch:
+        return Batch(self.knowledge, self.schema)
 
-    def _decide_in_batches(self, vectors: Sequence[FeatureVector], batch: Batch) -> None:
+    def _decide_in_batches(self, vectors: Sequence[FeatureVector]) -> None:
         """Decide what a batch can decide; the rest is left for :meth:`_decide`."""
         for start in range(0, len(vectors), SCENES):
             chunk = vectors[start : start + SCENES]
             try:
-                outcomes = batch.outcomes(chunk)
+                outcomes = self._batch.outcomes(chunk)
             except (KeyError, ValueError):
                 continue  # a vector does not fit; solving it alone says so
-            for vector, believed in zip(chunk, outcomes or (), strict=False):
-                if believed is not None:
-                    self._decisions[vector] = _decision(believed)
+            for vector, outcome in zip(chunk, outcomes, strict=True):
+                if outcome is None:
+                    continue
+                if not outcome.contradictory:
+                    self._decisions[vector] = _decision(outcome.classes)
                 elif not self._has_defaults:
                     self._decisions[vector] = Decision(None, Verdict.CONTRADICTION)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 from seewhy.knowledge.axiom import Literal
 
@@ -21,23 +22,55 @@ class SceneSchema:
         The sort that stands for the picture; also the term that names the picture.
     features : mapping
         Feature name → value → the literal that is believed when that value is seen. The other
-        values of the feature are then believed false.
+        values of the feature are then believed false. What is seen of a thing is a feature, too,
+        ``colour(thing1)`` for instance, and so is whether it is there.
     classes : mapping
         Class name → the literal that stands for it.
     change_costs : mapping
         Feature name → what it costs to change it (1 where left out).
+    requires : mapping
+        Feature name → the features that say whether the things are there that it is of. Where one
+        of them is not there, its value is unknown. Left out for what is of the picture as a whole.
+    presence : mapping
+        Thing → the feature that says whether it is there, in the order in which things are found.
     """
 
     scene: str
     features: Mapping[str, Mapping[str, Literal]]
     classes: Mapping[str, Literal]
     change_costs: Mapping[str, int]
+    requires: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    presence: Mapping[str, str] = field(default_factory=dict)
+
+    def vector(self, values: Mapping[str, str | None]) -> FeatureVector:
+        """Return the vector of named values: what is left out is unknown, or a thing not there."""
+        return tuple(
+            [values.get(feature, self._left_out.get(feature)) for feature in self.features]
+        )
+
+    @cached_property
+    def _left_out(self) -> dict[str, str]:
+        return dict.fromkeys(self.presence.values(), "no")
 
     def feature_of(self, literal: Literal) -> str | None:
         """Return the feature that a literal speaks about, affirmed or denied."""
-        if literal.predicate in self.features and self.scene in literal.arguments[:1]:
-            return literal.predicate
-        return None
+        lengths = self._subjects.get(literal.predicate)
+        if lengths is None:
+            return None
+        length, by_subject = lengths
+        return by_subject.get(literal.arguments[:length])
+
+    @cached_property
+    def _subjects(self) -> dict[str, tuple[int, dict[tuple[str, ...], str]]]:
+        """Predicate → how many arguments are its subject, and subject → the feature."""
+        found: dict[str, tuple[int, dict[tuple[str, ...], str]]] = {}
+        for feature, literals in self.features.items():
+            first = next(iter(literals.values()))
+            # What denies another value has the same arguments; other values have another last one.
+            length = len(first.arguments) - all(literal.positive for literal in literals.values())
+            _, by_subject = found.setdefault(first.predicate, (length, {}))
+            by_subject[first.arguments[:length]] = feature
+        return found
 
     def class_of(self, literal: Literal) -> str | None:
         """Return the class that a literal stands for, if any."""

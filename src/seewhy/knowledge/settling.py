@@ -72,7 +72,7 @@ class JointCondition:
     @cached_property
     def _control(self) -> BoundedControl:
         signs = {}
-        for name in sorted(predicates_in(self.text) - set(self.signature.sorts)):
+        for name in sorted(predicates_in(self.text) - self.signature.given_sorts):
             for symbol in self._possible.get(name, ()):
                 signs[str(symbol)] = symbol
         lines = list(sort_facts(self.signature, self.schema, scenes=(self.schema.scene,)))

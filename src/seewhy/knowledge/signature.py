@@ -50,12 +50,15 @@ class Sort:
     """A named set of terms.
 
     ``members`` is None for the sort that stands for the scene itself: its only member is the
-    picture at hand.
+    picture at hand. ``of_things`` says that the members are things that may be found in a picture or
+    not, so that being one of them is itself something to believe; how many there may be is said
+    by the domain, and until then they are None, too.
     """
 
     name: str
     members: tuple[str, ...] | None
     location: Location
+    of_things: bool = False
 
 
 @dataclass(frozen=True)
@@ -90,6 +93,24 @@ class Signature:
     def changes(self, predicate: str) -> bool:
         """Whether a predicate has to do with change: whether it is a fluent or an action."""
         return self.kind(predicate) is not PredicateKind.STATIC
+
+    @property
+    def sort_of_things(self) -> Sort | None:
+        """The sort of the things that are found in pictures, if there is one."""
+        return next((sort for sort in self.sorts.values() if sort.of_things), None)
+
+    def is_given(self, name: str) -> bool:
+        """Whether a name is that of a sort whose members are the same in every picture."""
+        return name in self.sorts and not self.sorts[name].of_things
+
+    @property
+    def given_sorts(self) -> frozenset[str]:
+        """The sorts whose members are the same in every picture."""
+        return frozenset(filter(self.is_given, self.sorts))
+
+    def argument_sorts(self, name: str) -> tuple[str, ...]:
+        """Return the sorts of the arguments of a predicate, or of a sort used as one."""
+        return (name,) if name in self.sorts else self.predicates[name].sorts
 
     def members(self, sort: str) -> tuple[str, ...]:
         """Return the members of ``sort``; empty for the sort of the scene."""

@@ -200,7 +200,7 @@ def _settled(evidence: Evidence, axiom: Axiom, bound: dict[str, str]) -> frozens
             return None
         if ground.predicate == evidence.schema.scene:
             holds = ground.arguments == (evidence.schema.scene,)
-        elif ground.predicate in evidence.signature.sorts:
+        elif evidence.signature.is_given(ground.predicate):
             return None
         else:
             holds = key_of(ground) in evidence.holds
@@ -261,11 +261,7 @@ def _ranges(evidence: Evidence, axiom: Axiom, bound: dict[str, str]) -> list[str
     sorts: dict[str, str] = {}
     computed: list[tuple[set[str], str]] = []
     for literal in (axiom.head, *(c.literal for c in axiom.body if c.literal)):
-        literal_sorts = (
-            (literal.predicate,)
-            if literal.predicate in evidence.signature.sorts
-            else evidence.signature.predicates[literal.predicate].sorts
-        )
+        literal_sorts = evidence.signature.argument_sorts(literal.predicate)
         for argument, sort in zip(literal.arguments, literal_sorts, strict=True):
             if (argument,) == variables_in(argument):
                 sorts.setdefault(argument, sort)

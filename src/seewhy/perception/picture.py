@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -21,12 +23,14 @@ from seewhy.perception.picture_file import (
 )
 from seewhy.perception.pixel_array import image_of_array
 
-__all__ = ["Fit", "as_picture", "picture_of_bytes", "read_picture"]
+__all__ = ["Fit", "as_picture", "picture_of_bytes", "read_picture", "reduced_picture"]
 
 _KEPT_WHOLE = 16_000_000
 """Pixels; larger pictures are reduced to four times what is asked for, some rows at a time."""
 
 Picture = npt.NDArray[np.uint8]
+
+_Made = TypeVar("_Made")
 
 Fit = Literal["pad", "stretch"]
 """How a picture that is not square becomes one."""
@@ -183,16 +187,55 @@ def _named_square(image: Image.Image, name: str, size: int, fit: Fit) -> Picture
         raise PictureError(f"{name} {problem}") from None
 
 
+def reduced_picture(path: Path, *, longest: int) -> Image.Image:
+    """Read a picture file as it is, upright and in red, green and blue, for somebody to look at.
+
+    Parameters
+    ----------
+    path : Path
+    longest : int
+        Pixels of its longer side at most; a smaller picture stays as it is.
+
+    Raises
+    ------
+    PictureError
+        As :func:`read_picture`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> path = Path(tempfile.mkdtemp()) / "red.png"
+    >>> Image.new("RGB", (40, 20), "red").save(path)
+    >>> reduced_picture(path, longest=16).size
+    (16, 8)
+    """
+    _check_size(longest)
+
+    def within(image: Image.Image) -> Image.Image:
+        image.thumbnail((longest, longest), Image.Resampling.BICUBIC)
+        return image
+
+    try:
+        with open_picture(path) as image:
+            return _decoded(image, longest, within)
+    except PictureError as problem:
+        raise PictureError(f"{path.name} {problem}") from None
+
+
 def _square(image: Image.Image, *, size: int, fit: Fit) -> Picture:
     """Decode, upright, on white, scaled and padded or stretched; errors begin with a verb."""
+    return _decoded(image, size, partial(_fitted, size=size, fit=fit))
+
+
+def _decoded(image: Image.Image, size: int, finish: Callable[[Image.Image], _Made]) -> _Made:
+    """What is made of a picture, upright and on white, of at least four times ``size``."""
     stored = image.width * image.height
     try:
         # A JPEG can be decoded at a fraction of its size; four times the need loses nothing.
         image.draft(None, (4 * size, 4 * size))
         factor = _reduction(image, size)
         with memory_for(image, stored=stored, reduced=image.width * image.height // factor**2):
-            opaque = upright(image, decoded(image, factor))
-            return _fitted(opaque, size=size, fit=fit)
+            return finish(upright(image, decoded(image, factor)))
     except PictureError:
         raise
     except Image.DecompressionBombError:

@@ -1,0 +1,101 @@
+"""What is annotated of a project's pictures: a fold over its record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from seewhy.studio.record import Entry
+
+__all__ = ["LABEL", "REASONS", "ROWS", "Label", "Labels", "labels_of"]
+
+LABEL = "label"
+"""Body: ``values``, picture → feature or ``class`` → value (None: nobody knows), and ``how``."""
+
+REASONS = "reasons"
+"""Body: ``reasons``, picture → the features that its class rests on."""
+
+ROWS = "rows"
+"""Body: ``rows``, picture → ``split`` and ``group`` as scenes.csv has them."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """The value of a feature, or the class, of one picture.
+
+    Attributes
+    ----------
+    value : str
+    who, at : str
+        By whom and when, as the record has it.
+    how : str
+        ``typed``, ``confirmed`` (it was proposed), ``sheet`` (many at once), ``follows`` (from the
+        class), or ``table`` (it stood in scenes.csv).
+    entry : int
+        The number of the record's entry.
+    """
+
+    value: str
+    who: str
+    at: str
+    how: str
+    entry: int
+
+
+@dataclass(frozen=True)
+class Labels:
+    """All that is annotated.
+
+    Attributes
+    ----------
+    of : mapping of str to mapping
+        Picture → feature or ``class`` → label.
+    reasons : mapping of str to tuple of str
+        Picture → features.
+    rows : mapping of str to mapping
+        Picture → ``split`` and ``group``.
+    """
+
+    of: Mapping[str, Mapping[str, Label]] = field(default_factory=dict)
+    reasons: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    rows: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+
+    def value(self, picture: str, name: str) -> str | None:
+        """The value of a feature, or the class, of a picture; None where nobody said it."""
+        label = self.of.get(picture, {}).get(name)
+        return None if label is None else label.value
+
+    def values(self, picture: str) -> dict[str, str]:
+        """Feature or ``class`` → value, of those that somebody said."""
+        return {name: label.value for name, label in self.of.get(picture, {}).items()}
+
+
+def labels_of(entries: Iterable[Entry]) -> Labels:
+    """Fold entries that hold, in their order; kinds that say nothing of pictures are passed over.
+
+    Examples
+    --------
+    >>> said = Entry(1, "", "Ada", LABEL, {"values": {"a.png": {"colour": "red"}}, "how": "typed"})
+    >>> labels_of([said]).value("a.png", "colour")
+    'red'
+    """
+    of: dict[str, dict[str, Label]] = {}
+    reasons: dict[str, tuple[str, ...]] = {}
+    rows: dict[str, Mapping[str, str]] = {}
+    for entry in entries:
+        if entry.kind == LABEL:
+            for picture, values in entry.body["values"].items():
+                found = of.setdefault(picture, {})
+                for name, value in values.items():
+                    found.pop(name, None)
+                    if value is not None:
+                        found[name] = Label(
+                            value, entry.who, entry.at, entry.body["how"], entry.number
+                        )
+        elif entry.kind == REASONS:
+            reasons |= {
+                picture: tuple(features) for picture, features in entry.body["reasons"].items()
+            }
+        elif entry.kind == ROWS:
+            rows |= entry.body["rows"]
+    return Labels(of, reasons, rows)

@@ -1,0 +1,19 @@
+"""Evaluate: how good the model is, and the pictures that it gets wrong."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+
+from seewhy.studio.pages.page import Page
+from seewhy.studio.rendering import render
+
+__all__ = ["PAGE"]
+
+router = APIRouter()
+PAGE = Page("/evaluate", "Evaluate", router)
+
+
+@router.get(PAGE.path)
+def show(request: Request) -> Response:
+    """The page."""
+    return render(request, "evaluate.html")

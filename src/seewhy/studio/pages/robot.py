@@ -1,0 +1,19 @@
+"""Robot: a planning domain's run as it happens."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+
+from seewhy.studio.pages.page import Page
+from seewhy.studio.rendering import render
+
+__all__ = ["PAGE"]
+
+router = APIRouter()
+PAGE = Page("/robot", "Robot", router)
+
+
+@router.get(PAGE.path)
+def show(request: Request) -> Response:
+    """The page."""
+    return render(request, "robot.html")

@@ -1,0 +1,19 @@
+"""Rules: the knowledge beside its sentences, checked while typing."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+
+from seewhy.studio.pages.page import Page
+from seewhy.studio.rendering import render
+
+__all__ = ["PAGE"]
+
+router = APIRouter()
+PAGE = Page("/rules", "Rules", router)
+
+
+@router.get(PAGE.path)
+def show(request: Request) -> Response:
+    """The page."""
+    return render(request, "rules.html")

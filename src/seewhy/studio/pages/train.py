@@ -1,0 +1,19 @@
+"""Train: training as a job, with progress."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request, Response
+
+from seewhy.studio.pages.page import Page
+from seewhy.studio.rendering import render
+
+__all__ = ["PAGE"]
+
+router = APIRouter()
+PAGE = Page("/train", "Train", router)
+
+
+@router.get(PAGE.path)
+def show(request: Request) -> Response:
+    """The page."""
+    return render(request, "train.html")

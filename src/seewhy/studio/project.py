@@ -1,0 +1,265 @@
+"""A studio's project: one folder with pictures, a domain, the dataset, a model and the record."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from threading import RLock
+from typing import Any
+
+from seewhy.data.dataset import TABLE, Dataset
+from seewhy.data.importers.annotation import Notes
+from seewhy.data.importers.folder_files import FolderFiles
+from seewhy.data.importers.picture_files import is_picture_name
+from seewhy.domain.domain import Domain, load_domain
+from seewhy.domain.tables import CLASS
+from seewhy.errors import SeeWhyError
+from seewhy.studio.labels import LABEL, REASONS, ROWS, Labels, labels_of
+from seewhy.studio.record import Entry, Record
+from seewhy.studio.writing import (
+    FILES,
+    changed_outside,
+    folder_texts,
+    read_text,
+    scenes_table,
+    write_text,
+)
+
+__all__ = ["Project"]
+
+_RECORD = "studio.sqlite"
+_DOMAIN_FILE = "domain.toml"
+_MODEL_FILE = "model.json"
+_OF_DOMAIN = (_DOMAIN_FILE, "knowledge.al", "questions.toml", "classes.csv")
+_OUTSIDE = "another program"
+
+
+class Project:
+    """A folder that the studio works on.
+
+    The folder is a dataset: pictures, and ``scenes.csv`` beside them. In it lie the domain (the
+    first folder with a ``domain.toml``), the model (``model/``) and ``studio.sqlite``, the record.
+    The record says what holds; the files are written from it.
+
+    Parameters
+    ----------
+    folder : Path
+        Made where it is missing.
+
+    Raises
+    ------
+    SeeWhyError
+        If the folder is a model, whose files are not to be changed, or no folder.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        if (folder / _MODEL_FILE).is_file():
+            raise SeeWhyError(
+                f"{folder} is a model, whose files are not to be changed; give the studio a folder "
+                "of its own ('seewhy studio NAME') and open the model there"
+            )
+        if folder.exists() and not folder.is_dir():
+            raise SeeWhyError(f"{folder} is no folder; name one, new or with pictures")
+        folder.mkdir(parents=True, exist_ok=True)
+        self.folder = folder.resolve()
+        self.record = Record(self.folder / _RECORD)
+        self._lock = RLock()
+        self._domain: tuple[Mapping[str, str], Domain] | None = None
+        self._labels: tuple[Sequence[Entry], Labels] | None = None
+        self._pictures: tuple[str, ...] | None = None
+        self.refresh()
+
+    # What there is ----------------------------------------------------------------------------
+
+    @property
+    def name(self) -> str:
+        """How the project is called."""
+        return self.folder.name
+
+    @property
+    def domain_folder(self) -> Path | None:
+        """The domain's folder; None where there is no domain yet."""
+        if (self.folder / _DOMAIN_FILE).is_file():
+            return self.folder
+        found = sorted(
+            place.parent
+            for place in self.folder.glob(f"*/{_DOMAIN_FILE}")
+            if not place.parent.is_symlink() and not place.parent.name.startswith(".")
+        )
+        return found[0] if found else None
+
+    @property
+    def model_folder(self) -> Path:
+        """Where the model lies, or will lie."""
+        return self.folder / "model"
+
+    @property
+    def has_model(self) -> bool:
+        """Whether a model has been trained, or opened."""
+        return (self.model_folder / _MODEL_FILE).is_file()
+
+    def domain(self) -> Domain:
+        """The domain as its files say it now.
+
+        Raises
+        ------
+        SeeWhyError
+            If there is none yet.
+        DomainError, KnowledgeError
+            If its files are wrong.
+        """
+        folder = self.domain_folder
+        if folder is None:
+            raise SeeWhyError("there is no domain yet; begin with one")
+        with self._lock:
+            texts = _texts_in(folder)
+            if self._domain is None or self._domain[0] != texts:
+                self._domain = (texts, load_domain(folder))
+            return self._domain[1]
+
+    def pictures(self) -> Sequence[str]:
+        """The names of the pictures, as scenes.csv has them: paths from the folder."""
+        with self._lock:
+            if self._pictures is None:
+                apart = [f"{self.model_folder.name}/"]
+                domain = self.domain_folder
+                if domain is not None and domain != self.folder:
+                    apart.append(f"{domain.name}/")
+                files = FolderFiles(self.folder, Notes())
+                self._pictures = tuple(
+                    name
+                    for name in files.names
+                    if is_picture_name(name)
+                    and not name.startswith((".", *apart))
+                    and "/." not in name
+                )
+            return self._pictures
+
+    def picture_file(self, name: str) -> Path:
+        """The file of a picture of the project.
+
+        Raises
+        ------
+        LookupError
+            If it is none: only names that :meth:`pictures` lists are looked for.
+        """
+        if name not in set(self.pictures()):
+            raise LookupError(f"'{name}' is no picture of the project")
+        return self.folder / name
+
+    def labels(self) -> Labels:
+        """What is annotated of the pictures."""
+        with self._lock:
+            entries = self.record.holding()
+            if self._labels is None or self._labels[0] != entries:
+                self._labels = (entries, labels_of(entries))
+            return self._labels[1]
+
+    def dataset(self) -> Dataset:
+        """The dataset as the command line sees it."""
+        return Dataset.load(self.folder, self.domain())
+
+    # What is done -----------------------------------------------------------------------------
+
+    def note(self, kind: str, body: Mapping[str, Any], *, who: str) -> Entry:
+        """Add to the record what was done, and write the files that it changes."""
+        with self._lock:
+            self._take_in_changes()
+            entry = self.record.add(kind, body, who=who)
+            self._write()
+            return entry
+
+    def label(
+        self, values: Mapping[str, Mapping[str, str | None]], *, who: str, how: str = "typed"
+    ) -> Entry:
+        """Annotate pictures: picture → feature or ``class`` → value (None: nobody knows)."""
+        return self.note(LABEL, {"values": values, "how": how}, who=who)
+
+    def revise(self, files: Mapping[str, str], *, why: str, who: str) -> Entry:
+        """Give files of the domain other texts, as one revision that can be taken back.
+
+        The texts are not checked here: whoever proposes a revision has shown what it does.
+        """
+        return self.note(FILES, {"files": dict(files), "why": why}, who=who)
+
+    def take_back(self, number: int, *, who: str) -> Entry:
+        """Take an entry of the record back, and write the files as they were without it."""
+        with self._lock:
+            entry = self.record.take_back(number, who=who)
+            self._write()
+            return entry
+
+    def refresh(self) -> None:
+        """Look at the folder anew: pictures that came, and files that another program changed."""
+        with self._lock:
+            self._pictures = None
+            self._take_in_changes()
+            self._write()
+
+    # Files ------------------------------------------------------------------------------------
+
+    def _write(self) -> None:
+        folder = self.domain_folder
+        if folder is None:
+            return
+        for name, text in folder_texts(self.record.holding(FILES)).items():
+            write_text(folder / name, text, record=self.record, name=name)
+        labels = self.labels()
+        if labels.of or labels.rows:
+            text = scenes_table(labels, self.domain())
+            write_text(self.folder / TABLE, text, record=self.record, name=TABLE)
+
+    def _take_in_changes(self) -> None:
+        """Note what another program wrote, so that nothing of it is written over."""
+        folder = self.domain_folder
+        if folder is None:
+            return
+        said = folder_texts(self.record.holding(FILES))
+        found = _texts_in(folder)
+        changed = {
+            name: text
+            for name, text in found.items()
+            if changed_outside(folder / name, said, record=self.record, name=name)
+        }
+        if changed:
+            self.record.add(FILES, {"files": changed, "why": "changed outside"}, who=_OUTSIDE)
+        table = self.folder / TABLE
+        if table.is_file():
+            texts = {TABLE: scenes_table(self.labels(), self.domain())}
+            if changed_outside(table, texts, record=self.record, name=TABLE):
+                self._take_in_table()
+
+    def _take_in_table(self) -> None:
+        dataset, labels = self.dataset(), self.labels()
+        values: dict[str, dict[str, str | None]] = {}
+        rows: dict[str, dict[str, str]] = {}
+        reasons: dict[str, list[str]] = {}
+        for scene in dataset.scenes:
+            name = scene.picture.relative_to(self.folder).as_posix()
+            said = {CLASS: scene.label, **dataset.domain.named(scene.vector)}
+            changed = {
+                key: value for key, value in said.items() if labels.value(name, key) != value
+            }
+            if changed:
+                values[name] = changed
+            placed = {
+                key: text for key, text in (("split", scene.split), ("group", scene.group)) if text
+            }
+            if placed != dict(labels.rows.get(name, {})):
+                rows[name] = placed
+            if scene.reasons != labels.reasons.get(name, ()):
+                reasons[name] = list(scene.reasons)
+        listed = {scene.picture.relative_to(self.folder).as_posix() for scene in dataset.scenes}
+        for name in set(labels.of) - listed:
+            values[name] = dict.fromkeys(labels.of[name])
+        if values:
+            self.record.add(LABEL, {"values": values, "how": "table"}, who=_OUTSIDE)
+        if rows:
+            self.record.add(ROWS, {"rows": rows}, who=_OUTSIDE)
+        if reasons:
+            self.record.add(REASONS, {"reasons": reasons}, who=_OUTSIDE)
+
+
+def _texts_in(folder: Path) -> dict[str, str]:
+    texts = {name: read_text(folder / name) for name in _OF_DOMAIN}
+    return {name: text for name, text in texts.items() if text is not None}

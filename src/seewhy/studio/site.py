@@ -1,0 +1,85 @@
+"""The studio as an application: its pages, the pictures, and what the pages load."""
+
+from __future__ import annotations
+
+import secrets
+from typing import Annotated, cast
+
+from fastapi import Depends, FastAPI, Form, Request, Response
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import RedirectResponse
+from starlette.exceptions import HTTPException
+from starlette.staticfiles import StaticFiles
+
+from seewhy.errors import SeeWhyError
+from seewhy.studio.access import AccessRules
+from seewhy.studio.guard import Guard, require_csrf
+from seewhy.studio.pages import PAGES, pictures
+from seewhy.studio.project import Project
+from seewhy.studio.rendering import STATIC, from_script, render
+from seewhy.studio.session import THEMES, Theme, keep_theme, keep_who
+from seewhy.studio.state import Studio
+
+__all__ = ["site"]
+
+
+def site(project: Project, *, rules: AccessRules) -> FastAPI:
+    """Return the application that shows a project.
+
+    Parameters
+    ----------
+    project : Project
+    rules : AccessRules
+        Who may ask, and how large a request may be.
+    """
+    app = FastAPI(title="SeeWhy studio", openapi_url=None, docs_url=None, redoc_url=None)
+    app.state.studio = Studio(project)
+    app.state.csrf_key = secrets.token_bytes(32)
+    for page in PAGES:
+        app.include_router(page.router, dependencies=[Depends(require_csrf)])
+    app.include_router(pictures.router, dependencies=[Depends(require_csrf)])
+    app.mount("/static", StaticFiles(directory=STATIC), name="static")
+
+    @app.get("/")
+    def first() -> Response:
+        return RedirectResponse("/begin" if project.domain_folder is None else "/label", 303)
+
+    @app.post("/settings", dependencies=[Depends(require_csrf)])
+    def settings(
+        theme: Annotated[str, Form()] = "",
+        who: Annotated[str, Form(max_length=60)] = "",
+        back: Annotated[str, Form(max_length=200)] = "/",
+    ) -> Response:
+        known = any(back == page.path for page in PAGES)
+        response = RedirectResponse(back if known else "/", 303)
+        if theme in THEMES:
+            keep_theme(response, cast("Theme", theme))
+        if who.strip():
+            keep_who(response, who.strip())
+        return response
+
+    @app.exception_handler(SeeWhyError)
+    async def say_problem(request: Request, problem: SeeWhyError) -> Response:
+        return _said(request, str(problem), 422)
+
+    @app.exception_handler(RequestValidationError)
+    async def say_parts(request: Request, problem: RequestValidationError) -> Response:
+        said = [f"{found['loc'][-1]}: {found['msg'].lower()}" for found in problem.errors()]
+        return _said(request, "; ".join(said), 422)
+
+    @app.exception_handler(HTTPException)
+    async def say_status(request: Request, problem: HTTPException) -> Response:
+        return _said(request, str(problem.detail), problem.status_code)
+
+    app.add_middleware(Guard, rules=rules)
+    return app
+
+
+def _said(request: Request, text: str, status: int) -> Response:
+    """A sentence as a page, or as the part of one that htmx shows."""
+    template = "_problem.html" if from_script(request) else "problem.html"
+    response = render(request, template, status=status, problem=text)
+    if from_script(request):
+        response.headers["HX-Retarget"] = "#problem"
+        response.headers["HX-Reswap"] = "innerHTML"
+    return response
