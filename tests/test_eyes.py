@@ -320,11 +320,13 @@ def test_other_options_make_other_variations(backbone: Backbone, tmp_path: Path)
     assert not np.array_equal(few, more)
 
 
-def test_a_damaged_cache_is_begun_anew(tmp_path: Path) -> None:
+def test_a_damaged_cache_is_begun_anew(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     (tmp_path / "embeddings.sqlite").write_bytes(b"no database" * 99)
     cache = EmbeddingCache(tmp_path)
     cache.keep({b"a": np.ones(3, dtype=np.float16)})
     assert cache.find([b"a"])[b"a"].tolist() == [1, 1, 1]
+    (said,) = caplog.messages
+    assert "embeddings.sqlite: is damaged and begun anew" in said
 
 
 def test_what_was_not_used_for_longest_is_forgotten(tmp_path: Path) -> None:
@@ -337,11 +339,15 @@ def test_what_was_not_used_for_longest_is_forgotten(tmp_path: Path) -> None:
     assert bytes([0]) not in found
 
 
-def test_a_cache_that_cannot_be_written_stands_in_nobodys_way(tmp_path: Path) -> None:
+def test_a_cache_that_cannot_be_written_stands_in_nobodys_way(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     (tmp_path / "file").write_text("")
     cache = EmbeddingCache(tmp_path / "file" / "folder")
     cache.keep({b"a": np.ones(3, dtype=np.float16)})
     assert cache.find([b"a"]) == {}
+    assert all("embeddings are neither found nor kept" in said for said in caplog.messages)
+    assert caplog.messages
 
 
 # What is wrong -------------------------------------------------------------------------------

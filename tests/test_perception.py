@@ -23,6 +23,7 @@ from seewhy.errors import DatasetError, DomainError, ModelError, SeeWhyError
 from seewhy.perception import fitting_extractor
 from seewhy.perception.augmentation import augment
 from seewhy.perception.calibration import fitted_temperature
+from seewhy.perception.checkpoint import Checkpoint, Position
 from seewhy.perception.course import Course
 from seewhy.perception.events import TrainingEvent
 from seewhy.perception.extractor import FeatureExtractor
@@ -473,6 +474,15 @@ def test_damaged_checkpoints_are_started_over(tmp_path: Path, damage: str) -> No
         course=Course(checkpoints=tmp_path, on_progress=events.append),
     )
     assert (events[0].depth, events[0].epoch) == (1, 1)
+
+
+def test_a_checkpoint_that_is_no_use_is_logged(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / "side").write_bytes(b"nothing")
+    assert Checkpoint(tmp_path / "side", "of these pictures").read(Position) is None
+    (said,) = caplog.messages
+    assert "side: is damaged; the training begins anew" in said
 
 
 def test_checkpoints_of_odd_feature_names_stay_in_the_folder(tmp_path: Path) -> None:

@@ -7,10 +7,13 @@
 
 from __future__ import annotations
 
+import logging
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
+
+logging.getLogger(__name__).addHandler(logging.NullHandler())  # who uses SeeWhy says what is shown
 
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent

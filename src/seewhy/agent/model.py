@@ -24,7 +24,8 @@ from seewhy.errors import ModelError, SeeWhyError
 from seewhy.files.folders import settle_folder, whole_folder
 from seewhy.files.json_file import read_json, read_object
 from seewhy.induction.tree import TREE, DecisionTree
-from seewhy.knowledge.learned_file import LEARNED, read_learned, write_learned
+from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.learned_file import LEARNED, Withdrawn, read_learned, write_learned
 from seewhy.perception.backbones import NONE
 from seewhy.perception.weights import LARGEST as LARGEST_WEIGHTS
 from seewhy.text.visible import visible
@@ -160,46 +161,10 @@ def _state(folder: Path) -> tuple[int, int] | None:
 def _read_model(folder: Path, *, device: str) -> Model:
     manifest = _read_manifest(folder)
     _check_files(folder, manifest)
-    try:
-        domain = load_domain(folder / "domain")
-        signature = domain.knowledge.signature
-        learned, withdrawn = (
-            read_learned(folder / LEARNED, signature) if LEARNED in manifest.files else ((), ())
-        )
-    except SeeWhyError as problem:
-        raise ModelError(f"{folder}: the model's domain cannot be read: {problem}") from None
-    if domain.name != manifest.domain:
-        raise ModelError(
-            f"{folder}: the model was trained for the domain '{visible(manifest.domain)}', but its "
-            f"domain folder is '{domain.name}'; {_REMEDY}"
-        )
-    from seewhy.perception.domain_options import seen_values
-    from seewhy.perception.familiarity import FAMILIARITY, Familiarity
-
-    extractor = _read_extractor(folder / "perception", manifest.eyes, device)
-    with_class = CLASS in extractor.values
-    if dict(extractor.values) != seen_values(domain, with_class=with_class):
-        raise ModelError(
-            f"{folder}: the networks recognise other features than the model's domain names; "
-            f"{_REMEDY}"
-        )
-    familiarity = None
-    if f"perception/{FAMILIARITY}" in manifest.files:
-        familiarity = Familiarity.load(folder / "perception", widths=extractor.widths)
-    answerer = None
-    if manifest.answers:
-        from seewhy.dialogue.learned import check_answers
-        from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
-
-        answerer = RecurrentAnswerer.load(folder / "dialogue")
-        check_answers(domain, answerer, folder / "dialogue")
-    tree = DecisionTree.load(folder / "induction")
-    values = {key: feature.values for key, feature in domain.features.items()}
-    if tree.features != values or not {*tree.classes} <= domain.classes.keys():
-        raise ModelError(
-            f"{folder / 'induction' / TREE}: the tree tells apart other features or classes than "
-            f"the model's domain names; {_REMEDY}"
-        )
+    domain, learned, withdrawn = _read_domain(folder, manifest)
+    seeing = _read_seeing(folder, manifest, domain, device=device)
+    answerer = _read_answerer(folder / "dialogue", domain) if manifest.answers else None
+    tree = _read_tree(folder / "induction", domain)
     return Model(
         settings=Settings(
             eyes=manifest.eyes,
@@ -216,21 +181,74 @@ def _read_model(folder: Path, *, device: str) -> Model:
             minimality=manifest.minimality,
             experience=_read_experience(folder / EXPERIENCE, domain),
         ),
-        seeing=Seeing(
-            extractor,
-            familiarity,
-            manifest.validation_scores,
-            {
-                rule: ReadingWeights(weights.features, weights.witness)
-                for rule, weights in manifest.reading_weights.items()
-            },
-        ),
+        seeing=seeing,
         tree=tree,
         answerer=answerer,
         training_pictures=TrainingPictures(
             manifest.trained_on, manifest.without_class, manifest.without
         ),
     )
+
+
+def _read_domain(
+    folder: Path, manifest: Manifest
+) -> tuple[Domain, tuple[Axiom, ...], tuple[Withdrawn, ...]]:
+    """The domain as it was given, and the axioms that were learned and withdrawn."""
+    try:
+        domain = load_domain(folder / "domain")
+        signature = domain.knowledge.signature
+        learned, withdrawn = (
+            read_learned(folder / LEARNED, signature) if LEARNED in manifest.files else ((), ())
+        )
+    except SeeWhyError as problem:
+        raise ModelError(f"{folder}: the model's domain cannot be read: {problem}") from None
+    if domain.name != manifest.domain:
+        raise ModelError(
+            f"{folder}: the model was trained for the domain '{visible(manifest.domain)}', but its "
+            f"domain folder is '{domain.name}'; {_REMEDY}"
+        )
+    return domain, learned, withdrawn
+
+
+def _read_seeing(folder: Path, manifest: Manifest, domain: Domain, *, device: str) -> Seeing:
+    from seewhy.perception.domain_options import seen_values
+    from seewhy.perception.familiarity import FAMILIARITY, Familiarity
+
+    extractor = _read_extractor(folder / "perception", manifest.eyes, device)
+    with_class = CLASS in extractor.values
+    if dict(extractor.values) != seen_values(domain, with_class=with_class):
+        raise ModelError(
+            f"{folder}: the networks recognise other features than the model's domain names; "
+            f"{_REMEDY}"
+        )
+    familiarity = None
+    if f"perception/{FAMILIARITY}" in manifest.files:
+        familiarity = Familiarity.load(folder / "perception", widths=extractor.widths)
+    weights = {
+        rule: ReadingWeights(found.features, found.witness)
+        for rule, found in manifest.reading_weights.items()
+    }
+    return Seeing(extractor, familiarity, manifest.validation_scores, weights)
+
+
+def _read_answerer(folder: Path, domain: Domain) -> RecurrentAnswerer:
+    from seewhy.dialogue.learned import check_answers
+    from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
+
+    answerer = RecurrentAnswerer.load(folder)
+    check_answers(domain, answerer, folder)
+    return answerer
+
+
+def _read_tree(folder: Path, domain: Domain) -> DecisionTree:
+    tree = DecisionTree.load(folder)
+    values = {key: feature.values for key, feature in domain.features.items()}
+    if tree.features != values or not {*tree.classes} <= domain.classes.keys():
+        raise ModelError(
+            f"{folder / TREE}: the tree tells apart other features or classes than "
+            f"the model's domain names; {_REMEDY}"
+        )
+    return tree
 
 
 def _read_experience(file: Path, domain: Domain) -> Experience:

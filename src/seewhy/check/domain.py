@@ -65,9 +65,15 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
         If the questions, the source of pictures or the dataset are wrong, or if no picture has
         an answer set.
     """
+    reasoner = Reasoner(domain.knowledge, domain.schema)
+    report = _check_folder(domain, reasoner)
+    return report if data is None else _with_axioms_judged(report, reasoner, data)
+
+
+def _check_folder(domain: Domain, reasoner: Reasoner) -> DomainReport:
+    """What there is to say of a domain without pictures."""
     questions = Questions(domain)
     answer_templates(domain)
-    reasoner = Reasoner(domain.knowledge, domain.schema)
     vectors = feature_vectors(domain)
     decisions = reasoner.decide_all(vectors)
     counted = Counter(decision.verdict.value for decision in decisions)
@@ -102,15 +108,17 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
         for key in domain.features
         if key not in covered
     ]
-    report = DomainReport(
+    return DomainReport(
         questions=len(questions.one_of_each()),
         wordings=len(questions.all),
         vectors=len(vectors),
         verdicts={name: number / len(vectors) for name, number in counted.most_common()},
         warnings=tuple(warnings),
     )
-    if data is None:
-        return report
+
+
+def _with_axioms_judged(report: DomainReport, reasoner: Reasoner, data: Dataset) -> DomainReport:
+    """The report with what annotated pictures say of the axioms."""
     scenes = data.with_class()
     if not len(scenes):
         raise DatasetError(
@@ -123,13 +131,11 @@ def check_domain(domain: Domain, data: Dataset | None = None) -> DomainReport:
         for decision, label in zip(decisions, scenes.classes, strict=True)
         if decision.label is not None
     ]
-    return DomainReport(
-        **{
-            **report.__dict__,
-            "axioms": axiom_records(reasoner, scenes.vectors, scenes.classes),
-            "decided": len(decided) / len(scenes),
-            "decided_rightly": float(np.mean(decided)) if decided else 0.0,
-        }
+    return replace(
+        report,
+        axioms=axiom_records(reasoner, scenes.vectors, scenes.classes),
+        decided=len(decided) / len(scenes),
+        decided_rightly=float(np.mean(decided)) if decided else 0.0,
     )
 
 
@@ -147,13 +153,13 @@ def _said_odd(loop: Sequence[Axiom]) -> str:
     return f"{loop[0].location}: {say_odd_loop(loop)}"
 
 
-def feature_vectors(domain: Domain, *, most: int = MOST_VECTORS) -> list[FeatureVector]:
-    """Return all feature vectors of a domain, or a sample where there are more than ``most``."""
+def feature_vectors(domain: Domain) -> list[FeatureVector]:
+    """Return all feature vectors of a domain, or a sample where there are too many."""
     values = [feature.values for feature in domain.features.values()]
-    if prod(map(len, values)) <= most:
+    if prod(map(len, values)) <= MOST_VECTORS:
         return [tuple(vector) for vector in product(*values)]
     generator = np.random.default_rng(0)
     return [
         tuple(possible[int(generator.integers(len(possible)))] for possible in values)
-        for _ in range(most)
+        for _ in range(MOST_VECTORS)
     ]

@@ -60,7 +60,6 @@ def classify_to_table(
     table: Path | str,
     *,
     model: str,
-    batch: int = BATCH,
     on_notice: Callable[[str], None] | None = None,
     on_progress: Callable[[int], None] | None = None,
 ) -> Classified:
@@ -80,8 +79,6 @@ def classify_to_table(
         are classified.
     model : str
         What tells the model from all others, such as the digest of its ``model.json``.
-    batch : int, default 128
-        Pictures that are classified, and kept, at a time.
     on_notice : callable, optional
         Called with a sentence where finished rows were found, of this run or of another.
     on_progress : callable, optional
@@ -112,7 +109,7 @@ def classify_to_table(
             _notify(rows, len(pictures), on_notice)
         if on_progress is not None:
             on_progress(rows.done)
-        for some in classify_pictures(agent, pictures[rows.done :], batch=batch):
+        for some in classify_pictures(agent, pictures[rows.done :], batch=BATCH):
             rows.add([row_of(picture, agent.domain) for picture in some])
             if on_progress is not None:
                 on_progress(rows.done)

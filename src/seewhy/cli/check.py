@@ -8,7 +8,8 @@ from typing import Annotated, Any
 import typer
 
 from seewhy.cli.options import DomainName, Json, Outside
-from seewhy.cli.screen import add_row, output, percent, print_json, say, share_of_cases, table
+from seewhy.cli.screen import add_row, output, print_json, say, share_of_cases, table
+from seewhy.text.percentage import percent
 
 
 def check(

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from seewhy.dialogue.reply import Classification, Reply
 
 
+MOST_SCENES = 6
+"""Of so many test pictures at the most is shown what is answered."""
 FEW_CLASSES = 4
 """Of more classes, a picture is asked about its own and the nearest other one only."""
 
@@ -99,7 +101,7 @@ def demo(
     say(f'ask on: seewhy ask {out / "model"} {scene.picture} "{replies[-1].question.text}?"')
 
 
-def choose_scenes(agent: Agent, dataset: Dataset, *, most: int = 6) -> list[Scene]:
+def choose_scenes(agent: Agent, dataset: Dataset) -> list[Scene]:
     """Choose test scenes that differ: every way of deciding and every class, knowledge first."""
     scenes = dataset.of_split("test")
     pictures = scenes.pictures(agent.picture_size)
@@ -111,10 +113,10 @@ def choose_scenes(agent: Agent, dataset: Dataset, *, most: int = 6) -> list[Scen
     chosen: list[Scene] = []
     rank = 0
     ordered = [kinds[key] for key in sorted(kinds, key=str)]
-    while len(chosen) < most and any(len(alike) > rank for alike in ordered):
+    while len(chosen) < MOST_SCENES and any(len(alike) > rank for alike in ordered):
         chosen += [alike[rank] for alike in ordered if len(alike) > rank]
         rank += 1
-    return chosen[:most]
+    return chosen[:MOST_SCENES]
 
 
 def _ask_everything(agent: Agent, scene: Scene) -> list[Reply]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from seewhy.cli.screen import add_row, output, percent, say, share_of_cases, table
+from seewhy.cli.screen import add_row, output, say, share_of_cases, table
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.evaluation import Evaluation
@@ -100,7 +101,7 @@ def print_classes(result: Evaluation, *, most: int = MOST) -> None:
     output().print(rows)
 
 
-def print_values(result: Evaluation, *, most: int = MOST) -> None:
+def print_values(result: Evaluation) -> None:
     """Print the values of features that are recognised worst, with the number of their pictures."""
     worst = sorted(
         (
@@ -111,16 +112,16 @@ def print_values(result: Evaluation, *, most: int = MOST) -> None:
         key=lambda row: row[1].value,
     )
     rows = table("value", ">pictures", ">recognised")
-    for name, share in worst[:most]:
+    for name, share in worst[:MOST]:
         add_row(rows, name, str(share.of), percent(share.value))
-    if len(worst) > most:
-        more = len(worst) - most
-        add_row(rows, f"{more} more, each at least", "", percent(worst[most][1].value))
+    if len(worst) > MOST:
+        more = len(worst) - MOST
+        add_row(rows, f"{more} more, each at least", "", percent(worst[MOST][1].value))
     if worst:
         output().print(rows)
 
 
-def print_confused(result: Evaluation, *, most: int = MOST) -> None:
+def print_confused(result: Evaluation) -> None:
     """Print what was most often taken for what."""
     recognitions = {"class": result.class_recognition, **result.feature_recognition}
     found = sorted(
@@ -132,28 +133,28 @@ def print_confused(result: Evaluation, *, most: int = MOST) -> None:
         key=lambda row: (-row[3], row[0] != "class"),
     )
     rows = table("confused", "annotated", "said", ">pictures")
-    for key, true, said, count in found[:most]:
+    for key, true, said, count in found[:MOST]:
         add_row(rows, key, true, said or "undecided", str(count))
-    if len(found) > most:
-        add_row(rows, f"{len(found) - most} more", "", "", f"at most {found[most][3]}")
+    if len(found) > MOST:
+        add_row(rows, f"{len(found) - MOST} more", "", "", f"at most {found[MOST][3]}")
     if found:
         output().print(rows)
 
 
-def print_axioms(result: Evaluation, *, most: int = MOST) -> None:
+def print_axioms(result: Evaluation) -> None:
     """Print how often axioms applied and were right, on the annotated features.
 
     All of a few, in the order of their file; of many those that were wrong most often.
     """
     axioms = list(result.axioms)
-    if len(axioms) > most:
+    if len(axioms) > MOST:
         axioms.sort(
             key=lambda record: (record.accuracy is None, record.accuracy or 0.0, -record.decided)
         )
     rows = table("axiom", ">decides", ">right")
-    for axiom in axioms[:most]:
+    for axiom in axioms[:MOST]:
         add_row(rows, axiom.statement, str(axiom.decided), share_of_cases(axiom.accuracy))
-    more = axioms[most:]
+    more = axioms[MOST:]
     if more:
         decided = sum(axiom.decided for axiom in more)
         least = more[0].accuracy

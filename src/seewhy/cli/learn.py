@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,12 +12,14 @@ import typer
 from seewhy.cli.axiom_lines import axiom_dict, rests, withdrawn_dict, withdrawn_line
 from seewhy.cli.options import Json, Outside, Seed
 from seewhy.cli.robot import Without, with_knowledge_of_robot
-from seewhy.cli.screen import harmless, percent, print_json, remark, say
+from seewhy.cli.screen import harmless, print_json, remark, say
 from seewhy.errors import DatasetError, SeeWhyError
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.data.dataset import Dataset
     from seewhy.evaluation.held_back import Judged, JudgedLearning, Proposal
+    from seewhy.induction.learning import LearningOptions
     from seewhy.knowledge.axiom import Axiom
 
 
@@ -117,41 +119,64 @@ def learn(
         raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the model")
     if even_if_worse and not yes:
         raise SeeWhyError("--even-if-worse goes with --yes; without it you are asked")
-    from seewhy.agent.agent import Agent
-    from seewhy.cli.read_data import read_data
-    from seewhy.evaluation.held_back import learn_judged, not_worse
+    from seewhy.evaluation.held_back import not_worse
     from seewhy.induction.learning import DEFAULTS, LearningOptions
 
-    agent = Agent.load(model)
-    only_shown = json and not yes
+    options = LearningOptions(
+        support=DEFAULTS.support if support is None else support,
+        tolerance=DEFAULTS.tolerance if tolerance is None else tolerance,
+        seed=seed,
+    )
     asked = not json and not yes
     accept = _ask_judged if asked else _anything if even_if_worse else not_worse
-    found = learn_judged(
-        agent,
-        _with_class(read_data(data, agent.given, outside=outside)),
-        options=LearningOptions(
-            support=DEFAULTS.support if support is None else support,
-            tolerance=DEFAULTS.tolerance if tolerance is None else tolerance,
-            seed=seed,
-        ),
-        accept=accept,
-        seed=seed,
-        answers=agent.answerer is not None,
-        on_held_back=_remark_held_back,
+    only_shown = json and not yes
+    found = _from_pictures(
+        model, data, outside=outside, options=options, accept=accept, keep=not only_shown
     )
-    if not only_shown:
-        found.agent.save(model)
     if picture is not None:
-        from seewhy.files.whole_files import write_whole
-        from seewhy.report.tree import draw_tree
-
-        learning = found.learning
-        tree = draw_tree(agent.domain, learning.tree, accepted=learning.accepted_leaves)
-        write_whole(picture, tree.svg)
+        _draw_tree(found, picture)
     if json:
         print_json(learning_dict(found, only_shown=only_shown))
         return
     print_learning(found)
+
+
+def _from_pictures(
+    model: Path,
+    data: Path,
+    *,
+    outside: bool,
+    options: LearningOptions,
+    accept: Callable[[Proposal], bool],
+    keep: bool,
+) -> JudgedLearning:
+    """Learn from annotated pictures; with ``keep``, the model knows it from now on."""
+    from seewhy.agent.agent import Agent
+    from seewhy.cli.read_data import read_data
+    from seewhy.evaluation.held_back import learn_judged
+
+    agent = Agent.load(model)
+    found = learn_judged(
+        agent,
+        _with_class(read_data(data, agent.given, outside=outside)),
+        options=options,
+        accept=accept,
+        seed=options.seed,
+        answers=agent.answerer is not None,
+        on_held_back=_remark_held_back,
+    )
+    if keep:
+        found.agent.save(model)
+    return found
+
+
+def _draw_tree(found: JudgedLearning, picture: Path) -> None:
+    from seewhy.files.whole_files import write_whole
+    from seewhy.report.tree import draw_tree
+
+    learning = found.learning
+    tree = draw_tree(found.agent.domain, learning.tree, accepted=learning.accepted_leaves)
+    write_whole(picture, tree.svg)
 
 
 def _from_runs(

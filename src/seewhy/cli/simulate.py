@@ -56,21 +56,13 @@ def simulate(
     With --chat and --json the run is one line of JSON, and so is every answer. The world follows
     knowledge.al, whatever the robot knows of it.
     """
-    from seewhy.errors import PlanningError
-    from seewhy.files.whole_files import write_whole
-    from seewhy.knowledge.history import history_text
     from seewhy.planning.dialogue.replying import RunAnswers
     from seewhy.planning.domain import load_planning_domain
-    from seewhy.planning.execution.recording import record_of
     from seewhy.planning.execution.run_narration import narrate_end, narrate_step
     from seewhy.planning.execution.simulation import simulate as run_simulation
     from seewhy.planning.goal import read_goal
-    from seewhy.report.run_page import run_page
 
-    if out is not None and out.suffix.lower() != ".html":
-        raise PlanningError(f"{out}: the run is written as .html; choose a name that ends so")
-    if record is not None and record.suffix != ".al":
-        raise PlanningError(f"{record}: a record is written as .al; choose a name that ends so")
+    _check_endings(out, record)
     world = load_planning_domain(domain)
     robot_domain = with_knowledge_of_robot(world, learned=learned, without=without)
     aim = read_goal(goal, robot_domain.knowledge)
@@ -102,12 +94,7 @@ def simulate(
     command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
     command += "" if model is None else f" --model {model}"
     command += robot_options(learned=learned, without=without)
-    if record is not None:
-        write_whole(record, history_text(record_of(robot_domain, run), title=command))
-        remark(f"what was seen and done is in {record}")
-    if out is not None:
-        write_whole(out, run_page(robot_domain, last, command=command))
-        remark(f"the run with its map is in {out}")
+    _write(robot_domain, last, out=out, record=record, command=command)
     if chat:
         talk(answers, json=json)
     if interrupted:
@@ -115,6 +102,37 @@ def simulate(
     exit_if_not_understood(asked)
     if not last.achieved:
         raise typer.Exit(1)
+
+
+def _check_endings(out: Path | None, record: Path | None) -> None:
+    from seewhy.errors import PlanningError
+
+    if out is not None and out.suffix.lower() != ".html":
+        raise PlanningError(f"{out}: the run is written as .html; choose a name that ends so")
+    if record is not None and record.suffix != ".al":
+        raise PlanningError(f"{record}: a record is written as .al; choose a name that ends so")
+
+
+def _write(
+    domain: PlanningDomain,
+    simulation: Simulation,
+    *,
+    out: Path | None,
+    record: Path | None,
+    command: str,
+) -> None:
+    """Write the files that are asked for: the record of the run, and its page."""
+    from seewhy.files.whole_files import write_whole
+    from seewhy.knowledge.history import history_text
+    from seewhy.planning.execution.recording import record_of
+    from seewhy.report.run_page import run_page
+
+    if record is not None:
+        write_whole(record, history_text(record_of(domain, simulation.run), title=command))
+        remark(f"what was seen and done is in {record}")
+    if out is not None:
+        write_whole(out, run_page(domain, simulation, command=command))
+        remark(f"the run with its map is in {out}")
 
 
 def _sight(domain: PlanningDomain, model: Path) -> Sight:

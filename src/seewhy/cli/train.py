@@ -19,8 +19,9 @@ from seewhy.cli.options import (
     Reading,
     Seed,
 )
-from seewhy.cli.screen import add_row, output, percent, print_json, table
+from seewhy.cli.screen import add_row, output, print_json, table
 from seewhy.cli.training import train_model
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent

@@ -77,9 +77,6 @@ def train_model(
     from seewhy.agent.model import check_target, replaced_notice
     from seewhy.agent.pretraining import is_drawn
     from seewhy.cli.code_notice import remark_code
-    from seewhy.cli.read_data import read_data
-    from seewhy.data.coverage import coverage_notices
-    from seewhy.data.training_needs import require_feature_labels, require_two_classes
     from seewhy.files.locks import sole_writer
     from seewhy.perception.backbones import NONE
 
@@ -95,12 +92,7 @@ def train_model(
         gate=gate,
         known_share=known_share,
     )
-    dataset = read_data(data, domain, outside=outside)
-    train = dataset.of_split("train").without_classes(without)
-    require_two_classes(train)
-    require_feature_labels(train)
-    for notice in coverage_notices(train, without=without):
-        remark(notice)
+    dataset = _data_to_train_on(data, domain, without=without, outside=outside)
     replaced = replaced_notice(out)
     if replaced is not None:
         remark(replaced)
@@ -123,6 +115,23 @@ def train_model(
         agent.save(out)
         shutil.rmtree(checkpoints, ignore_errors=True)
     return agent
+
+
+def _data_to_train_on(
+    data: Path, domain: Domain, *, without: Sequence[str], outside: bool
+) -> Dataset:
+    """The dataset, if it can teach; what it shows too little of is remarked."""
+    from seewhy.cli.read_data import read_data
+    from seewhy.data.coverage import coverage_notices
+    from seewhy.data.training_needs import require_feature_labels, require_two_classes
+
+    dataset = read_data(data, domain, outside=outside)
+    train = dataset.of_split("train").without_classes(without)
+    require_two_classes(train)
+    require_feature_labels(train)
+    for notice in coverage_notices(train, without=without):
+        remark(notice)
+    return dataset
 
 
 def networks_progress(bars: Progress, agent: Agent) -> Callable[[TrainingEvent], None]:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -32,12 +31,10 @@ def fit_learned_answers(
     labels: Sequence[str],
     *,
     seed: int = 0,
-    most_examples: int = MOST_EXAMPLES,
-    on_progress: Callable[[Any], None] | None = None,
 ) -> RecurrentAnswerer:
     """Train the recurrent network on questions about scenes that reasoning left open.
 
-    Every query is asked of every scene. Where that makes more than ``most_examples``, which many
+    Every query is asked of every scene. Where that makes more than :data:`MOST_EXAMPLES`, as many
     classes do, each scene is asked what concerns its own class and a share of the rest, which is
     dealt out until every query had its turn, then again; so none is missing.
     """
@@ -46,7 +43,7 @@ def fit_learned_answers(
         if question.asks not in _NOT_LEARNED:
             by_query.setdefault(question.query, []).append(question)
     examples = []
-    for number, queries in dealt(by_query, labels, most=most_examples, seed=seed):
+    for number, queries in dealt(by_query, labels, most=MOST_EXAMPLES, seed=seed):
         vector, label = vectors[number], labels[number]
         for query in queries:
             same = by_query[query]
@@ -63,7 +60,6 @@ def fit_learned_answers(
         examples,
         feature_values={key: feature.values for key, feature in domain.features.items()},
         options=RecurrentOptions(seed=seed),
-        on_progress=on_progress,
     )
 
 

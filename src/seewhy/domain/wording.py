@@ -36,11 +36,11 @@ def say_literal(domain: Domain, literal: Literal) -> str:
             return f"{domain.subject} is {scene_class.say}"
     feature = domain.features.get(literal.predicate)
     if feature is not None:
-        for value, own_literal in feature.literals.items():
-            if own_literal == literal:
+        for value, known in feature.literals.items():
+            if known == literal:
                 return feature.say[value].replace("{it}", domain.subject)
-        for value, own_literal in feature.literals.items():
-            if own_literal == literal.complement:
+        for value, known in feature.literals.items():
+            if known == literal.complement:
                 return f"it is not so that {feature.say[value].replace('{it}', domain.subject)}"
     belief = domain.beliefs.get(literal.predicate)
     if belief is not None and literal.arguments[0] == domain.scene:
@@ -134,7 +134,7 @@ def draw_together(clauses: Sequence[str]) -> list[str]:
     ]
 
 
-def join_clauses(clauses: Sequence[str], *, subject: str, word: str = "and") -> str:
+def join_clauses(clauses: Sequence[str], *, subject: str) -> str:
     """Join clauses, naming the subject in the first clause that has one and then saying "it".
 
     Examples
@@ -149,9 +149,7 @@ def join_clauses(clauses: Sequence[str], *, subject: str, word: str = "and") -> 
         if first:
             clause = clause.replace("{it}", subject, 1)
         named.append(_PART_OF_IT.sub(r"its \1 ", clause).replace("{it}", "it"))
-    if len(named) > 1 and word == "and":
-        return f"{', '.join(named[:-1])}, and {named[-1]}"
-    return join_words(named, word=word)
+    return f"{', '.join(named[:-1])}, and {named[-1]}" if len(named) > 1 else "".join(named)
 
 
 def join_words(words: Sequence[str], *, word: str = "and") -> str:

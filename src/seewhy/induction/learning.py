@@ -147,11 +147,11 @@ def decide_by_candidates(features: Mapping[str, Sequence[str]]) -> Decide:
             for row in np.flatnonzero(table.satisfying(candidate.conditions)):
                 classes[row].add(candidate.label)
         found = {}
-        for vector, own_classes in zip(table.vectors, classes, strict=True):
-            if len(own_classes) == 1:
-                found[vector] = Decision(next(iter(own_classes)), Verdict.BELIEVED)
+        for vector, labels in zip(table.vectors, classes, strict=True):
+            if len(labels) == 1:
+                found[vector] = Decision(next(iter(labels)), Verdict.BELIEVED)
             else:
-                verdict = Verdict.CONTRADICTION if own_classes else Verdict.SILENT
+                verdict = Verdict.CONTRADICTION if labels else Verdict.SILENT
                 found[vector] = Decision(None, verdict)
         return [found[tuple(vector)] for vector in vectors]
 

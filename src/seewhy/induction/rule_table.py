@@ -14,8 +14,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from seewhy.domain.domain import Domain
+    from seewhy.induction.learning import Judgement
 
-__all__ = ["COLUMNS", "rules_of_axioms", "rules_of_tree"]
+__all__ = ["COLUMNS", "rules_of_axioms", "rules_of_judgements", "rules_of_tree"]
 
 COLUMNS = ("rule", "sentence", "kind", "concludes", "origin", "support", "precision")
 """The columns of every such table.
@@ -27,6 +28,7 @@ what was given).
 """
 
 _TREE = "path of a tree"
+_AXIOM = "axiom over features"
 
 
 def rules_of_tree(tree: DecisionTree, domain: Domain | None = None) -> pd.DataFrame:
@@ -93,6 +95,37 @@ def rules_of_axioms(axioms: Iterable[Axiom]) -> pd.DataFrame:
             "precision": axiom.origin.precision if axiom.origin.learned else None,
         }
         for axiom in axioms
+    )
+
+
+def rules_of_judgements(judgements: Iterable[Judgement]) -> pd.DataFrame:
+    """Return what induction judged, one a row, in its order, where no domain has words for it.
+
+    Raises
+    ------
+    SeeWhyError
+        If pandas is not installed.
+    """
+    paths = [
+        TreePath(
+            judgement.candidate.conditions,
+            label=judgement.candidate.label,
+            support=judgement.tally.right + judgement.tally.wrong,
+            precision=judgement.tally.precision,
+        )
+        for judgement in judgements
+    ]
+    return _table(
+        {
+            "rule": _rule(path),
+            "sentence": _plain(path),
+            "kind": _AXIOM,
+            "concludes": path.label,
+            "origin": "learned",
+            "support": path.support,
+            "precision": path.precision,
+        }
+        for path in paths
     )
 
 

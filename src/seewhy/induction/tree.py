@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 
 TREE = "tree.json"
+_MOST_ALPHAS = 25
+"""So many pruning strengths are tried at the most."""
 _REMEDY = "train the model again"
 
 
@@ -330,11 +332,11 @@ def _columns(features: Mapping[str, Sequence[str]]) -> list[tuple[str, str | Non
     return columns
 
 
-def _thin(alphas: NDArray[np.float64], *, most: int = 25) -> list[float]:
-    """At most ``most`` of the pruning strengths, evenly chosen."""
-    if len(alphas) <= most:
+def _thin(alphas: NDArray[np.float64]) -> list[float]:
+    """Evenly chosen pruning strengths, where there are too many to try all."""
+    if len(alphas) <= _MOST_ALPHAS:
         return [float(alpha) for alpha in alphas]
-    return [float(alphas[i]) for i in np.linspace(0, len(alphas) - 1, most).astype(int)]
+    return [float(alphas[i]) for i in np.linspace(0, len(alphas) - 1, _MOST_ALPHAS).astype(int)]
 
 
 def _pruned(

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from sklearn.base import BaseEstimator, ClassifierMixin
-from sklearn.utils.multiclass import check_classification_targets
-from sklearn.utils.validation import check_is_fitted, validate_data
+from numpy.typing import ArrayLike
+from sklearn.utils.validation import check_is_fitted
 
+from seewhy.induction.feature_classifier import FeatureClassifier
 from seewhy.induction.tree import DecisionTree
+from seewhy.knowledge.scene import FeatureVector
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -19,11 +18,12 @@ if TYPE_CHECKING:
 __all__ = ["TreeClassifier"]
 
 
-class TreeClassifier(ClassifierMixin, BaseEstimator):  # type: ignore[misc]
+class TreeClassifier(FeatureClassifier):
     """Classes from feature vectors, by :class:`~seewhy.induction.tree.DecisionTree`.
 
     Every distinct value of a column is a category; whole numbers are compared. A value that was
-    not there in training is one that is not known.
+    not there in training is one that is not known. The probability of a class is its share in the
+    leaf of a scene.
 
     Parameters
     ----------
@@ -58,61 +58,16 @@ class TreeClassifier(ClassifierMixin, BaseEstimator):  # type: ignore[misc]
         ValueError
             If there is nothing to learn from, or X and y do not fit together.
         """
-        table, labels = validate_data(self, X, y, dtype=None, ensure_all_finite=True)
-        check_classification_targets(labels)
-        self.classes_ = np.unique(labels)
-        columns = [sorted({_word(value) for value in column}) for column in table.T]
-        names = getattr(self, "feature_names_in_", [f"x{n}" for n in range(len(columns))])
-        self.tree_ = DecisionTree(dict(zip(map(str, names), columns, strict=True))).fit(
-            _vectors(table, columns),
-            [str(label) for label in labels],
-            seed=self.seed,
-            smallest_leaf=self.smallest_leaf,
+        vectors, labels = self._read(X, y)
+        self.tree_ = DecisionTree(self.features_).fit(
+            vectors, labels, seed=self.seed, smallest_leaf=self.smallest_leaf
         )
         return self
-
-    def predict_proba(self, X: ArrayLike) -> NDArray[np.float64]:  # noqa: N803
-        """Return the share of each class in the leaf of each scene, shape (scenes, classes)."""
-        check_is_fitted(self)
-        table = validate_data(self, X, dtype=None, ensure_all_finite=True, reset=False)
-        column_of = {str(label): column for column, label in enumerate(self.classes_)}
-        shares = np.zeros((len(table), len(self.classes_)))
-        for row, vector in enumerate(_vectors(table, [*self.tree_.features.values()])):
-            for label, share in self.tree_.probability(vector).items():
-                shares[row, column_of[label]] = share
-        return shares
-
-    def predict(self, X: ArrayLike) -> NDArray[Any]:  # noqa: N803
-        """Return the class of each scene."""
-        shares = self.predict_proba(X)
-        predicted: NDArray[Any] = self.classes_[np.argmax(shares, axis=1)]
-        return predicted
 
     def get_rules(self) -> pd.DataFrame:
         """Return the paths as a data frame; see :meth:`DecisionTree.get_rules`."""
         check_is_fitted(self)
         return self.tree_.get_rules()
 
-    def __sklearn_tags__(self) -> Any:
-        tags = super().__sklearn_tags__()
-        tags.input_tags.string = True
-        tags.input_tags.categorical = True
-        return tags
-
-
-def _word(value: Any) -> str:
-    """A value of a table as a feature's value: whole numbers are said as such."""
-    if isinstance(value, float | np.floating) and float(value).is_integer():
-        return str(int(value))
-    return str(value)
-
-
-def _vectors(table: NDArray[Any], columns: Sequence[Sequence[str]]) -> list[tuple[str | None, ...]]:
-    known = [frozenset(values) for values in columns]
-    return [
-        tuple(
-            word if (word := _word(value)) in values else None
-            for value, values in zip(row, known, strict=True)
-        )
-        for row in table
-    ]
+    def _shares(self, vectors: Sequence[FeatureVector]) -> Iterator[Mapping[str, float]]:
+        return map(self.tree_.probability, vectors)

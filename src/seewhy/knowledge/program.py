@@ -13,7 +13,7 @@ from functools import lru_cache
 
 from clingo import ast
 
-from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, variables_in
+from seewhy.knowledge.axiom import Axiom, AxiomKind, variables_in
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.scene import SceneSchema
 from seewhy.knowledge.signature import Signature
@@ -63,12 +63,9 @@ def program_text(
     return "\n".join(lines) + "\n"
 
 
-def body_text(
-    axiom: Axiom, signature: Signature, *, conditions: tuple[Condition, ...] | None = None
-) -> str:
+def body_text(axiom: Axiom, signature: Signature) -> str:
     """Return an axiom's conditions over ``holds/1`` and ``sort/2``, without a final stop."""
-    chosen = axiom.body if conditions is None else conditions
-    return "; ".join(held(condition.text, signature) for condition in chosen)
+    return "; ".join(held(condition.text, signature) for condition in axiom.body)
 
 
 def held(condition: str, signature: Signature) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 import math
 import re
 from collections.abc import Mapping
@@ -26,6 +27,8 @@ from seewhy.perception.labelled_pictures import LabelledPictures
 from seewhy.perception.network import GrowingNetwork
 from seewhy.perception.options import TrainingOptions
 from seewhy.perception.rehearsal import Rehearsal
+
+_logger = logging.getLogger(__name__)
 
 __all__ = ["Checkpoint", "Position", "Weights", "checkpoint_file", "fingerprint"]
 
@@ -131,12 +134,16 @@ class Checkpoint:
             with safe_open(self.file, framework="pt") as opened:
                 header = opened.metadata() or {}
                 if header.get("fingerprint") != self.fingerprint:
+                    _logger.info("%s: is of another training, which begins anew", self.file)
                     return None
                 position = TypeAdapter(kind).validate_json(header["position"], strict=True)
                 flat = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
             if _digest(flat) != header["digest"]:
-                return None
-        except (SafetensorError, OSError, ValueError, KeyError, TypeError, RecursionError):
+                raise ValueError("its numbers are not those that were written")
+        except (
+            SafetensorError, OSError, ValueError, KeyError, TypeError, RecursionError,
+        ) as problem:  # fmt: skip
+            _logger.warning("%s: is damaged; the training begins anew (%s)", self.file, problem)
             return None
         parts: dict[str, Weights] = {}
         for key, tensor in flat.items():

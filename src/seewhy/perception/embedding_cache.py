@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import logging
 import os
 import sqlite3
 from collections.abc import Mapping, Sequence
@@ -22,6 +23,8 @@ LARGEST = 4 << 30
 _FILE = "embeddings.sqlite"
 _AT_ONCE = 500  # keys of one question to the database
 _COLUMNS = "key BLOB PRIMARY KEY, shape TEXT, content BLOB, bytes INTEGER, used INTEGER"
+
+_logger = logging.getLogger(__name__)
 
 Array = npt.NDArray[np.float16]
 
@@ -57,7 +60,7 @@ class EmbeddingCache:
     """Half-precision arrays by key, in one SQLite file that several programs may use.
 
     It never stands in the way: what cannot be read, written or locked counts as absent, and a
-    damaged file is begun anew.
+    damaged file is begun anew. Both are logged.
 
     Parameters
     ----------
@@ -99,7 +102,8 @@ class EmbeddingCache:
                     connection.execute(
                         f"UPDATE embeddings SET used = unixepoch() WHERE key IN ({marks})", some
                     )
-        except (sqlite3.Error, ValueError, TypeError, AttributeError):
+        except (sqlite3.Error, ValueError, TypeError, AttributeError) as problem:
+            _logger.warning("%s: an embedding cannot be read (%s)", self.folder, problem)
             return found
         finally:
             connection.close()
@@ -120,8 +124,8 @@ class EmbeddingCache:
                     "INSERT OR REPLACE INTO embeddings VALUES (?, ?, ?, ?, unixepoch())", rows
                 )
                 self._make_room(connection)
-        except sqlite3.Error:
-            pass
+        except sqlite3.Error as problem:
+            _logger.warning("%s: embeddings cannot be kept (%s)", self.folder, problem)
         finally:
             connection.close()
 
@@ -147,14 +151,17 @@ class EmbeddingCache:
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
             return _opened(file)
-        except (sqlite3.OperationalError, OSError):
+        except (sqlite3.OperationalError, OSError) as problem:
+            _logger.warning("%s: embeddings are neither found nor kept (%s)", file, problem)
             return None
-        except sqlite3.DatabaseError:
+        except sqlite3.DatabaseError as problem:
+            _logger.warning("%s: is damaged and begun anew (%s)", file, problem)
             for damaged in self.folder.glob(f"{_FILE}*"):
                 damaged.unlink(missing_ok=True)
         try:
             return _opened(file)
-        except (sqlite3.Error, OSError):
+        except (sqlite3.Error, OSError) as problem:
+            _logger.warning("%s: embeddings are neither found nor kept (%s)", file, problem)
             return None
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -205,21 +205,9 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
     features = {} if seen is None else seen.features
     for keys, problem in (*_problems(table, knowledge), *_picture_problems(table, features)):
         raise DomainError(f"{path}:{line_of(source, keys)}: {problem}")
-    sensing = []
-    for number, entry in enumerate(table.sensing):
-        try:
-            sensing.append(read_sensing(entry.literal, entry.where, knowledge, error=entry.error))
-        except SensingError as problem:
-            line = line_of(source, ("sensing", str(number), problem.part))
-            raise DomainError(f"{path}:{line}: {problem}") from None
-    shows = {}
-    for feature, literal in (table.pictures.shows if table.pictures else {}).items():
-        where = table.pictures.where if table.pictures else ""
-        try:
-            shows[feature] = read_sensing(literal, where, knowledge)
-        except SensingError as problem:
-            keys = ("shows", feature) if problem.part == "literal" else ("where",)
-            raise DomainError(f"{path}:{line_of(source, ('pictures', *keys))}: {problem}") from None
+    sensing, shows = _read_sensing(
+        table, knowledge, at=lambda *keys: f"{path}:{line_of(source, keys)}"
+    )
     past = folder / "history.al"
     return PlanningDomain(
         name=table.planning.name,
@@ -243,12 +231,34 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         robot=table.planning.robot,
         horizon=table.planning.horizon,
         answer_sets=table.planning.answer_sets,
-        sensing=tuple(sensing),
+        sensing=sensing,
         shows=MappingProxyType(shows),
         simulation=table.simulation,
         map=table.map,
         folder=folder,
     )
+
+
+def _read_sensing(
+    table: PlanningFile, knowledge: Knowledge, *, at: Callable[..., str]
+) -> tuple[tuple[Sensing, ...], dict[str, Sensing]]:
+    """What the robot senses, and what its pictures show; ``at`` gives the place of some keys."""
+    sensing = []
+    for number, entry in enumerate(table.sensing):
+        try:
+            sensing.append(read_sensing(entry.literal, entry.where, knowledge, error=entry.error))
+        except SensingError as problem:
+            place = at("sensing", str(number), problem.part)
+            raise DomainError(f"{place}: {problem}") from None
+    shows = {}
+    for feature, literal in (table.pictures.shows if table.pictures else {}).items():
+        where = table.pictures.where if table.pictures else ""
+        try:
+            shows[feature] = read_sensing(literal, where, knowledge)
+        except SensingError as problem:
+            keys = ("shows", feature) if problem.part == "literal" else ("where",)
+            raise DomainError(f"{at('pictures', *keys)}: {problem}") from None
+    return tuple(sensing), shows
 
 
 def _folder(name: str | Path) -> Path:

@@ -153,19 +153,19 @@ def import_photographs(
         scenes: list[_Scene] = []
         imported: dict[str, ImportedHalf] = {}
         for half in halves:
-            own_scenes, left_out = [], list(half.left_out)
+            of_half, left_out = [], list(half.left_out)
             _check_left_out(half, left_out)
             for photograph in half.photographs:
                 try:
-                    own_scenes.append(_write_picture(half, photograph, classes, folder))
+                    of_half.append(_write_picture(half, photograph, classes, folder))
                 except (DamagedFileError, PictureError) as problem:
                     left_out.append(LeftOut(photograph.name, str(problem)))
                     _check_left_out(half, left_out)
                 done += 1
                 if on_progress is not None:
                     on_progress(done, total)
-            scenes += own_scenes
-            imported[half.split] = _account(half, own_scenes, left_out, classes)
+            scenes += of_half
+            imported[half.split] = _account(half, of_half, left_out, classes)
     if not scenes:
         raise DatasetError(
             f"{', '.join(map(str, paths))}: not one photograph is left to import; download the "

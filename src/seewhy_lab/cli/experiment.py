@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,6 +14,7 @@ from seewhy.cli.screen import print_json, progress, remark, say
 
 if TYPE_CHECKING:
     from seewhy_lab.experiments.experiment import Row
+    from seewhy_lab.experiments.running import Run
 
 ExperimentName = Annotated[
     str,
@@ -90,12 +91,9 @@ def experiment(
     from seewhy.cli.code_notice import remark_code
     from seewhy.domain.domain import load_domain
     from seewhy.errors import ExperimentError
-    from seewhy.files.whole_files import write_whole
     from seewhy_lab.experiments.catalogue import PLANNING
-    from seewhy_lab.experiments.conclusions import conclude, summary
     from seewhy_lab.experiments.rows import write_tables
     from seewhy_lab.experiments.running import finished_rows, prepare, run_missing
-    from seewhy_lab.report.experiment_page import experiment_page
 
     if jobs == 0:
         raise ExperimentError("--jobs must be -1 or at least 1, got 0")
@@ -107,21 +105,13 @@ def experiment(
         "--reading": reading,
     }
     of_robot = {"--before": before is not None, "--answer-sets": answer_sets}
+    _refuse_misplaced(name, {**pictures, "--drawn": drawn or None}, of_robot)
     if name == PLANNING:
-        for option, given in {**pictures, "--drawn": drawn or None}.items():
-            if given is not None and (option, given) != ("--domain", "robot_assistant"):
-                raise ExperimentError(
-                    f"{option} goes with the other experiments; planning is of robot_assistant, "
-                    "which needs no pictures for it"
-                )
         _planning(
             out, trials=trials, seed=seed, quick=quick, jobs=jobs, before=before,
             answer_sets=answer_sets, json=json,
         )  # fmt: skip
         return
-    for option, asked in of_robot.items():
-        if asked:
-            raise ExperimentError(f"{option} goes with the experiment planning only")
     domain = domain or "structure_stability"
     if data is None or drawn:
         remark_code(load_domain(domain))
@@ -148,8 +138,36 @@ def experiment(
             run_missing(run, jobs=jobs, on_trial=lambda done: bars.update(task, completed=done))
         finally:
             write_tables(run.folder)
-    rows = finished_rows(run)
-    findings = conclude(run.experiment, rows, domain=load_domain(domain).name)
+    _say_findings(run, finished_rows(run), domain=load_domain(domain).name, json=json)
+
+
+def _refuse_misplaced(
+    name: str, pictures: Mapping[str, object], of_robot: Mapping[str, bool]
+) -> None:
+    """Refuse options of pictures for the experiment with a robot, and the other way round."""
+    from seewhy.errors import ExperimentError
+    from seewhy_lab.experiments.catalogue import PLANNING
+
+    if name == PLANNING:
+        for option, given in pictures.items():
+            if given is not None and (option, given) != ("--domain", "robot_assistant"):
+                raise ExperimentError(
+                    f"{option} goes with the other experiments; planning is of robot_assistant, "
+                    "which needs no pictures for it"
+                )
+        return
+    for option, asked in of_robot.items():
+        if asked:
+            raise ExperimentError(f"{option} goes with the experiment planning only")
+
+
+def _say_findings(run: Run, rows: Sequence[Row], *, domain: str, json: bool) -> None:
+    """Write the page of an experiment, and say what its rows show."""
+    from seewhy.files.whole_files import write_whole
+    from seewhy_lab.experiments.conclusions import conclude, summary
+    from seewhy_lab.report.experiment_page import experiment_page
+
+    findings = conclude(run.experiment, rows, domain=domain)
     page = run.folder / "index.html"
     write_whole(page, experiment_page(run, rows, findings, command=as_typed()))
     _remark_unfinished(rows, len(run.trials))

@@ -13,7 +13,7 @@ from joblib import cpu_count
 
 from seewhy.data.dataset import TABLE
 from seewhy.data.picture_source import load_source
-from seewhy.domain.domain import load_domain
+from seewhy.domain.domain import Domain, load_domain
 from seewhy.domain.folder import FILES
 from seewhy.domain.reading_rule import ReadingRule, reading_rule
 from seewhy.errors import ExperimentError
@@ -122,22 +122,10 @@ def prepare(
     design = experiment(name)
     loaded = load_domain(domain)
     plan: Plan = design.plan(loaded.name, quick=quick)
-    rule = None if reading is None else reading_rule(reading)
-    if rule is not None and name == COMPARES_READINGS:
-        raise ExperimentError(
-            "--reading goes with the other experiments; reading compares all ways to read"
-        )
-    # Trials are of networks that grow, which read each feature alone where nothing else is said.
-    if rule == (loaded.reading or "argmax"):
-        rule = None
+    rule = _other_rule(name, loaded, reading)
     count = plan.trials if trials is None else trials
     chosen = tuple(dict.fromkeys(plan.sizes if sizes is None else sizes))
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except (FileExistsError, NotADirectoryError):
-        raise ExperimentError(
-            f"{out}: is a file, or lies in one; choose a folder for the results with --out"
-        ) from None
+    _make_folder(out)
     if drawn:
         load_source(loaded)  # or the folder would be kept for trials that cannot be run
     if first_seed + count > SEEDS:
@@ -182,6 +170,26 @@ def prepare(
     take_up(run.folder, fault=lambda row: fault(row, design.measures))
     _check_systems(run)
     return run
+
+
+def _other_rule(name: str, domain: Domain, reading: str | None) -> ReadingRule | None:
+    """The rule that is asked for; None where features are read by it anyway."""
+    rule = None if reading is None else reading_rule(reading)
+    if rule is not None and name == COMPARES_READINGS:
+        raise ExperimentError(
+            "--reading goes with the other experiments; reading compares all ways to read"
+        )
+    # Trials are of networks that grow, which read each feature alone where nothing else is said.
+    return None if rule == (domain.reading or "argmax") else rule
+
+
+def _make_folder(out: Path) -> None:
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise ExperimentError(
+            f"{out}: is a file, or lies in one; choose a folder for the results with --out"
+        ) from None
 
 
 def _check_systems(run: Run) -> None:

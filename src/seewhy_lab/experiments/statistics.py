@@ -85,7 +85,7 @@ def interval(values: Sequence[float], *, seed: int = 0) -> Interval:
     return Interval(mean, float(found.low), float(found.high))
 
 
-def ratio_interval(values: Sequence[float], others: Sequence[float], *, seed: int = 0) -> Interval:
+def ratio_interval(values: Sequence[float], others: Sequence[float]) -> Interval:
     """Return the ratio of the means of paired values with its 95 % interval by bootstrap.
 
     Examples
@@ -108,7 +108,7 @@ def ratio_interval(values: Sequence[float], others: Sequence[float], *, seed: in
         of_means,
         paired=True,
         n_resamples=_RESAMPLES,
-        rng=np.random.default_rng(seed),
+        rng=np.random.default_rng(0),
         method="BCa",
     ).confidence_interval
     return Interval(ratio, float(found.low), float(found.high))

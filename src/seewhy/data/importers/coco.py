@@ -19,7 +19,6 @@ from seewhy.errors import DatasetError
 Identifier = int | Annotated[str, Field(max_length=200)]
 Pixels = Annotated[float, Field(ge=-1e7, le=1e7, allow_inf_nan=False)]
 Side = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
-Scalar = str | int | float | bool | None
 
 _CROWD = "crowd"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import logging
 import os
 import shutil
 from collections.abc import Sequence
@@ -15,6 +16,7 @@ from seewhy.data.importers.source_files import SourceFiles, read_bytes
 from seewhy.files.whole_files import whole_file
 
 _LONGEST_PART = 180
+_logger = logging.getLogger(__name__)
 
 
 class Placing:
@@ -57,8 +59,9 @@ class Placing:
             try:
                 target.hardlink_to(path.resolve())
                 return
-            except OSError:
+            except OSError as problem:
                 self.links = False  # another file system, or none that can
+                _logger.info("pictures are copied, since they cannot be linked (%s)", problem)
         with whole_file(target, durable=False) as temporary:
             shutil.copyfile(path, temporary)
             self._stamp(temporary, name)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import get_args
 
+from seewhy.data.annotation_formats import Format, format_called
 from seewhy.data.importers.annotation import AnnotatedPicture, Notes
 from seewhy.data.importers.boxes import CLASS_RULES, ClassRule, class_of_boxes
 from seewhy.data.importers.class_features import (
@@ -18,13 +19,7 @@ from seewhy.data.importers.class_features import (
     features_of_parts,
     read_class_features,
 )
-from seewhy.data.importers.formats import (
-    Format,
-    check_mixture,
-    format_called,
-    format_of,
-    reader_of,
-)
+from seewhy.data.importers.formats import check_mixture, format_of, reader_of
 from seewhy.data.importers.groups import grouped, grouping
 from seewhy.data.importers.opening import is_archive, open_source
 from seewhy.data.importers.request import ImportRequest

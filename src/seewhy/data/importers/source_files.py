@@ -12,9 +12,6 @@ from seewhy.errors import DatasetError
 LARGEST_PICTURE = 512 * 2**20
 """Bytes of the largest picture file that is read."""
 
-LARGEST_TEXT = 4 * 2**30
-"""Bytes of the largest table or export that is read."""
-
 
 class DamagedFileError(DatasetError):
     """One file of a source cannot be read; the others may be well."""

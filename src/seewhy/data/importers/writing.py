@@ -46,7 +46,6 @@ def import_pictures(
     request: ImportRequest,
     folder: Path | str,
     *,
-    class_features: ClassFeatures | None = None,
     on_progress: Progress | None = None,
 ) -> ImportedDataset:
     """Import a source into a new dataset folder.
@@ -59,8 +58,6 @@ def import_pictures(
     ----------
     request : ImportRequest
     folder : Path
-    class_features : ClassFeatures, optional
-        Instead of those that the request names.
     on_progress : callable, optional
         Called with the pictures done and the pictures in all.
 
@@ -87,7 +84,7 @@ def import_pictures(
     """
     folder = Path(folder)
     check_out_folder(folder, request)
-    with read_source(request, class_features=class_features) as read:
+    with read_source(request) as read:
         return write_dataset(read, folder, on_progress=on_progress)
 
 

@@ -71,9 +71,9 @@ class _Things:
         }
         self.said: set[int] = set()
 
-    def say(self, place: int | None, sort: str = "thing") -> str:
+    def say(self, place: int | None) -> str:
         if place is None:
-            return f"some {_noun(sort)}"
+            return "some thing"
         if place in self.named:
             return self.words.name(self.named[place])
         noun = _noun(self.sorts[place])

@@ -50,10 +50,10 @@ class Solid:
     def moved(self, x: float, y: float, z: float, yaw: float) -> Solid:
         """The solid turned by `yaw` about the upright through the origin, then displaced."""
         cos, sin = math.cos(yaw), math.sin(yaw)
-        own_x, own_y, own_z = self.at
+        here_x, here_y, here_z = self.at
         return replace(
             self,
-            at=(x + cos * own_x - sin * own_y, y + sin * own_x + cos * own_y, z + own_z),
+            at=(x + cos * here_x - sin * here_y, y + sin * here_x + cos * here_y, z + here_z),
             quat=_product((math.cos(yaw / 2.0), 0.0, 0.0, math.sin(yaw / 2.0)), self.quat),
         )
 
@@ -123,7 +123,7 @@ def box(
     )
 
 
-def ball(size: Point, at: Point, colour: Colour, *, gloss: float = 0.0) -> Solid:
+def ball(size: Point, at: Point, colour: Colour) -> Solid:
     """An ellipsoid of the given width, depth and height with its middle at `at`."""
     width, depth, height = size
     return Solid(
@@ -131,7 +131,6 @@ def ball(size: Point, at: Point, colour: Colour, *, gloss: float = 0.0) -> Solid
         size=(width / 2.0, depth / 2.0, height / 2.0),
         at=at,
         colour=colour,
-        gloss=gloss,
     )
 
 

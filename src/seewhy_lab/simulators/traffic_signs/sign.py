@@ -192,13 +192,13 @@ def _moved_in(corners: Points, distance: float) -> Points:
     return moved
 
 
-def _round_corners(corners: Points, radius: float, steps: int = 5) -> Points:
+def _round_corners(corners: Points, radius: float) -> Points:
     before, after = np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0)
     into = (corners - before) / np.linalg.norm(corners - before, axis=1, keepdims=True)
     out = (after - corners) / np.linalg.norm(after - corners, axis=1, keepdims=True)
     reach = radius * np.tan(np.arccos(np.clip((into * out).sum(axis=1), -1, 1)) / 2)[:, None]
     start, end = corners - into * reach, corners + out * reach
-    times = np.linspace(0.0, 1.0, steps)[:, None, None]
+    times = np.linspace(0.0, 1.0, 5)[:, None, None]
     curve = (1 - times) ** 2 * start + 2 * times * (1 - times) * corners + times**2 * end
     points: Points = curve.transpose(1, 0, 2).reshape(-1, 2)
     return points
