@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 
 
 @dataclass(frozen=True, order=True)
@@ -90,6 +91,13 @@ class Signature:
     def changes(self, predicate: str) -> bool:
         """Whether a predicate has to do with change: whether it is a fluent or an action."""
         return self.kind(predicate) is not PredicateKind.STATIC
+
+    @cached_property
+    def fluents(self) -> frozenset[str]:
+        """The predicates that are fluents."""
+        return frozenset(
+            name for name, predicate in self.predicates.items() if predicate.kind.is_fluent
+        )
 
     def members(self, sort: str) -> tuple[str, ...]:
         """Return the members of ``sort``; empty for the sort of the scene."""

@@ -169,7 +169,7 @@ def _wilcoxon(apart: NDArray[np.float64]) -> float:
         return float(wilcoxon(apart).pvalue)
 
     # With ties, wilcoxon() looks at all signs, too, and ranks anew for each: that takes seconds.
-    def above(ranks: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+    def above(ranks: Any, axis: int) -> Any:
         return np.where(ranks > 0, ranks, 0.0).sum(axis=axis)
 
     signed = rankdata(np.abs(differing)) * np.sign(differing)
