@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 
 
 @dataclass(frozen=True, order=True)
@@ -111,6 +112,13 @@ class Signature:
     def argument_sorts(self, name: str) -> tuple[str, ...]:
         """Return the sorts of the arguments of a predicate, or of a sort used as one."""
         return (name,) if name in self.sorts else self.predicates[name].sorts
+
+    @cached_property
+    def fluents(self) -> frozenset[str]:
+        """The predicates that are fluents."""
+        return frozenset(
+            name for name, predicate in self.predicates.items() if predicate.kind.is_fluent
+        )
 
     def members(self, sort: str) -> tuple[str, ...]:
         """Return the members of ``sort``; empty for the sort of the scene."""
