@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from seewhy.domain.domain import Domain
-    from seewhy.induction.learning import Judgement
+    from seewhy.induction.axiom_learning import Judgement
 
 __all__ = ["COLUMNS", "rules_of_axioms", "rules_of_judgements", "rules_of_tree"]
 
