@@ -16,7 +16,7 @@ from seewhy.knowledge.ground import literal_of
 from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import read_knowledge
 from seewhy.planning.diagnosis.diagnosis import diagnose
-from seewhy.planning.dialogue.replying import answer
+from seewhy.planning.dialogue.run_answers import answer
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.execution import Run, execute
 from seewhy.planning.execution.transition_function import TransitionFunction, World

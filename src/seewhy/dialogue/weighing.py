@@ -6,13 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from seewhy.dialogue.answer import AnswerType
+from seewhy.dialogue.antecedent import say_values, supposed_values
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.certainty import SURE_FROM, Ground, least_sure
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reply import Classification, Reply
-from seewhy.dialogue.supposition import say_values, supposed_values
 from seewhy.dialogue.told import Told
-from seewhy.dialogue.tree_says import tree_says
+from seewhy.dialogue.tree_reason import tree_says
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.domain.wording import join_words, say_features, sentence

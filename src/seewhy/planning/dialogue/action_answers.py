@@ -22,7 +22,7 @@ from seewhy.planning.dialogue.clause_forms import gerund
 from seewhy.planning.dialogue.goal_words import say_goal
 from seewhy.planning.dialogue.query import Asks, Query, Told
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import Speech, sentences
+from seewhy.planning.dialogue.surface_realisation import Speech, sentences
 from seewhy.planning.execution.execution import Decision
 
 

@@ -16,7 +16,7 @@ from seewhy.planning.dialogue.action_reason import Failing
 from seewhy.planning.dialogue.instances import Applied
 from seewhy.planning.dialogue.query import Query
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import Speech
+from seewhy.planning.dialogue.surface_realisation import Speech
 from seewhy.planning.execution.execution import Outcome, Run, Step
 from seewhy.planning.execution.plan_monitoring import suppositions
 

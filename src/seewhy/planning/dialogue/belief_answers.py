@@ -11,12 +11,12 @@ import clingo
 from seewhy.knowledge.ground import complement_of, fluent_of
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.dialogue.belief_reason import Beliefs, tell
-from seewhy.planning.dialogue.describing import describe_place, say_counted
+from seewhy.planning.dialogue.hypothetical_history import known_at
+from seewhy.planning.dialogue.location_fluents import Place, place_of, places, whereabouts
+from seewhy.planning.dialogue.location_fluents import contents as whats_at
+from seewhy.planning.dialogue.place_description import describe_place, say_counted
 from seewhy.planning.dialogue.query import Query, Told
-from seewhy.planning.dialogue.speech import Speech, sentences
-from seewhy.planning.dialogue.supposing import known_at
-from seewhy.planning.dialogue.whereabouts import Place, place_of, places, whereabouts
-from seewhy.planning.dialogue.whereabouts import contents as whats_at
+from seewhy.planning.dialogue.surface_realisation import Speech, sentences
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
 from seewhy.planning.planner.mutex import mutexes
@@ -28,7 +28,7 @@ class BeliefAnswers:
 
     Examples
     --------
-    >>> from seewhy.planning.dialogue.asking import PlanningQuestions
+    >>> from seewhy.planning.dialogue.question_parsing import PlanningQuestions
     >>> from seewhy.planning.goal import read_goal
     >>> from seewhy.planning.domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")

@@ -17,11 +17,11 @@ from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.dialogue.belief_answers import because, instead_of, none_of
 from seewhy.planning.dialogue.belief_reason import Beliefs
+from seewhy.planning.dialogue.hypothetical_history import known_at
+from seewhy.planning.dialogue.location_fluents import contents, place_of, whereabouts
 from seewhy.planning.dialogue.query import Asks, Query, Told
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import sentences
-from seewhy.planning.dialogue.supposing import known_at
-from seewhy.planning.dialogue.whereabouts import contents, place_of, whereabouts
+from seewhy.planning.dialogue.surface_realisation import sentences
 
 Literals = tuple[clingo.Symbol, ...]
 

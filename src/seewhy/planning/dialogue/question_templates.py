@@ -18,8 +18,8 @@ from seewhy.planning.dialogue.clause_forms import (
     without_first_words,
     without_last_thing,
 )
+from seewhy.planning.dialogue.location_fluents import places
 from seewhy.planning.dialogue.query import Asks
-from seewhy.planning.dialogue.whereabouts import places
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.tables import ActionTable
 

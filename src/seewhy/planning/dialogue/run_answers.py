@@ -15,10 +15,10 @@ from seewhy.planning.dialogue import (
     supposed_answers,
 )
 from seewhy.planning.dialogue.addressing import addressed, as_asked
-from seewhy.planning.dialogue.asking import PlanningQuestions
 from seewhy.planning.dialogue.belief_answers import BeliefAnswers
 from seewhy.planning.dialogue.query import Asks, Query, Told
-from seewhy.planning.dialogue.recalling import recalled
+from seewhy.planning.dialogue.question_parsing import PlanningQuestions
+from seewhy.planning.dialogue.reconstructed_run import recalled
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
