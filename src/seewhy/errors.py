@@ -55,6 +55,10 @@ class NotFittedError(SeeWhyError, ValueError):
     """An agent was asked before it was trained."""
 
 
+class RevisionError(SeeWhyError, ValueError):
+    """A revision cannot be taken or taken back: what it would change is not there any more."""
+
+
 class PlanningError(SeeWhyError, ValueError):
     """A goal, a history or a simulation cannot be used as it stands."""
 

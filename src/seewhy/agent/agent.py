@@ -226,7 +226,7 @@ class Agent(Inference):
             If no learned axiom has this identifier.
         """
         gone = Withdrawn(str(self.known.learned_axiom(identifier)), reason)
-        self._know(self.known.withdrawing(gone))
+        self.know(self.known.withdrawing(gone))
         return gone
 
     def restore(self, identifier: str) -> Axiom:
@@ -238,10 +238,10 @@ class Agent(Inference):
             If no axiom with this identifier is set aside.
         """
         axiom = self.known.axiom_set_aside(identifier)
-        self._know(self.known.restoring(axiom))
+        self.know(self.known.restoring(axiom))
         return axiom
 
-    def _know(self, known: WorkingKnowledge) -> None:
+    def know(self, known: WorkingKnowledge) -> None:
         """Reason with this, and learn from what is remembered what it leaves open."""
         from seewhy.agent.learning_from_pictures import AnnotatedScenes
 

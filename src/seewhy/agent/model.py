@@ -17,7 +17,7 @@ from seewhy.agent.training_pictures import TrainingPictures
 from seewhy.agent.working_knowledge import WorkingKnowledge, working_knowledge
 from seewhy.dialogue.reference import Experience
 from seewhy.domain.domain import Domain, load_domain
-from seewhy.domain.folder import FILES
+from seewhy.domain.folder import FILES, REVISIONS
 from seewhy.domain.reading_rule import ReadingRule
 from seewhy.domain.tables import CLASS
 from seewhy.errors import ModelError, SeeWhyError
@@ -83,6 +83,8 @@ def write_model(model: Model, folder: Path) -> None:
         known, seeing = model.known, model.seeing
         for name in FILES:
             shutil.copyfile(known.given.folder / name, temporary / "domain" / name)
+        if (known.given.folder / REVISIONS).is_file():
+            shutil.copyfile(known.given.folder / REVISIONS, temporary / "domain" / REVISIONS)
         if known.learned or known.withdrawn:
             write_learned(temporary, known.learned, known.withdrawn)
         seeing.trained.save(temporary / "perception")

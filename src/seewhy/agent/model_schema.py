@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field, RootModel
 
-from seewhy.domain.folder import FILES
+from seewhy.domain.folder import FILES, REVISIONS
 from seewhy.domain.reading_rule import ReadingRule
 from seewhy.files.json_file import Strict
 from seewhy.knowledge.learned_file import LEARNED
@@ -72,4 +72,4 @@ def must_have(manifest: Manifest) -> tuple[str, ...]:
 def may_have(manifest: Manifest) -> tuple[str, ...]:
     """Return all files that such a model may have."""
     familiar = ("perception/familiarity.json", "perception/familiarity.safetensors")
-    return (*must_have(manifest), LEARNED, *familiar)
+    return (*must_have(manifest), LEARNED, f"domain/{REVISIONS}", *familiar)

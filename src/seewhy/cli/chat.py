@@ -1,8 +1,11 @@
-"""`seewhy chat`: questions about one picture, one after another."""
+"""`seewhy chat`: questions about one picture, one after another, and corrections of answers."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import Annotated
+
+import typer
 
 from seewhy.cli.conversation import converse
 from seewhy.cli.cores import share_cores
@@ -17,13 +20,18 @@ from seewhy.cli.options import (
     Speak,
 )
 
-if TYPE_CHECKING:
-    from seewhy.dialogue.reply import Reply
-
 
 def chat(
     model: ModelFolder,
     image: ImageFile,
+    data: Annotated[
+        Path | None,
+        typer.Option(
+            "--data",
+            help="A dataset folder: says which of its pictures a revision would change, and keeps "
+            "labels.",
+        ),
+    ] = None,
     speak: Speak = False,
     device: Device = "auto",
     reading: Reading = None,
@@ -33,32 +41,34 @@ def chat(
 ) -> None:
     """Talk about a picture; an empty line or "quit" ends.
 
+    "No, that is wrong", "no, it is CLASS" or "it is CLASS because …" proposes what mends it, with
+    what else that would change. What is taken is kept in the model; "undo that" takes it back.
     With --json every answer is one line of JSON.
     """
     share_cores()
     from seewhy.agent.agent import Agent
+    from seewhy.data.dataset import Dataset
     from seewhy.dialogue.text_to_speech import find_voice
+    from seewhy.revision.conversation import Conversation
+    from seewhy.revision.revisions import Revisions
 
     voice = find_voice() if speak else None
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
-    scene = agent.classify(image)
-    previous: Reply | None = None
-
-    def answer(question: str) -> Reply:
-        nonlocal previous
-        asked = previous.question if previous is not None else None
-        understood = agent.questions.understand(question, previous=asked)
-        reply = agent.answer(scene, understood, previous=previous, image=image)
-        if reply.kind.form != "explain":
-            previous = reply
-        return reply
-
+    if data is not None:
+        Dataset.load(data, agent.domain)
+    talk = Conversation(
+        agent,
+        Revisions(model, agent=agent, dataset=data),
+        look=lambda: agent.classify(image),
+        picture=image,
+    )
     converse(
-        answer,
+        talk.say,
         greeting=(
             "Ask about the picture, for instance:",
             *(f"  {question.text}?" for question in agent.questions.one_of_each()[:4]),
-            '"please explain this answer" explains the last one; an empty line ends.',
+            '"please explain this answer" explains the last one, "no, that is wrong" corrects it; '
+            "an empty line ends.",
         ),
         json=json,
         voice=voice,

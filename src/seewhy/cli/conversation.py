@@ -29,11 +29,12 @@ def converse(
 ) -> None:
     """Answer question after question until the input ends, or somebody at a terminal leaves.
 
-    What is not understood is said, with the nearest questions, and the next one is read. A person
-    at a terminal is greeted; with ``json`` every answer is one line of JSON.
+    What is not understood is said, with the nearest questions, and the next one is read; so is why
+    knowledge or a label cannot be revised as somebody asks. A person at a terminal is greeted; with
+    ``json`` every answer is one line of JSON.
     A ``voice`` says each answer as well.
     """
-    from seewhy.errors import QuestionError
+    from seewhy.errors import DatasetError, KnowledgeError, QuestionError, RevisionError
 
     interactive = sys.stdin.isatty()
     if interactive and not json:
@@ -51,9 +52,10 @@ def converse(
             return
         try:
             spoken = answer(text)
-        except QuestionError as problem:
+        except (QuestionError, RevisionError, KnowledgeError, DatasetError) as problem:
             if json:
-                told = {"error": str(problem), "nearest": list(problem.nearest)}
+                nearest = problem.nearest if isinstance(problem, QuestionError) else ()
+                told = {"error": str(problem), "nearest": list(nearest)}
                 print_json(told, lines=False)
             else:
                 complain(str(problem))

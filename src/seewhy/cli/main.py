@@ -28,6 +28,7 @@ from seewhy.cli import (
     new,
     plan,
     reference,
+    revisions,
     serve,
     simulate,
     studio,
@@ -84,6 +85,7 @@ app.command("learn")(learn.learn)
 app.command("axioms")(axioms.axioms)
 app.command("ask")(ask.ask)
 app.command("chat")(chat.chat)
+app.command("revisions")(revisions.revisions)
 app.command("decide")(decide.decide)
 app.command("classify")(classify.classify)
 app.command("serve")(serve.serve)

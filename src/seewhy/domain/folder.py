@@ -10,6 +10,9 @@ from seewhy.text.nearest import did_you_mean
 FILES = ("domain.toml", "knowledge.al", "questions.toml")
 """What a domain's folder must have."""
 
+REVISIONS = "revisions.jsonl"
+"""What it may have beside: the record of how its knowledge was revised."""
+
 _BUNDLED = Path(__file__).parents[1] / "domains"
 
 

@@ -10,7 +10,7 @@ from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.scene import SceneSchema
 
-__all__ = ["axiom_statement", "conjunctions"]
+__all__ = ["SCENE", "axiom_statement", "condition_text", "conjunctions"]
 
 SCENE = "S"
 
@@ -55,17 +55,35 @@ def axiom_statement(candidate: Candidate, schema: SceneSchema) -> str:
     parts: list[str] = []
     variables = (f"N{n}" if n else "N" for n in range(len(candidate.conditions)))
     for condition in candidate.conditions:
-        literals = schema.features[condition.feature]
-        if len(condition.values) == 1:
-            parts.append(str(_of_scene(literals[condition.values[0]], schema)))
-        elif _are_numbers(literals):
-            parts.append(_compared(condition.values, literals, next(variables), schema))
-        else:
-            excluded = (
-                literal for value, literal in literals.items() if value not in condition.values
-            )
-            parts += [str(_of_scene(literal.complement, schema)) for literal in excluded]
+        number = next(variables) if _is_compared(condition, schema) else "N"
+        parts.append(condition_text(condition, schema, number=number))
     return f"{head} if {', '.join(parts or [f'{schema.scene}({SCENE})'])}."
+
+
+def condition_text(condition: PathCondition, schema: SceneSchema, *, number: str = "N") -> str:
+    """Return what a condition asks of the scene ``S``, as it stands in an axiom's body.
+
+    ``number`` is the variable of a number that is compared.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> from seewhy.induction.tree import PathCondition
+    >>> schema = load_domain("structure_stability").schema
+    >>> condition_text(PathCondition("num_blocks", ("1", "2")), schema)
+    'num_blocks(S, N), N < 3'
+    """
+    literals = schema.features[condition.feature]
+    if len(condition.values) == 1:
+        return str(_of_scene(literals[condition.values[0]], schema))
+    if _is_compared(condition, schema):
+        return _compared(condition.values, literals, number, schema)
+    excluded = (literal for value, literal in literals.items() if value not in condition.values)
+    return ", ".join(str(_of_scene(literal.complement, schema)) for literal in excluded)
+
+
+def _is_compared(condition: PathCondition, schema: SceneSchema) -> bool:
+    return len(condition.values) > 1 and _are_numbers(schema.features[condition.feature])
 
 
 def _is_one(condition: PathCondition, schema: SceneSchema) -> bool:

@@ -13,7 +13,15 @@ from seewhy.knowledge.axiom import Axiom, Origin
 from seewhy.knowledge.language import read_axioms
 from seewhy.knowledge.signature import Signature
 
-__all__ = ["LEARNED", "Withdrawn", "learned_text", "parse_learned", "read_learned", "write_learned"]
+__all__ = [
+    "LEARNED",
+    "Withdrawn",
+    "learned_text",
+    "parse_learned",
+    "parse_withdrawn",
+    "read_learned",
+    "write_learned",
+]
 
 LEARNED = "learned.al"
 
@@ -100,11 +108,20 @@ def read_learned(
     if not path.is_file():
         return (), ()
     source = path.read_text(encoding="utf-8")
-    axioms = parse_learned(source, signature, file=str(path))
-    lines = source.splitlines()
-    found = (match for line in lines if (match := _WITHDRAWN.match(line)))
+    return parse_learned(source, signature, file=str(path)), parse_withdrawn(source)
+
+
+def parse_withdrawn(source: str) -> tuple[Withdrawn, ...]:
+    """Read which axioms are known no more, of the text of :func:`learned_text`.
+
+    Examples
+    --------
+    >>> parse_withdrawn("% set aside: stable(S). because nobody believes it")
+    (Withdrawn(statement='stable(S).', reason='nobody believes it', given=True),)
+    """
+    found = (match for line in source.splitlines() if (match := _WITHDRAWN.match(line)))
     gone = (parsed.groups() for parsed in found)
-    return axioms, tuple(
+    return tuple(
         Withdrawn(statement, reason, fate == "set aside") for fate, statement, reason in gone
     )
 

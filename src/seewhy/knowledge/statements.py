@@ -28,12 +28,17 @@ class NumberError(KnowledgeError):
 class Statement:
     """The text of one statement without its final full stop; comments are blanked out.
 
-    ``sentence`` joins the ``%%`` lines directly above the statement.
+    ``sentence`` joins the ``%%`` lines directly above the statement. ``begins`` and ``stops`` are
+    the places of the first of these lines, or else of the statement, and of its full stop in the
+    source, whose line ends count as one character; ``said`` is where the last line ends.
     """
 
     text: str
     sentence: str
     location: Location
+    begins: int
+    said: int
+    stops: int
 
     @property
     def line(self) -> str:
@@ -113,14 +118,18 @@ class _Scan:
         sentences: list[str] = []
         text: list[str] = []
         start: Location | None = None
+        began = said = self.at
         while self.at < len(self.source):
             here = self.here()
+            if start is None and not sentences:
+                began = self.at
             if self.looking_at("%*"):
                 text.append(_blank(self.block_comment(here)))
             elif self.looking_at("%"):
                 comment = self.rest_of_line()
                 if start is None and comment.startswith("%%"):
                     sentences.append(comment.lstrip("%").strip())
+                    said = self.at
                 text.append(_blank(comment))
             elif self.looking_at('"'):
                 start = start or here
@@ -134,7 +143,12 @@ class _Scan:
                     )
                 self.take()
                 return Statement(
-                    text="".join(text).lstrip(), sentence=" ".join(sentences), location=start
+                    text="".join(text).lstrip(),
+                    sentence=" ".join(sentences),
+                    location=start,
+                    begins=began,
+                    said=said,
+                    stops=self.at - 1,
                 )
             elif number := self.number():
                 _refuse_large(number, here)
