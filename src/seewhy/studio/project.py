@@ -13,7 +13,7 @@ from seewhy.data.importers.folder_files import FolderFiles
 from seewhy.data.importers.picture_files import is_picture_name
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.domain.tables import CLASS
-from seewhy.errors import SeeWhyError
+from seewhy.errors import DomainError, KnowledgeError, SeeWhyError
 from seewhy.studio.labels import LABEL, REASONS, ROWS, Labels, labels_of
 from seewhy.studio.record import Entry, Record
 from seewhy.studio.writing import (
@@ -207,15 +207,22 @@ class Project:
 
     # Files ------------------------------------------------------------------------------------
 
+    def _usable_domain(self) -> Domain | None:
+        """The domain, unless its files are wrong: then the table waits until they are mended."""
+        try:
+            return self.domain()
+        except (DomainError, KnowledgeError):
+            return None
+
     def _write(self) -> None:
         folder = self.domain_folder
         if folder is None:
             return
         for name, text in folder_texts(self.record.holding(FILES)).items():
             write_text(folder / name, text, record=self.record, name=name)
-        labels = self.labels()
-        if labels.of or labels.rows:
-            text = scenes_table(labels, self.domain())
+        labels, domain = self.labels(), self._usable_domain()
+        if domain is not None and (labels.of or labels.rows):
+            text = scenes_table(labels, domain)
             write_text(self.folder / TABLE, text, record=self.record, name=TABLE)
 
     def _take_in_changes(self) -> None:
@@ -232,9 +239,9 @@ class Project:
         }
         if changed:
             self.record.add(FILES, {"files": changed, "why": "changed outside"}, who=_OUTSIDE)
-        table = self.folder / TABLE
-        if table.is_file():
-            texts = {TABLE: scenes_table(self.labels(), self.domain())}
+        table, domain = self.folder / TABLE, self._usable_domain()
+        if domain is not None and table.is_file():
+            texts = {TABLE: scenes_table(self.labels(), domain)}
             if changed_outside(table, texts, record=self.record, name=TABLE):
                 self._take_in_table()
 

@@ -53,10 +53,17 @@
     if (!matters(event) && busy) event.detail.shouldSwap = false;
   });
 
-  document.addEventListener("htmx:afterRequest", (event) => {
-    if (!matters(event)) return;
+  function release() {
     busy = false;
     while (waiting.length && !busy) press(waiting.shift());
+  }
+
+  // Only when an answer has settled do its buttons and links ask in their turn.
+  document.addEventListener("htmx:afterSettle", (event) => {
+    if (matters(event)) release();
+  });
+  document.addEventListener("htmx:afterRequest", (event) => {
+    if (matters(event) && (event.detail.failed || event.detail.xhr.status === 204)) release();
   });
 
   // A value that has no button of its own is said by choosing it.
