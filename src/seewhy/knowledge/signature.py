@@ -50,12 +50,14 @@ class Sort:
     """A named set of terms.
 
     ``members`` is None for the sort that stands for the scene itself: its only member is the
-    picture at hand.
+    picture at hand. So it is for one ``of_things``: its members are the things that are found in
+    the picture.
     """
 
     name: str
     members: tuple[str, ...] | None
     location: Location
+    of_things: bool = False
 
 
 @dataclass(frozen=True)
