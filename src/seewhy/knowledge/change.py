@@ -203,6 +203,8 @@ class ChangeFinder:
             self._control.add(
                 f"goal_{len(self._goals)}", f"{{ {goal} }}. :- {goal}, not holds({key})."
             )
+            if self._control.atoms[clingo.parse_term(goal)] is None:
+                return None  # no scene has an answer set at all
             self._goals[key] = goal
         return self._goals[key]
 
