@@ -1,4 +1,4 @@
-"""Things in the reasoner: what it decides, and why, as plain clingo has it with one program a scene."""
+"""Things in the reasoner, beside plain clingo with one program a scene."""
 
 from __future__ import annotations
 
@@ -40,7 +40,8 @@ mixed(A, B, C) if colour(A, N), colour(B, N), colour(C, M), N != M.
 mixed(A, B, C) if shading(A, N), shading(B, N), shading(C, M), N != M.
 mixed(A, B, C) if shape(A, N), shape(B, N), shape(C, M), N != M.
 %% three cards are a set when each of the four is all alike or all different
-is_set(A, B, C) if card(A), card(B), card(C), A < B, B < C, not mixed(A, B, C), not mixed(A, C, B), not mixed(B, C, A).
+is_set(A, B, C) if card(A), card(B), card(C), A < B, B < C, not mixed(A, B, C),
+  not mixed(A, C, B), not mixed(B, C, A).
 some_set(P) if picture(P), is_set(A, B, C).
 -some_set(P) if picture(P), not some_set(P).
 """
@@ -344,9 +345,7 @@ def test_which_card_would_complete_them() -> None:
     values: dict[str, str | None] = {}
     for number, card in enumerate(cards, start=1):
         values[f"card(card{number})"] = "yes"
-        values |= {
-            f"{f}(card{number})": value for f, value in zip(SET_FEATURES, card, strict=True)
-        }
+        values |= {f"{f}(card{number})": value for f, value in zip(SET_FEATURES, card, strict=True)}
     vector = schema.vector(values)
     literal = read_literal("is_set(card1, card2, card3)")
     (change,) = [
@@ -451,7 +450,5 @@ def test_a_sort_called_things_is_one_like_others() -> None:
 
 
 def test_things_are_counted_in_what_grows() -> None:
-    known = read_knowledge(
-        "#sort a = things. #static p(a, a, a). p(X, Y, Z) if a(X), a(Y), a(Z)."
-    )
+    known = read_knowledge("#sort a = things. #static p(a, a, a). p(X, Y, Z) if a(X), a(Y), a(Z).")
     assert grounding_size(known.with_things(10)).instances == 1000

@@ -36,8 +36,8 @@ class DomainReport:
     """What was found; errors are raised, not reported.
 
     ``verdicts`` gives the share of each verdict among ``vectors`` feature vectors (all of them,
-    a sample of 20,000, or 500 scenes of things). ``decided`` and ``decided_rightly`` are shares of a dataset's scenes
-    by their annotated features.
+    a sample of 20,000, or 500 scenes of things). ``decided`` and ``decided_rightly`` are shares of
+    a dataset's scenes by their annotated features.
     """
 
     questions: int

@@ -14,7 +14,6 @@ from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.possible import Belief
 from seewhy.knowledge.settling import JointCondition
 
-
 _NOT_THERE = "things that are not there"
 """What decides all needs that fail because some thing is not there."""
 

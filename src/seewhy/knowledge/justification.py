@@ -196,7 +196,7 @@ class Node:
             },
             "feature": self.feature,
             "value": self.value,
-            "beside": list(self.beside),
+            **({"beside": list(self.beside)} if self.beside else {}),
             "probability": self.probability,
             "overruled": None
             if self.overruled is None

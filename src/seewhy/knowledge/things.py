@@ -92,7 +92,8 @@ def schema_with_things(
     ['thing(thing1)', 'thing(thing2)', 'on(thing1,thing2)', 'on(thing2,thing1)']
     """
     found = signature.sort_of_things
-    assert found is not None and found.members is not None, "the things are not counted"
+    assert found is not None, "there is no sort of things"
+    assert found.members is not None, "the things are not counted"
     presence = {thing: of_things(found.name, thing) for thing in found.members}
     features: dict[str, Mapping[str, Literal]] = {
         feature: {
