@@ -24,9 +24,10 @@ from seewhy.knowledge.consistency import never_applies
 from seewhy.knowledge.grounding_size import large_grounding
 from seewhy.knowledge.odd_loop import say_odd_loop
 from seewhy.knowledge.reasoner import Reasoner, Verdict
-from seewhy.knowledge.scene import FeatureVector
+from seewhy.knowledge.scene import FeatureVector, SceneSchema
 
 MOST_VECTORS = 20_000
+_SCENES_OF_THINGS = 500
 _LOOKED_AT = 50  # feature vectors without an answer set, for the reasons why
 
 
@@ -35,8 +36,8 @@ class DomainReport:
     """What was found; errors are raised, not reported.
 
     ``verdicts`` gives the share of each verdict among ``vectors`` feature vectors (all of them,
-    or a sample of 20,000). ``decided`` and ``decided_rightly`` are shares of a dataset's scenes
-    by their annotated features.
+    a sample of 20,000, or 500 scenes of things). ``decided`` and ``decided_rightly`` are shares of
+    a dataset's scenes by their annotated features.
     """
 
     questions: int
@@ -139,6 +140,23 @@ def _with_axioms_judged(report: DomainReport, reasoner: Reasoner, data: Dataset)
     )
 
 
+def _scenes_of_things(schema: SceneSchema, count: int) -> list[FeatureVector]:
+    """Scenes with things, whose features and relations are as chance has it."""
+    generator = np.random.default_rng(0)
+    things = list(schema.presence.values())
+    found: list[FeatureVector] = []
+    for _ in range(count):
+        values: dict[str, str | None] = dict.fromkeys(
+            things[: int(generator.integers(len(things) + 1))], "yes"
+        )
+        for feature, literals in schema.features.items():
+            if feature not in things and all(p in values for p in schema.requires.get(feature, ())):
+                possible = list(literals)
+                values[feature] = possible[int(generator.integers(len(possible)))]
+        found.append(schema.vector(values))
+    return found
+
+
 def _odd_loops(reasoner: Reasoner, vectors: Sequence[FeatureVector]) -> list[tuple[Axiom, ...]]:
     """The odd loops behind feature vectors without an answer set, each once."""
     found: dict[tuple[str, ...], tuple[Axiom, ...]] = {}
@@ -154,7 +172,12 @@ def _said_odd(loop: Sequence[Axiom]) -> str:
 
 
 def feature_vectors(domain: Domain) -> list[FeatureVector]:
-    """Return all feature vectors of a domain, or a sample where there are too many."""
+    """Return all feature vectors of a domain, or a sample where there are too many.
+
+    Of a domain with things it is always a sample: of scenes with any number of things.
+    """
+    if domain.things is not None:
+        return _scenes_of_things(domain.schema, min(MOST_VECTORS, _SCENES_OF_THINGS))
     values = [feature.values for feature in domain.features.values()]
     if prod(map(len, values)) <= MOST_VECTORS:
         return [tuple(vector) for vector in product(*values)]

@@ -162,7 +162,16 @@ class _Explanation:
                 children.append(self._need(needs[number], condition, place))
             elif (node := plain_node(condition, instance.binding)) is not None:
                 children.append(node)
-        return children
+        return self._without_plain_presence(children)
+
+    def _without_plain_presence(self, children: list[Node]) -> list[Node]:
+        """Nodes without those that say of a thing only that it is there, if others speak of it."""
+        schema = self.evidence.schema
+        if not schema.presence:
+            return children
+        shown = {named for node in children for named in node.features()}
+        known = {other for named in shown for other in schema.requires.get(named, ())}
+        return [node for node in children if node.feature not in known or node.value != "yes"]
 
     def _exception(self, instance: Instance, literal: Literal, place: _Place) -> Node:
         """The node of a default that was given up."""
@@ -237,13 +246,13 @@ class _Explanation:
         """A node that was told before."""
         if sum(1 for _ in islice(node.walk(), _TOLD_AGAIN + 1)) <= _TOLD_AGAIN:
             return node
-        leaves = tuple(map(self.evidence.feature_node, node.features()))
+        leaves = self.evidence.feature_nodes(node.features())
         return replace(node, basis=Basis.TOLD_BEFORE, children=leaves)
 
     def _absence(self, belief: Belief, above: frozenset[Belief], chain: frozenset[Belief]) -> Node:
         evidence, foundation = self.evidence, self.foundation
         literal, against = literal_of(belief.key), opposite(belief.key)
-        seen = evidence.seen(literal_of(against))
+        seen = evidence.seen(literal_of(against)) or evidence.ruled_out(belief.key)
         if seen is not None:
             return replace(seen, literal=f"not {literal}")
         text = f"nothing says that {evidence.say(literal)}"

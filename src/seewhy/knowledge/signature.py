@@ -51,9 +51,9 @@ class Sort:
     """A named set of terms.
 
     ``members`` is None for the sort that stands for the scene itself: its only member is the
-    picture at hand. ``of_things`` says that the members are things that may be found in a picture or
-    not, so that being one of them is itself something to believe; how many there may be is said
-    by the domain, and until then they are None, too.
+    picture at hand. ``of_things`` says that the members are things that may be found in a picture
+    or not, so that being one of them is itself something to believe; how many there may be is
+    said by the domain, and until then they are None, too.
     """
 
     name: str

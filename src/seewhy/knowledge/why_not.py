@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from weakref import WeakKeyDictionary
 
@@ -24,6 +24,7 @@ from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.why import either_or, justify
 
 _NESTING = 4
+_Place = tuple[str, tuple[str, ...]]  # an axiom and the values of its variables
 _Head = tuple[int, Axiom, tuple[tuple[int, str], ...]]  # position, axiom, constants of its head
 _BY_HEAD: WeakKeyDictionary[Reasoner, dict[tuple[str, bool], list[_Head]]] = WeakKeyDictionary()
 _CONSTANT = re.compile(r"_*[a-z][A-Za-z0-9_']*|0|-?[1-9][0-9]*")
@@ -220,6 +221,8 @@ def _solved(
     lines = [f"holds({key})." for key in sorted(evidence.holds)]
     for sort in evidence.signature.sorts.values():
         members = (evidence.schema.scene,) if sort.members is None else sort.members
+        if sort.of_things:
+            members = evidence.things or members
         lines += [f"sort({sort.name}, {member})." for member in members]
     for _, axiom, bound in candidates:
         instance = f"{axiom.identifier}, {variable_tuple(axiom)}"
@@ -237,7 +240,7 @@ def _solved(
             )
     size = axioms_size([axiom for _, axiom, _ in candidates], evidence.signature)
     control = BoundedControl("\n".join(lines), size=size)
-    instances: dict[tuple[str, tuple[str, ...]], set[int]] = {}
+    instances: dict[_Place, set[int]] = {}
     for atom in control.atoms:
         if atom.is_fact and atom.symbol.name in ("instance", "ok"):
             name, values = atom.symbol.arguments[:2]
@@ -247,13 +250,39 @@ def _solved(
                 satisfied.add(atom.symbol.arguments[2].number)
     axioms = {axiom.identifier: axiom for _, axiom, _ in candidates}
     nearest: dict[str, tuple[dict[str, str], frozenset[int]]] = {}
-    ranked = sorted(instances.items(), key=lambda item: _distance(item, axioms))
+    ranked = sorted(
+        _that_can_be(evidence, instances, axioms), key=lambda item: _distance(item, axioms)
+    )
     for (identifier, given), satisfied in ranked:
         if identifier not in nearest:
             variables = axioms[identifier].variables
             binding = dict(zip(variables, given, strict=True))
             nearest[identifier] = (binding, frozenset(satisfied))
     return nearest
+
+
+def _that_can_be(
+    evidence: Evidence,
+    instances: dict[_Place, set[int]],
+    axioms: Mapping[str, Axiom],
+) -> list[tuple[_Place, set[int]]]:
+    """The instances without those that ask what no things can be, such as a block on itself."""
+    found = list(instances.items())
+    if not evidence.schema.presence:
+        return found
+    possible = evidence.reasoner.possible
+
+    def can_be(place: _Place) -> bool:
+        axiom, values = axioms[place[0]], place[1]
+        binding = dict(zip(axiom.variables, values, strict=True))
+        asked = (
+            possible.asked_by(condition, binding)
+            for condition in axiom.body
+            if condition.literal is not None and not condition.absent
+        )
+        return all(possible.can_hold(need) for need in asked if isinstance(need, Belief))
+
+    return [(place, held) for place, held in found if can_be(place)] or found
 
 
 def _ranges(evidence: Evidence, axiom: Axiom, bound: dict[str, str]) -> list[str]:
@@ -297,6 +326,8 @@ def _failed_condition(
     if need.holds:
         return failed_by(evidence, need, belief_node(evidence, need.key))
     literal = literal_of(need.key)
+    if (absent := evidence.ruled_out(need.key)) is not None:
+        return failed_by(evidence, need, absent)
     nothing = Node(f"not {literal}", "", Basis.ABSENCE)
     if evidence.schema.feature_of(literal) is not None:
         return failed_by(evidence, need, nothing)
@@ -306,7 +337,7 @@ def _failed_condition(
 
 
 def _distance(
-    item: tuple[tuple[str, tuple[str, ...]], set[int]], axioms: dict[str, Axiom]
+    item: tuple[_Place, set[int]], axioms: dict[str, Axiom]
 ) -> tuple[int, int, tuple[str, ...]]:
     """Fewest failed conditions first; among those, failed comparisons rather than literals.
 
