@@ -42,8 +42,12 @@ def check(
         return
     say(f"{loaded.title} ({loaded.name}) in {loaded.folder}")
     counts = (f"{key} ({len(feature.values)})" for key, feature in loaded.features.items())
-    say(f"  features: {', '.join(counts)}")
-    say(f"  classes: {', '.join(loaded.classes)}")
+    if loaded.features:
+        say(f"  features: {', '.join(counts)}")
+        say(f"  classes: {', '.join(loaded.classes)}")
+    if loaded.things is not None:
+        say(f"  features of things: {', '.join(loaded.things.features)}")
+        say(f"  relations: {', '.join(loaded.things.relations) or 'none'}")
     say(f"  axioms: {len(loaded.knowledge.axioms)}")
     say(f"  questions: {report.questions} in {report.wordings} wordings")
     verdicts = ", ".join(f"{name} {percent(share)}" for name, share in report.verdicts.items())

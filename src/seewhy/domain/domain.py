@@ -16,6 +16,7 @@ from seewhy.domain.question_tables import QuestionsFile
 from seewhy.domain.reading_rule import ReadingRule
 from seewhy.domain.scene_class import SceneClass, check_literals, class_of_table
 from seewhy.domain.tables import EMBEDDED, NONE, DomainFile, NetworkTable, PictureTable
+from seewhy.domain.things import Things, read_things
 from seewhy.errors import DomainError
 from seewhy.files.toml_file import read_toml
 from seewhy.knowledge.consistency import check_consistency
@@ -57,6 +58,9 @@ class Domain:
         The share of pictures like those of training that is answered, see
         :mod:`seewhy.perception.conformal_threshold`; 1 answers every picture, None leaves it to
         what sees.
+    things : Things or None
+        The things of which a picture may show several. A domain with things may be without
+        features and classes of the whole picture.
 
     Examples
     --------
@@ -83,6 +87,7 @@ class Domain:
     eyes: str | None = None
     reading: ReadingRule | None = None
     known_share: float | None = None
+    things: Things | None = None
 
     @property
     def schema(self) -> SceneSchema:
@@ -145,6 +150,7 @@ def load_domain(name: str | Path) -> Domain:
     questions = read_toml(folder / "questions.toml", QuestionsFile)
     place = KeyPlace(path)
     _check_source(table, place)
+    _check_parts(table, questions, place)
     _check_scene(table, knowledge, place)
     features = {
         key: feature_of_table(key, feature_table, table, knowledge, place)
@@ -174,6 +180,7 @@ def load_domain(name: str | Path) -> Domain:
         eyes=table.domain.eyes,
         reading=table.domain.reading,
         known_share=table.domain.known_share,
+        things=None if table.things is None else read_things(table.things, knowledge, place),
     )
     check_consistency(knowledge, domain.schema)
     return domain
@@ -189,6 +196,17 @@ def _check_source(table: DomainFile, place: KeyPlace) -> None:
         raise DomainError(
             f"{place.at('domain', 'source')}: source = '{source}' must be a file of this folder, "
             'such as "pictures.py": what lies elsewhere is not run'
+        )
+
+
+def _check_parts(table: DomainFile, questions: QuestionsFile, place: KeyPlace) -> None:
+    """Refuse a domain without features, classes or questions, where there are no things."""
+    for name, part in (("features", table.features), ("classes", table.classes)):
+        if not part and table.things is None:
+            raise DomainError(f"{place.at(name)}: '{name}' is missing; add it")
+    if not questions.question and table.things is None:
+        raise DomainError(
+            f"{place.path.with_name('questions.toml')}:1: 'question' is missing; add it"
         )
 
 
@@ -229,7 +247,12 @@ def _check_scene(table: DomainFile, knowledge: Knowledge, place: KeyPlace) -> No
             f"members ('#sort {scene}.'), see {sorts[scene].location}"
         )
     for sort in sorts.values():
-        if sort.members is None and sort.name != scene:
+        if sort.found and table.things is None:
+            raise DomainError(
+                f"{sort.location}: the sort '{sort.name}' stands for things, of which domain.toml "
+                f'says nothing; add [things] with sort = "{sort.name}"'
+            )
+        if sort.members is None and sort.name != scene and not sort.found:
             raise DomainError(
                 f"{sort.location}: sort '{sort.name}' has no members; only '{scene}', which "
                 "stands for the picture, may be without"

@@ -52,7 +52,9 @@ class QuestionsFile(StrictTable):
         "lists the forms.",
     )
     question: tuple[QuestionTable, ...] = Field(
+        default=(),
         min_length=1,
         max_length=2000,
-        description="One table a thing that can be asked.",
+        description="One table a thing that can be asked; only a domain with [things] may be "
+        "without.",
     )

@@ -28,6 +28,8 @@ _KINDS = {
 }
 _DIRECTIVES = ("#sort", "#static", "#fluent", "#action")
 _MOST_MEMBERS = 10_000
+_THINGS = "things"
+"""What the members of a sort are that stands for whatever is found in the picture."""
 _WORDS = ("not", "if", "causes")
 _FIRST_WORDS = ("default", "impossible")
 
@@ -101,10 +103,13 @@ def _read_sort(statement: Statement, sorts: Mapping[str, Sort]) -> Sort:
     if match is None:
         raise KnowledgeError(
             f"{statement.location}: a sort is declared as '#sort name.', '#sort name = 1..5.', "
-            f"'#sort name = {{a, b}}.' or '#sort name = sort + sort.', got '{statement.line}'"
+            f"'#sort name = {{a, b}}.', '#sort name = sort + sort.' or '#sort name = things.', got "
+            f"'{statement.line}'"
         )
     name, definition = match.group(1), (match.group(2) or "").strip()
     members: tuple[str, ...] | None = None
+    if definition == _THINGS and _THINGS not in sorts:
+        return Sort(name=name, members=None, location=statement.location, found=True)
     if definition:
         span = _RANGE.match(definition)
         if span:

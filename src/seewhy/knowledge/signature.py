@@ -50,12 +50,14 @@ class Sort:
     """A named set of terms.
 
     ``members`` is None for the sort that stands for the scene itself: its only member is the
-    picture at hand.
+    picture at hand. So it is for one whose members are ``found``: they are the things that are found in
+    the picture.
     """
 
     name: str
     members: tuple[str, ...] | None
     location: Location
+    found: bool = False
 
 
 @dataclass(frozen=True)

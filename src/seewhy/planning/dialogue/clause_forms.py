@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from seewhy.planning.dialogue.speech import plural
+from seewhy.text.nouns import plural
 from seewhy.text.predicate_words import base_form, verb_place
 
 SLOT = re.compile(r"\{(\d+)\}")

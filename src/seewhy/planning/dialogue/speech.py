@@ -162,19 +162,6 @@ def sentences(clauses: Iterable[str]) -> str:
     return " ".join(sentence(clause) for clause in clauses if clause)
 
 
-def plural(noun: str) -> str:
-    """Return the plural of a regular noun.
-
-    Examples
-    --------
-    >>> plural("object"), plural("box")
-    ('objects', 'boxes')
-    """
-    if noun.endswith(("s", "x", "ch", "sh")):
-        return f"{noun}es"
-    return f"{noun[:-1]}ies" if re.search("[^aeiou]y$", noun) else f"{noun}s"
-
-
 def _in_first_person(clause: str) -> str:
     def spoken(found: re.Match[str]) -> str:
         before, verb = found.groups()
