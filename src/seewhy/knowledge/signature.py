@@ -50,8 +50,8 @@ class Sort:
     """A named set of terms.
 
     ``members`` is None for the sort that stands for the scene itself: its only member is the
-    picture at hand. So it is for one whose members are ``found``: they are the things that are found in
-    the picture.
+    picture at hand. So it is for one whose members are ``found``: they are the things that are
+    found in the picture.
     """
 
     name: str
