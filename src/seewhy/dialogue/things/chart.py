@@ -8,15 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from seewhy.dialogue.grammar import Binding, Form
 from seewhy.dialogue.inflection import lemma
 
-__all__ = ["Chart", "Ending", "Forms", "Matcher"]
+__all__ = ["Category", "Chart", "Ending", "Fold", "Forms"]
 
 _MOST = 48
 """Readings of one phrase at one place."""
+_MOST_WORDS = 10_000
+"""Words of which it is kept which forms may begin with them."""
 
 
 class Ending(NamedTuple):
@@ -32,8 +34,17 @@ Fold = Callable[[tuple[Binding, ...]], tuple[Binding, ...] | None]
 """What the bindings inside of a phrase come to; None where they do not go together."""
 
 _base = lru_cache(maxsize=16_384)(lemma)
-_ANY = None
-"""What may come first where a domain's own words do."""
+
+
+class Category(Protocol):
+    """Phrases that a domain's words make."""
+
+    @property
+    def first_words(self) -> frozenset[str]:
+        """The words with which they begin."""
+
+    def __call__(self, chart: Chart, at: int) -> Sequence[Ending]:
+        """Return those that begin at a place."""
 
 
 class Chart:
@@ -55,7 +66,7 @@ class Forms:
     Parameters
     ----------
     phrases : mapping of str to Form
-    lexicon : mapping of str to Matcher
+    lexicon : mapping of str to Category
         The categories that a domain's words fill.
     folds : mapping of str to callable
         What the bindings of a phrase come to.
@@ -64,7 +75,7 @@ class Forms:
     def __init__(
         self,
         phrases: Mapping[str, Form],
-        lexicon: Mapping[str, Matcher],
+        lexicon: Mapping[str, Category],
         folds: Mapping[str, Fold],
     ) -> None:
         self._phrases = phrases
@@ -110,39 +121,46 @@ class Forms:
             if form.text in self._lexicon:
                 return self._lexicon[form.text]
             return self._later(form.text)
-        parts = [self._matcher(part) for part in form.parts]
         if form.kind == "choice":
-            return _choice([(self._first(part), m) for part, m in zip(form.parts, parts, strict=True)])
-        return _sequence(parts)
+            return _choice(
+                [
+                    (frozenset() if _may_be_empty(part) else self._first(part), self._matcher(part))
+                    for part in form.parts
+                ]
+            )
+        return _sequence([self._matcher(part) for part in form.parts])
 
     def _later(self, name: str) -> Matcher:
+        """A phrase that may not be made ready yet, looked for only where it may begin."""
         matchers = self._matchers
-        return lambda chart, at: matchers[name](chart, at)
+        first = self._first(self._phrases[name])
 
-    def _first(self, form: Form) -> frozenset[str] | None:
-        """The words with which a form may begin; None where that is not known."""
+        def match(chart: Chart, at: int) -> Sequence[Ending]:
+            if at >= len(chart.words) or (
+                chart.bases[at] not in first and chart.words[at] not in first
+            ):
+                return ()
+            return matchers[name](chart, at)
+
+        return match
+
+    def _first(self, form: Form) -> frozenset[str]:
+        """The words with which a form may begin, where it does not come to no words at all."""
         if form.kind == "word":
             return frozenset([form.text])
         if form.kind == "phrase":
             if form.text in self._lexicon:
-                return _ANY
+                return self._lexicon[form.text].first_words
             if form.text not in self._firsts:
-                self._firsts[form.text] = _ANY  # while it is looked for
+                self._firsts[form.text] = frozenset()  # a phrase that begins with itself
                 self._firsts[form.text] = self._first(self._phrases[form.text])
             return self._firsts[form.text]
-        if form.kind == "choice":
-            branches = [self._first(part) for part in form.parts]
-            known = [branch for branch in branches if branch is not _ANY]
-            return frozenset().union(*known) if len(known) == len(branches) else _ANY
         words: frozenset[str] = frozenset()
         for part in form.parts:
-            first = self._first(part)
-            if first is _ANY:
-                return _ANY
-            words |= first
-            if not _may_be_empty(part):
-                return words
-        return _ANY
+            words |= self._first(part)
+            if form.kind == "sequence" and not _may_be_empty(part):
+                break
+        return words
 
 
 def _may_be_empty(form: Form) -> bool:
@@ -159,29 +177,49 @@ def _word(text: str) -> Matcher:
     return match
 
 
-def _choice(branches: Sequence[tuple[frozenset[str] | None, Matcher]]) -> Matcher:
+def _choice(branches: Sequence[tuple[frozenset[str], Matcher]]) -> Matcher:
+    """One of several; which of them may begin with a word is looked up once a word.
+
+    A branch of which no first words are told may come to no words at all.
+    """
+    of_word: dict[tuple[str, str], tuple[Matcher, ...]] = {}
+
     def match(chart: Chart, at: int) -> Sequence[Ending]:
-        word = chart.bases[at] if at < len(chart.bases) else ""
+        here = (chart.bases[at], chart.words[at]) if at < len(chart.words) else ("", "")
+        matchers = of_word.get(here)
+        if matchers is None:
+            matchers = tuple(
+                matcher for first, matcher in branches if not first or not first.isdisjoint(here)
+            )
+            if len(of_word) < _MOST_WORDS:
+                of_word[here] = matchers
+        if len(matchers) == 1:
+            return matchers[0](chart, at)
         found: list[Ending] = []
-        for first, branch in branches:
-            if first is _ANY or word in first:
-                found += branch(chart, at)
+        for matcher in matchers:
+            found += matcher(chart, at)
         return found
 
     return match
 
 
 def _sequence(parts: Sequence[Matcher]) -> Matcher:
+    if not parts:
+        return lambda _, at: (Ending(at, ()),)
+    if len(parts) == 1:
+        return parts[0]
+    beginning, *others = parts
+
     def match(chart: Chart, at: int) -> Sequence[Ending]:
-        found: Sequence[Ending] = (Ending(at, ()),)
-        for part in parts:
+        found = beginning(chart, at)
+        for part in others:
+            if not found:
+                return ()
             found = [
-                Ending(more.end, before.bindings + more.bindings if more.bindings else before.bindings)
+                Ending(more.end, before.bindings + more.bindings)
                 for before in found
                 for more in part(chart, before.end)
             ]
-            if not found:
-                return ()
         return found
 
     return match

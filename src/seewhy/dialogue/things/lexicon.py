@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from seewhy.dialogue.grammar import Binding
 from seewhy.dialogue.lexicon import NUMBERS
 from seewhy.dialogue.question_words import words_of
-from seewhy.dialogue.things.chart import Chart, Ending, Matcher
+from seewhy.dialogue.things.chart import Category, Chart, Ending
 from seewhy.dialogue.things.query import Extreme, HasValue, Ranked
 from seewhy.domain.things import ThingFeature, Things
 from seewhy.text.comparison import comparative, superlative
@@ -49,6 +50,11 @@ class Entries:
             if words[at : at + len(phrase)] == phrase
         ]
 
+    @property
+    def first_words(self) -> frozenset[str]:
+        """The words with which phrases begin."""
+        return frozenset(self._by_first)
+
     def words(self) -> Iterator[str]:
         """Yield the words of all phrases."""
         for listed in self._by_first.values():
@@ -62,7 +68,7 @@ _CATEGORIES = (
 )  # fmt: skip
 
 
-def lexicon_of(things: Things) -> dict[str, Matcher]:
+def lexicon_of(things: Things) -> dict[str, Category]:
     """Return the categories of the grammar, filled with the words of a domain's things.
 
     Examples
@@ -95,10 +101,10 @@ def lexicon_of(things: Things) -> dict[str, Matcher]:
     for number, word in enumerate(NUMBERS):
         entries["number"].add(word, Binding("number", number))
         entries["number"].add(str(number), Binding("number", number))
-    return {**entries, "pronoun": _antecedent(_PRONOUNS), "its": _antecedent(_OWNERS)}
+    return {**entries, "pronoun": _Antecedent(_PRONOUNS), "its": _Antecedent(_OWNERS)}
 
 
-def vocabulary_of(lexicon: Mapping[str, Matcher]) -> frozenset[str]:
+def vocabulary_of(lexicon: Mapping[str, Category]) -> frozenset[str]:
     """Return the domain's own words."""
     listed: Iterable[Entries] = (e for e in lexicon.values() if isinstance(e, Entries))
     return frozenset(word for entries in listed for word in entries.words())
@@ -153,10 +159,15 @@ _PRONOUNS = frozenset({"it", "this", "that", "they", "them", "these", "those"})
 _OWNERS = frozenset({"its", "their"})
 
 
-def _antecedent(words: frozenset[str]) -> Callable[[Chart, int], Sequence[Ending]]:
-    def match(chart: Chart, at: int) -> Sequence[Ending]:
-        if chart.antecedent is None or at >= len(chart.words) or chart.words[at] not in words:
+@dataclass(frozen=True)
+class _Antecedent:
+    """Words for what was spoken of before."""
+
+    first_words: frozenset[str]
+
+    def __call__(self, chart: Chart, at: int) -> Sequence[Ending]:
+        if chart.antecedent is None or at >= len(chart.words):
+            return ()
+        if chart.words[at] not in self.first_words:
             return ()
         return (Ending(at + 1, (Binding("one", chart.antecedent),)),)
-
-    return match
