@@ -88,6 +88,8 @@ def members(things: int) -> Iterator[int]:
 class Evaluation:
     """Evaluates conditions, descriptions and references in one scene.
 
+    ``without`` are things that are taken as not there.
+
     Examples
     --------
     >>> from seewhy.data.thing_scene import thing_scene
@@ -98,23 +100,28 @@ class Evaluation:
     Fits(surely=1, maybe=3)
     """
 
-    def __init__(self, scene: ThingScene, things: Things) -> None:
+    def __init__(self, scene: ThingScene, things: Things, *, without: int = 0) -> None:
         self.scene = scene
         self.things = things
-        self.everything = (1 << scene.count) - 1
+        self.everything = ((1 << scene.count) - 1) & ~without
         self.with_value: dict[str, dict[str, int]] = {}
         self.without_value: dict[str, int] = {}
         for feature, values in scene.values.items():
             sets: dict[str, int] = {}
             unknown = 0
             for number, value in enumerate(values):
+                one = 1 << number & self.everything
                 if value is None:
-                    unknown |= 1 << number
+                    unknown |= one
                 else:
-                    sets[value] = sets.get(value, 0) | 1 << number
+                    sets[value] = sets.get(value, 0) | one
             self.with_value[feature] = sets
             self.without_value[feature] = unknown
+        # By identity: what is asked again is asked of the same objects, which are kept here, so that
+        # no others can come to have their identities.
         self._resolved: dict[int, tuple[Reference, int]] = {}
+        self._held: dict[int, tuple[Condition, Fits]] = {}
+        self._fitting: dict[int, tuple[Description, Fits]] = {}
 
     def fits(self, description: Description) -> Fits:
         """Return the things that fit a description.
@@ -124,15 +131,19 @@ class Evaluation:
         ReferenceFailed
             If it refers to a thing that is not there or not one.
         """
+        known = self._fitting.get(id(description))
+        if known is not None:
+            return known[1]
         surely = maybe = self.everything
         for condition in description.conditions:
             found = self.holds(condition)
             surely &= found.surely
             maybe &= found.maybe
         fits = Fits(surely, maybe)
-        if description.selection is None:
-            return fits
-        return self._selected(description, fits)
+        if description.selection is not None:
+            fits = self._selected(description, fits)
+        self._fitting[id(description)] = (description, fits)
+        return fits
 
     def the(self, reference: Reference) -> int:
         """Return the number of the one thing that is referred to.
@@ -154,12 +165,25 @@ class Evaluation:
             obstacle = Obstacle.SEVERAL if fits.surely else Obstacle.NONE
             raise ReferenceFailed(reference, obstacle, fits)
         number = fits.surely.bit_length() - 1
-        # The reference is kept, so that no other can come to have its identity.
         self._resolved[id(reference)] = (reference, number)
         return number
 
     def holds(self, condition: Condition) -> Fits:
-        """Return the things of which a condition holds."""
+        """Return the things of which a condition holds.
+
+        Raises
+        ------
+        ReferenceFailed
+            If it refers to a thing that is not there or not one.
+        """
+        known = self._held.get(id(condition))
+        if known is not None:
+            return known[1]
+        found = self._holds(condition)
+        self._held[id(condition)] = (condition, found)
+        return found
+
+    def _holds(self, condition: Condition) -> Fits:
         match condition:
             case HasValue(feature=feature, value=value):
                 surely = self.with_value[feature].get(value, 0)
@@ -193,9 +217,9 @@ class Evaluation:
         others = self.everything & ~one
         match condition:
             case Related(relation=relation):
-                surely = self.scene.related[relation][number]
+                surely = self.scene.related[relation][number] & self.everything
                 unknown = self.scene.unknown.get(relation)
-                return Fits(surely, surely | unknown[number] if unknown else surely)
+                return Fits(surely, surely | unknown[number] & others if unknown else surely)
             case Shares(feature=feature):
                 value = self.scene.values[feature][number]
                 if value is None:

@@ -153,7 +153,7 @@ def _kind_of(bindings: Bindings) -> Bindings | None:
 
 
 def _is(bindings: Bindings) -> Bindings:
-    return (Binding("one", _reference(bindings)), *_condition(Is(_reference(bindings, 1))))
+    return _condition(Is(_reference(bindings)))
 
 
 def _farthest(_: Bindings) -> Bindings:
@@ -165,7 +165,7 @@ def _nearest(_: Bindings) -> Bindings:
 
 
 def _picked(bindings: Bindings) -> Bindings | None:
-    described = _one(bindings, "described")
+    described = _one(bindings, "described") or Description()
     if not isinstance(described, Description):
         return None
     rank, side = _one(bindings, "rank"), _one(bindings, "side")
@@ -227,7 +227,7 @@ PHRASES: dict[str, Fold] = {
     "comparing": _compares,
     "amid": _between,
     "beyond": _beyond,
-    "identity": _is,
+    "itself": _is,
     "near": _nearest,
     "far": _farthest,
     "picked": _picked,

@@ -37,12 +37,13 @@ class FollowUp:
     """A question about the answer before: ``why``, ``why_not``, ``change`` or ``instead``.
 
     ``wanted`` is the other answer; ``instead`` what is to be put in the place of what the question
-    before asked about.
+    before asked about. With ``query`` it names the answer itself: "why is there no red cube?".
     """
 
     asks: str
     wanted: Wanted = None
     instead: Description | Reference | None = None
+    query: Query | None = None
 
 
 def _query(query: Query) -> Bindings:

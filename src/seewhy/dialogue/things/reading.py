@@ -133,6 +133,11 @@ class QuestionReader:
             for bindings in self._forms.readings(chart, "question"):
                 for query in meanings(bindings, "query"):
                     yield Reading(query, antecedent)  # type: ignore[arg-type]
+            if said[0] == "why" and len(said) > 1:
+                for bindings in self._forms.readings(Chart(said[1:], antecedent), "question"):
+                    for query in meanings(bindings, "query"):
+                        asked = FollowUp("why", query=query)  # type: ignore[arg-type]
+                        yield Reading(asked, antecedent)
             if answered:
                 for bindings in self._forms.readings(chart, "follow_up"):
                     for query in meanings(bindings, "follow_up"):
@@ -142,8 +147,7 @@ class QuestionReader:
         self, text: str, sentences: list[list[str]], antecedent: Reference | None
     ) -> QuestionError:
         words = {word for words in sentences for word in words}
-        known = self._spelling
-        strange = [word for word in words if not known.knows(word)]
+        strange = [word for word in words if not self._spelling.knows(word)]
         if antecedent is None and words & _PRONOUNS:
             remedy = f"say which {self._one} is meant, as in 'there is …; what is it?'"
         elif strange:
