@@ -65,13 +65,14 @@ def _print(result: ThingEvaluation, *, scenes: int, wrong: Path | None) -> None:
     right = Share(result.right, result.questions)
     low, high = right.interval
     say(
-        f"{result.questions:,} questions about {scenes:,} scenes: {result.understood:,} understood, "
-        f"{result.right:,} right ({percent(right.value)}, 95 % interval {percent(low)} to "
-        f"{percent(high)}; the most frequent answer alone: {percent(result.majority.value)})"
+        f"{result.questions:,} questions about {scenes:,} scenes: {result.understood:,} "
+        f"understood, {result.right:,} right ({percent(right.value)}, 95 % interval "
+        f"{percent(low)} to {percent(high)}; the most frequent answer alone: "
+        f"{percent(result.majority.value)})"
     )
     say(
-        f"{result.seconds:.1f} s, {result.questions_per_second:,.0f} questions a second, with the "
-        f"reasons of every answer ({result.steps:,} steps)"
+        f"{result.seconds:.1f} s; {result.questions_per_second:,.0f} questions in a second of one "
+        f"core's time, with the reasons of every answer ({result.steps:,} steps)"
     )
     rows = table("questions like", ">questions", ">right")
     for name, share in result.families.items():

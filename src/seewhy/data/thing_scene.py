@@ -102,7 +102,8 @@ def _values(
             place = f"{image or 'the picture'}, thing {number}"
             if key not in things.features:
                 raise DatasetError(
-                    f"{place}: '{key}' is no feature of things; {did_you_mean(key, things.features)}"
+                    f"{place}: '{key}' is no feature of things; "
+                    f"{did_you_mean(key, things.features)}"
                 )
             known = things.features[key].values
             if value is not None and value not in known:

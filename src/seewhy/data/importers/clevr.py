@@ -1,7 +1,7 @@
-"""Scenes and questions in the formats of CLEVR (Johnson et al. 2017), checked and in a domain's terms.
+"""Scenes and questions in the formats of CLEVR, checked and in a domain's terms.
 
-Source: J. Johnson, B. Hariharan, L. van der Maaten, L. Fei-Fei, C. L. Zitnick, R. Girshick, "CLEVR: A
-Diagnostic Dataset for Compositional Language and Elementary Visual Reasoning", CVPR 2017.
+Source: J. Johnson, B. Hariharan, L. van der Maaten, L. Fei-Fei, C. L. Zitnick, R. Girshick,
+"CLEVR: A Diagnostic Dataset for Compositional Language and Elementary Visual Reasoning", CVPR 2017.
 """
 
 from __future__ import annotations
@@ -122,7 +122,9 @@ def read_questions(path: Path, scenes: Mapping[int, ThingScene]) -> list[AskedOf
             AskedOfScene(read.image_index, read.question, _answer(read.answer), family, place)
         )
     if not asked:
-        raise DatasetError(f"{path}: has no questions; it must be an object with a list 'questions'")
+        raise DatasetError(
+            f"{path}: has no questions; it must be an object with a list 'questions'"
+        )
     return asked
 
 
@@ -181,7 +183,8 @@ def _values(said: Mapping[str, Any], things: Things, place: str) -> dict[str, st
             continue
         if not isinstance(value, str):
             raise DamagedFileError(
-                f"{place}.{name}: must be a text, got {visible(value)}; correct it or export it again"
+                f"{place}.{name}: must be a text, got {visible(value)}; correct it or export it "
+                "again"
             )
         values[feature.key] = _value(value, feature, f"{place}.{name}")
     return values
@@ -220,8 +223,8 @@ def _relation(name: str, things: Things, place: str) -> str:
 def _pairs(rows: list[list[int]], count: int, place: str) -> list[tuple[int, int]]:
     if len(rows) != count:
         raise DamagedFileError(
-            f"{place}: must have a list for each of the {count} things, got {len(rows)}; correct it "
-            "or export it again"
+            f"{place}: must have a list for each of the {count} things, got {len(rows)}; correct "
+            "it or export it again"
         )
     pairs: list[tuple[int, int]] = []
     for thing, subjects in enumerate(rows):

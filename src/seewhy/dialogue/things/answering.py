@@ -8,7 +8,7 @@ from typing import Any
 
 from seewhy.data.thing_scene import ThingScene
 from seewhy.dialogue.things.contrast import tell_change, tell_why, tell_why_not
-from seewhy.dialogue.things.evaluating import Evaluation, ReferenceFailed
+from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
     Count,
@@ -46,7 +46,7 @@ class ThingReply:
     value : bool, int, str, tuple or None
         The answer itself; None where it is not known, or the question speaks of a thing that is
         not there or not one.
-    failed : ReferenceFailed or None
+    failed : UnclearReferenceError or None
         Why the question has no answer.
     spoken_of : Reference or None
         What "it" is in the next question.
@@ -57,7 +57,7 @@ class ThingReply:
     query: Query
     value: Value
     words: ThingWords
-    failed: ReferenceFailed | None = None
+    failed: UnclearReferenceError | None = None
     spoken_of: Reference | None = None
 
     @cached_property
@@ -69,7 +69,7 @@ class ThingReply:
         counted = Count(Description(reference.description.conditions))
         try:
             return Reasons(self.words.evaluation, self.words).tree(counted, self.text)
-        except ReferenceFailed:
+        except UnclearReferenceError:
             return Node("reference", self.text, Basis.ABSENCE)
 
     def to_dict(self) -> dict[str, Any]:
@@ -155,12 +155,11 @@ class ThingAnswerer:
         spoken_of = _spoken_of(query) or reading.spoken_of
         try:
             outcome = outcome_of(query, words.evaluation)
-        except ReferenceFailed as failed:
+        except UnclearReferenceError as failed:
             text = tell_failure(failed, words)
             return ThingReply(question, text, query, None, words, failed, spoken_of)
         text = tell(query, outcome, words)
         return ThingReply(question, text, query, outcome.value, words, None, spoken_of)
-
 
     def _why(
         self, question: str, query: Query, reading: Reading, words: ThingWords

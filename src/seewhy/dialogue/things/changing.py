@@ -23,7 +23,7 @@ from seewhy.dialogue.things.edits import (
     is_in_order,
     values_to_try,
 )
-from seewhy.dialogue.things.evaluating import Evaluation, ReferenceFailed
+from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
     Compares,
@@ -133,7 +133,7 @@ def _choices(count: int, size: int) -> int:
 def _reaches(query: Query, aim: Value, evaluation: Evaluation) -> bool:
     try:
         value = outcome_of(query, evaluation).value
-    except ReferenceFailed:
+    except UnclearReferenceError:
         return False
     return value == aim and isinstance(value, bool) == isinstance(aim, bool)
 
@@ -235,7 +235,7 @@ def _said(edit: Edit, words: ThingWords) -> str:
             conditions = tuple(HasValue(feature, value) for feature, value in values)
             one = with_article(words.phrase(Description(conditions), many=False))
             where = [_beside(scene.count, key, place, words) for key, place in places]
-            named = {relation: to for relation, to in edit.related}
+            named = dict(edit.related)
             where += [
                 words.predicate_of(relation, words.name(to)) for relation, to in named.items()
             ]

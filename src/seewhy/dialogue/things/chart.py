@@ -81,7 +81,7 @@ class Forms:
         self._phrases = phrases
         self._lexicon = lexicon
         self._folds = folds
-        self._firsts: dict[str, frozenset[str] | None] = {}
+        self._firsts: dict[str, frozenset[str]] = {}
         self._matchers: dict[str, Matcher] = {}
         twice = sorted(phrases.keys() & lexicon.keys())
         if twice:
@@ -92,7 +92,14 @@ class Forms:
     def readings(self, chart: Chart, name: str) -> list[tuple[Binding, ...]]:
         """Return what a phrase contributes in each reading of all words by it."""
         end = len(chart.words)
+        if not self.may_begin(chart, 0, name):
+            return []
         return [ending.bindings for ending in self._matchers[name](chart, 0) if ending.end == end]
+
+    def may_begin(self, chart: Chart, at: int, name: str) -> bool:
+        """Whether a phrase may begin with the word at a place."""
+        first = self._first(Form("phrase", name))
+        return chart.bases[at] in first or chart.words[at] in first
 
     def _phrase(self, name: str) -> Matcher:
         inside = self._matcher(self._phrases[name])
@@ -115,8 +122,9 @@ class Forms:
         return match
 
     def _matcher(self, form: Form) -> Matcher:
-        if form.kind == "word":
-            return _word(form.text)
+        words = self._words(form)
+        if words is not None:
+            return _one_of(words)
         if form.kind == "phrase":
             if form.text in self._lexicon:
                 return self._lexicon[form.text]
@@ -129,6 +137,24 @@ class Forms:
                 ]
             )
         return _sequence([self._matcher(part) for part in form.parts])
+
+    def _words(self, form: Form) -> frozenset[str] | None:
+        """The words of a form that is one word or another, and means nothing; else None."""
+        if form.kind == "word":
+            return frozenset([form.text])
+        if form.kind == "phrase":
+            if form.text in self._lexicon or form.text in self._folds:
+                return None
+            return self._words(self._phrases[form.text]) if form.text in self._phrases else None
+        if form.kind == "sequence":
+            return self._words(form.parts[0]) if len(form.parts) == 1 else None
+        words: frozenset[str] = frozenset()
+        for part in form.parts:
+            branch = self._words(part)
+            if branch is None:
+                return None
+            words |= branch
+        return words
 
     def _later(self, name: str) -> Matcher:
         """A phrase that may not be made ready yet, looked for only where it may begin."""
@@ -151,10 +177,11 @@ class Forms:
         if form.kind == "phrase":
             if form.text in self._lexicon:
                 return self._lexicon[form.text].first_words
-            if form.text not in self._firsts:
+            known = self._firsts.get(form.text)
+            if known is None:
                 self._firsts[form.text] = frozenset()  # a phrase that begins with itself
-                self._firsts[form.text] = self._first(self._phrases[form.text])
-            return self._firsts[form.text]
+                known = self._firsts[form.text] = self._first(self._phrases[form.text])
+            return known
         words: frozenset[str] = frozenset()
         for part in form.parts:
             words |= self._first(part)
@@ -169,10 +196,10 @@ def _may_be_empty(form: Form) -> bool:
     return form.kind == "choice" and any(map(_may_be_empty, form.parts))
 
 
-def _word(text: str) -> Matcher:
+def _one_of(words: frozenset[str]) -> Matcher:
     def match(chart: Chart, at: int) -> Sequence[Ending]:
         bases = chart.bases
-        return (Ending(at + 1, ()),) if at < len(bases) and bases[at] == text else ()
+        return (Ending(at + 1, ()),) if at < len(bases) and bases[at] in words else ()
 
     return match
 

@@ -54,8 +54,10 @@ def _said(justification: Node) -> Iterator[str]:
 
 def tell_why_not(query: Query, value: Value, wanted: Wanted, words: ThingWords) -> str:
     """Return why an answer is not another one: what is nearest to making it so."""
-    if wanted is not None and wanted == value and isinstance(wanted, bool) == isinstance(
-        value, bool
+    if (
+        wanted is not None
+        and wanted == value
+        and isinstance(wanted, bool) == isinstance(value, bool)
     ):
         return sentence(f"but it is so: {_short(query, words)}")
     if isinstance(wanted, HasValue):
@@ -119,7 +121,9 @@ def tell_change(query: Query, value: Value, wanted: Wanted, words: ThingWords) -
     found = smallest_change(query, aim, words)
     said_aim = _aim(goal, words)
     if found.changes is None:
-        return sentence(f"no change of up to {number_word(found.looked_at)} things {_makes(said_aim)}")
+        return sentence(
+            f"no change of up to {number_word(found.looked_at)} things {_makes(said_aim)}"
+        )
     others = f" {number_word(found.others).capitalize()} other" if found.others else ""
     ways = f"{others} change{'s' * (found.others > 1)} as small would do, too." if others else ""
     return f"{sentence(f'if {join_words(found.changes)}, the answer would be {said_aim}')}{ways}"

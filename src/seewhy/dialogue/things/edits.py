@@ -95,12 +95,12 @@ def edited(scene: ThingScene, things: Things, edits: Sequence[Edit]) -> tuple[Th
 
 
 def _order(scene: ThingScene, relation: str) -> list[int]:
-    return sorted(range(scene.count), key=lambda number: scene.related[relation][number].bit_count())
+    return sorted(
+        range(scene.count), key=lambda number: scene.related[relation][number].bit_count()
+    )
 
 
-def _in_order(
-    scene: ThingScene, things: Things, relation: str, order: Sequence[int]
-) -> ThingScene:
+def _in_order(scene: ThingScene, things: Things, relation: str, order: Sequence[int]) -> ThingScene:
     before = 0
     rows, back = [0] * scene.count, [0] * scene.count
     for number in order:

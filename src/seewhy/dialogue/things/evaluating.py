@@ -34,8 +34,9 @@ from seewhy.dialogue.things.query import (
     Shares,
 )
 from seewhy.domain.things import Things
+from seewhy.errors import SeeWhyError
 
-__all__ = ["Evaluation", "Fits", "Obstacle", "ReferenceFailed", "members"]
+__all__ = ["Evaluation", "Fits", "Obstacle", "UnclearReferenceError", "members"]
 
 
 class Fits(NamedTuple):
@@ -58,7 +59,7 @@ class Obstacle(StrEnum):
     UNKNOWN = "it is not known which is so"
 
 
-class ReferenceFailed(Exception):
+class UnclearReferenceError(SeeWhyError, LookupError):
     """A question speaks of the one thing that is so, and there is not one, or it is not known.
 
     ``fits`` are those that are so, or may be.
@@ -117,7 +118,7 @@ class Evaluation:
                     sets[value] = sets.get(value, 0) | one
             self.with_value[feature] = sets
             self.without_value[feature] = unknown
-        # By identity: what is asked again is asked of the same objects, which are kept here, so that
+        # By identity: what is asked again is asked of the same objects. They are kept here, so that
         # no others can come to have their identities.
         self._resolved: dict[int, tuple[Reference, int]] = {}
         self._held: dict[int, tuple[Condition, Fits]] = {}
@@ -128,7 +129,7 @@ class Evaluation:
 
         Raises
         ------
-        ReferenceFailed
+        UnclearReferenceError
             If it refers to a thing that is not there or not one.
         """
         known = self._fitting.get(id(description))
@@ -150,7 +151,7 @@ class Evaluation:
 
         Raises
         ------
-        ReferenceFailed
+        UnclearReferenceError
             If none, several, or nobody knows which.
         """
         known = self._resolved.get(id(reference))
@@ -160,10 +161,10 @@ class Evaluation:
         if not fits.known:
             certain_several = fits.surely.bit_count() > 1
             obstacle = Obstacle.SEVERAL if certain_several else Obstacle.UNKNOWN
-            raise ReferenceFailed(reference, obstacle, fits)
+            raise UnclearReferenceError(reference, obstacle, fits)
         if fits.surely.bit_count() != 1:
             obstacle = Obstacle.SEVERAL if fits.surely else Obstacle.NONE
-            raise ReferenceFailed(reference, obstacle, fits)
+            raise UnclearReferenceError(reference, obstacle, fits)
         number = fits.surely.bit_length() - 1
         self._resolved[id(reference)] = (reference, number)
         return number
@@ -173,7 +174,7 @@ class Evaluation:
 
         Raises
         ------
-        ReferenceFailed
+        UnclearReferenceError
             If it refers to a thing that is not there or not one.
         """
         known = self._held.get(id(condition))
@@ -253,7 +254,10 @@ class Evaluation:
             surely &= found.surely | itself
             if fits.surely >> number & 1:
                 maybe &= found.maybe | itself
-        return Fits(surely, maybe)
+        # Where there are no others, nothing is so of them.
+        alone = fits.maybe if fits.maybe.bit_count() == 1 else 0
+        some = -1 if fits.maybe else 0
+        return Fits(surely & ~alone & some, maybe & ~alone & some)
 
     def _compared(self, feature: str, number: int, *, more: bool) -> Fits:
         values = self.things.features[feature].values
@@ -286,7 +290,7 @@ class Evaluation:
     def _selected(self, description: Description, fits: Fits) -> Fits:
         reference = Reference(description)
         if not fits.known:
-            raise ReferenceFailed(reference, Obstacle.UNKNOWN, fits)
+            raise UnclearReferenceError(reference, Obstacle.UNKNOWN, fits)
         match description.selection:
             case Extreme(relation=relation, rank=rank, from_end=from_end):
                 chosen = self._in_order(fits.surely, relation, rank, from_end=from_end)
@@ -301,7 +305,7 @@ class Evaluation:
             case _:
                 chosen = fits.surely
         if chosen is None:
-            raise ReferenceFailed(reference, Obstacle.UNKNOWN, fits)
+            raise UnclearReferenceError(reference, Obstacle.UNKNOWN, fits)
         return Fits(chosen, chosen)
 
     def _in_order(self, things: int, relation: str, rank: int, *, from_end: bool) -> int | None:

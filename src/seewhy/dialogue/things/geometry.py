@@ -38,9 +38,9 @@ def between(positions: Sequence[Position], first: int, second: int) -> int:
     for number, position in enumerate(positions):
         if number in (first, second) or length == 0:
             continue
-        along = sum(
-            (p - s) * (e - s) for p, s, e in zip(position, start, end, strict=True)
-        ) / (length * length)
+        along = sum((p - s) * (e - s) for p, s, e in zip(position, start, end, strict=True)) / (
+            length * length
+        )
         foot = tuple(s + along * (e - s) for s, e in zip(start, end, strict=True))
         if 0 < along < 1 and dist(position, foot) <= _BESIDE * length:
             found |= 1 << number

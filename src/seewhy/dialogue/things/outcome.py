@@ -48,7 +48,7 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
 
     Raises
     ------
-    ReferenceFailed
+    UnclearReferenceError
         If it refers to a thing that is not there or not one.
     """
     match query:

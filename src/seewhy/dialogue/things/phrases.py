@@ -132,8 +132,11 @@ def _placed(bindings: Bindings) -> Bindings | None:
     return _of_one_feature(bindings)
 
 
-def _compares(bindings: Bindings) -> Bindings:
-    feature, more = _one(bindings, "compared")  # type: ignore[misc]
+def _compares(bindings: Bindings) -> Bindings | None:
+    compared = _one(bindings, "compared")
+    if not isinstance(compared, tuple):
+        return None
+    feature, more = compared
     return _condition(Compares(feature, more, _reference(bindings)))
 
 
@@ -147,7 +150,7 @@ def _beyond(bindings: Bindings) -> Bindings:
 
 def _kind_of(bindings: Bindings) -> Bindings | None:
     described = _one(bindings, "described")
-    if not isinstance(described, Description) or not described.conditions:
+    if not isinstance(described, Description):
         return None
     return _condition(all_of(settled(described).conditions))
 

@@ -145,7 +145,7 @@ def _single(make: Callable[[Reference], Query]) -> Fold:
 def _follow(asks: str) -> Fold:
     def fold(bindings: Bindings) -> Bindings:
         wanted = meanings(bindings, "wanted")
-        other = [*_references(bindings), *_descriptions(bindings)]
+        other: list[Description | Reference] = [*_references(bindings), *_descriptions(bindings)]
         follow_up = FollowUp(
             asks,
             wanted=wanted[-1] if wanted else None,  # type: ignore[arg-type]

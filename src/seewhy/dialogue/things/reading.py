@@ -8,10 +8,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from itertools import islice
 from typing import Any
 
 from seewhy.dialogue.grammar import Form, parse_form, words_of_form
-from seewhy.dialogue.inflection import lemma
 from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.spelling import Spelling
 from seewhy.dialogue.things.chart import Chart, Forms
@@ -51,7 +51,7 @@ class QuestionReader:
     --------
     >>> from seewhy.domain.domain import load_domain
     >>> reader = QuestionReader(load_domain("tabletop").things)
-    >>> reader.readings("How many red blocks are there?")[0].query.described.conditions[0].value
+    >>> next(reader.readings("How many red blocks are there?")).query.described.conditions[0].value
     'red'
     """
 
@@ -63,8 +63,8 @@ class QuestionReader:
 
     def readings(
         self, text: str, *, antecedent: Reference | None = None, answered: bool = False
-    ) -> list[Reading]:
-        """Return the ways to understand a question, the most natural first.
+    ) -> Iterator[Reading]:
+        """Yield the ways to understand a question, the most natural first.
 
         Parameters
         ----------
@@ -88,24 +88,27 @@ class QuestionReader:
             raise QuestionError("the question has no words; ask 'how many things are there?'")
         if sum(map(len, sentences)) > MOST_WORDS:
             raise QuestionError(f"the question has more than {MOST_WORDS} words; ask in fewer")
-        found = self._in_turn(sentences, antecedent, answered)
+        found = False
+        for reading in islice(self._in_turn(sentences, antecedent, answered), _MOST_READINGS):
+            found = True
+            yield reading
         if not found:
             mended = [next(self._spelling.readings(words)).split() for words in sentences]
-            found = self._in_turn(mended, antecedent, answered) if mended != sentences else []
+            for reading in islice(self._in_turn(mended, antecedent, answered), _MOST_READINGS):
+                found = True
+                yield reading
         if not found:
             raise self._not_understood(text, sentences, antecedent)
-        return found
 
     def _in_turn(
         self, sentences: list[list[str]], antecedent: Reference | None, answered: bool
-    ) -> list[Reading]:
-        """Read statements, each of which may be about the thing of the one before, and a question."""
+    ) -> Iterator[Reading]:
+        """Read statements, each perhaps about the thing of the one before, and a question."""
         if len(sentences) == 1:
-            return [*self._whole(sentences[0], antecedent, answered)][:_MOST_READINGS]
-        found: list[Reading] = []
+            yield from self._whole(sentences[0], antecedent, answered)
+            return
         for stated in self._statements(sentences[0], antecedent):
-            found += self._in_turn(sentences[1:], stated, answered)
-        return found[:_MOST_READINGS]
+            yield from self._in_turn(sentences[1:], stated, answered)
 
     def _whole(
         self, words: list[str], antecedent: Reference | None, answered: bool
@@ -116,9 +119,7 @@ class QuestionReader:
                 for stated in self._statements(words[:cut], antecedent):
                     yield from self._asked(words[cut:], stated, answered)
 
-    def _statements(
-        self, words: list[str], antecedent: Reference | None
-    ) -> Iterator[Reference]:
+    def _statements(self, words: list[str], antecedent: Reference | None) -> Iterator[Reference]:
         """The things that a statement may introduce: "there is a red cube"."""
         for bindings in self._forms.readings(Chart(words, antecedent), "statement"):
             for described in meanings(bindings, "described"):
@@ -130,18 +131,20 @@ class QuestionReader:
     ) -> Iterator[Reading]:
         for said in _without_asides(words):
             chart = Chart(said, antecedent)
-            for bindings in self._forms.readings(chart, "question"):
-                for query in meanings(bindings, "query"):
-                    yield Reading(query, antecedent)  # type: ignore[arg-type]
+            for query in self._queries(chart):
+                yield Reading(query, antecedent)
             if said[0] == "why" and len(said) > 1:
-                for bindings in self._forms.readings(Chart(said[1:], antecedent), "question"):
-                    for query in meanings(bindings, "query"):
-                        asked = FollowUp("why", query=query)  # type: ignore[arg-type]
-                        yield Reading(asked, antecedent)
-            if answered:
-                for bindings in self._forms.readings(chart, "follow_up"):
-                    for query in meanings(bindings, "follow_up"):
-                        yield Reading(query, antecedent)  # type: ignore[arg-type]
+                for query in self._queries(Chart(said[1:], antecedent)):
+                    yield Reading(FollowUp("why", query=query), antecedent)
+            for name in _tables()["follow_ups"] if answered else ():
+                for bindings in self._forms.readings(chart, name):
+                    for asked in meanings(bindings, "follow_up"):
+                        yield Reading(asked, antecedent)  # type: ignore[arg-type]
+
+    def _queries(self, chart: Chart) -> Iterator[Query]:
+        for name in _tables()["questions"]:
+            for bindings in self._forms.readings(chart, name):
+                yield from meanings(bindings, "query")  # type: ignore[misc]
 
     def _not_understood(
         self, text: str, sentences: list[list[str]], antecedent: Reference | None

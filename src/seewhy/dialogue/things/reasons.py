@@ -8,8 +8,6 @@ from seewhy.dialogue.things.evaluating import Evaluation, members
 from seewhy.dialogue.things.query import (
     All,
     AnyOf,
-    Apart,
-    Between,
     CompareCounts,
     CompareNumber,
     Compares,
@@ -21,7 +19,6 @@ from seewhy.dialogue.things.query import (
     Exists,
     HasValue,
     Holds,
-    Is,
     Nearest,
     Not,
     Query,
@@ -83,9 +80,7 @@ class Reasons:
             for at, condition in enumerate(lacked)
         ]
 
-    def _add_reference(
-        self, one: Reference, nodes: list[Node], told: dict[int, Reference]
-    ) -> None:
+    def _add_reference(self, one: Reference, nodes: list[Node], told: dict[int, Reference]) -> None:
         """Add what a reference refers to, and first what that depends on; each once."""
         if id(one) in told:
             return
@@ -97,7 +92,9 @@ class Reasons:
         if one.which is References.THE:
             number = self.evaluation.the(one)
             name, phrase = self.words.name(number), self.words.phrase(one.description, many=False)
-            text = f"the {phrase} is {name}" if name != f"the {phrase}" else f"there is one {phrase}"
+            text = (
+                f"the {phrase} is {name}" if name != f"the {phrase}" else f"there is one {phrase}"
+            )
             nodes.append(Node(self.words.term(number), text, Basis.JOINTLY, children=children))
             return
         text = self.words.reference(one)
@@ -117,7 +114,9 @@ class Reasons:
             children = tuple(self._so(number, c, "it") for c in description.conditions)
             name = self.words.name(number)
             if description.selection is None or not children:
-                yield Node(self.words.term(number), f"there is {name}", Basis.JOINTLY, children=children)
+                yield Node(
+                    self.words.term(number), f"there is {name}", Basis.JOINTLY, children=children
+                )
             else:
                 text = f"{name} is the {self.words.phrase(description, many=False)}"
                 yield Node(self.words.term(number), text, Basis.COMPARISON, children=children)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from seewhy.dialogue.things.evaluating import Fits, Obstacle, ReferenceFailed, members
+from seewhy.dialogue.things.evaluating import Fits, Obstacle, UnclearReferenceError, members
 from seewhy.dialogue.things.outcome import Outcome
 from seewhy.dialogue.things.query import (
     CompareCounts,
@@ -13,6 +13,8 @@ from seewhy.dialogue.things.query import (
     Difference,
     Exists,
     Holds,
+    Is,
+    Not,
     Query,
     Reference,
     References,
@@ -46,12 +48,13 @@ def tell(query: Query, outcome: Outcome, words: ThingWords) -> str:
     if outcome.value is None and not (isinstance(query, ValueOf) and outcome.fits):
         return sentence(f"I don't know: {_open(query, outcome, words)}")
     match query:
+        case Which(described=described) if _is_one(described, outcome.fits[0]):
+            return sentence(f"it is {words.names(list(members(outcome.fits[0].surely)))}")
         case Count(described=described) | Which(described=described):
             return sentence(_there_are(described, outcome.fits[0], words))
-        case Exists(described=described, denied=denied):
+        case Exists(described=described):
             so = _yes(outcome.value)
             found = outcome.fits[0].surely
-            del denied
             return sentence(f"{so}: {_there_are(described, Fits(found, found), words)}")
         case CompareCounts(first=first, second=second):
             counts = [
@@ -77,7 +80,7 @@ def tell(query: Query, outcome: Outcome, words: ThingWords) -> str:
     raise TypeError(f"must be a query, got {query!r}")
 
 
-def tell_failure(failed: ReferenceFailed, words: ThingWords) -> str:
+def tell_failure(failed: UnclearReferenceError, words: ThingWords) -> str:
     """Return that a question speaks of one thing, and there is none, or there are several.
 
     A thing that there is not is no answer: who asks is told, or asked which is meant.
@@ -92,6 +95,12 @@ def tell_failure(failed: ReferenceFailed, words: ThingWords) -> str:
         return sentence(f"I don't know which is the {phrase}: {known}" if found else "I don't know")
     count = number_word(len(found))
     return f"Which {phrase}? There are {count}: {words.names(found)}."
+
+
+def _is_one(described: Description, fits: Fits) -> bool:
+    """Whether a question asks which one a thing is, and it is one."""
+    asked = described.selection is not None or any(isinstance(c, Is) for c in described.conditions)
+    return asked and fits.surely.bit_count() == 1
 
 
 def _yes(so: object) -> str:
@@ -123,7 +132,9 @@ def _value(feature: str, one: Reference, outcome: Outcome, words: ThingWords) ->
         name = words.name(number)
         unknown = f"the {words.things.features[feature].name} of {name} is not known"
         parts.append(unknown if value is None else words.clause(feature, value, name))
-    return join_words(parts) if parts else f"there is no {words.phrase(one.description, many=False)}"
+    return (
+        join_words(parts) if parts else f"there is no {words.phrase(one.description, many=False)}"
+    )
 
 
 def _both(query: SameValue, words: ThingWords) -> str:
@@ -143,6 +154,8 @@ def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
         some = words.phrase(query.ones[0].description, many=False)
         return f"no {some} is {words.predicate(query.condition)}"
     verb = "are" if len(query.ones) > 1 else "is"
+    if isinstance(query.condition, Not) and not outcome.value and len(query.ones) == 1:
+        return f"{subjects} is {words.predicate(query.condition.condition)}"
     denied = "" if outcome.value else "not "
     both = "both " if len(query.ones) > 1 and not outcome.value else ""
     return f"{subjects} {verb} {denied}{both}{words.predicate(query.condition)}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from seewhy.dialogue.lexicon import NUMBERS
-from seewhy.dialogue.things.evaluating import Evaluation, ReferenceFailed
+from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.lexicon import RANKS
 from seewhy.dialogue.things.query import (
     All,
@@ -133,7 +133,7 @@ class ThingWords:
         if reference.which is References.THE:
             try:
                 return self.name(self.evaluation.the(reference))
-            except ReferenceFailed:
+            except UnclearReferenceError:
                 return f"the {self.phrase(reference.description, many=False)}"
         if reference.which is References.SOME:
             return with_article(self.phrase(reference.description, many=False))
@@ -221,6 +221,8 @@ class ThingWords:
         raise TypeError(f"must be a condition, got {condition!r}")
 
     def _together(self, conditions: Sequence[Condition], word: str, many: bool) -> str:
+        if not conditions:
+            return self.things.many if many else with_article(self.things.one)
         if any(isinstance(c, HasValue) and self._as_noun(c) for c in conditions) and word == "and":
             phrase = self.phrase(Description(tuple(conditions)), many=many)
             return phrase if many else with_article(phrase)
