@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from seewhy.cli.decide_things import decide_things
 from seewhy.cli.options import DomainName, Json
 from seewhy.cli.screen import complain, print_json, say
 
@@ -28,16 +30,38 @@ def decide(
         list[str] | None,
         typer.Option("--ask", help="Also answer this question; may be given several times."),
     ] = None,
+    scene: Annotated[
+        Path | None,
+        typer.Option(
+            "--scene",
+            metavar="FILE",
+            help="Ask about the things of an annotated scene instead (docs/things.md).",
+        ),
+    ] = None,
+    image: Annotated[
+        int | None,
+        typer.Option("--image", min=0, help="Which scene of the file, by its image_index."),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Reason about named values, so that rules can be tried before anything is trained."""
+    if scene is not None:
+        decide_things(domain, scene, image=image, questions=ask or (), json=json)
+        return
     from seewhy.agent.agent import Agent
     from seewhy.dialogue.question import Asks, Question
     from seewhy.domain.assignments import named_values
     from seewhy.domain.domain import load_domain
-    from seewhy.errors import QuestionError
+    from seewhy.errors import QuestionError, SeeWhyError
 
     loaded = load_domain(domain)
+    if image is not None:
+        raise SeeWhyError("--image goes with --scene")
+    if not loaded.features:
+        raise SeeWhyError(
+            f"{loaded.name} has no features of the whole picture; ask about the things of a scene "
+            "with --scene FILE"
+        )
     agent = Agent(loaded)
     scene = agent.classify_values(named_values(loaded, values or ()))
     reply = agent.answer(scene, Question(Asks.CLASS, "what is it", ()))
