@@ -7,6 +7,7 @@ import sys
 import tomllib
 from collections.abc import Iterator
 from importlib import import_module
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -95,6 +96,31 @@ def test_links_lead_somewhere_in_the_repository(page: Path) -> None:
     for link in _LINK.findall(text):
         if not link.startswith(("http:", "https:")):
             assert (page.parent / link).exists(), f"{page.name}: {link}"
+
+
+def swallowed_by_lists(text: str) -> Iterator[str]:
+    """Commands that a list above them makes text of: four spaces continue its last point."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    in_list = False
+    for before, line in pairwise(["", *text.splitlines()]):
+        if re.match(r"- |\d+\. ", line):
+            in_list = True
+        elif line and not line.startswith(" "):
+            in_list = False
+        elif in_list and not before.strip() and re.match(r" {4}\S", line):
+            yield line.strip()
+
+
+@pytest.mark.parametrize(
+    "page", [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))], ids=lambda page: page.stem
+)
+def test_commands_below_a_list_stand_as_commands(page: Path) -> None:
+    assert not list(swallowed_by_lists(page.read_text(encoding="utf-8")))
+
+
+def test_a_command_that_a_list_swallows_is_found() -> None:
+    assert list(swallowed_by_lists("- this\n\n    seewhy --help\n")) == ["seewhy --help"]
+    assert not list(swallowed_by_lists("- this\n\nThen:\n\n    seewhy --help\n"))
 
 
 def test_what_the_site_loads_is_its_own() -> None:

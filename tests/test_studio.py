@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+import numpy as np
+import numpy.typing as npt
 import pytest
 from fastapi.testclient import TestClient
 from PIL import Image
 
 from conftest import Run
+from seewhy.domain.domain import Domain
+from seewhy.new_domain.from_names import NamedDomain, domain_from_names
+from seewhy.perception.picture import read_picture
 from seewhy.studio.access import AccessRules
 from seewhy.studio.pages import PAGES
 from seewhy.studio.project import Project
@@ -28,9 +33,26 @@ def folder(tmp_path: Path) -> Path:
     return folder
 
 
+def embed(files: Sequence[Path], _: Domain) -> npt.NDArray[np.floating]:
+    """The mean colour of a picture, instead of what a backbone sees."""
+    return np.stack([read_picture(file, size=8).mean(axis=(0, 1)) for file in files])
+
+
 @pytest.fixture
 def client(folder: Path) -> Iterator[TestClient]:
-    with TestClient(site(Project(folder), rules=RULES)) as client:
+    domain_from_names(
+        NamedDomain(("good", "spoilt"), {"colour": ("red", "green"), "round": ("yes", "no")}),
+        folder / "fruit",
+        data=str(folder),
+    )
+    with TestClient(site(Project(folder), rules=RULES, embed=embed)) as client:
+        yield client
+
+
+@pytest.fixture
+def new_client(folder: Path) -> Iterator[TestClient]:
+    """Of a project without a domain."""
+    with TestClient(site(Project(folder), rules=RULES, embed=embed)) as client:
         yield client
 
 

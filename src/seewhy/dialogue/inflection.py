@@ -15,10 +15,10 @@ ARTICLES = frozenset({"a", "an", "the", "any", "some"})
 
 # Auxiliaries tell the tense, and words of one syllable are no inflections of each other.
 _AS_THEY_ARE = {
-    "is", "are", "was", "were", "be", "been", "being", "am", "do", "does", "did", "have", "has",
+    "is", "are", "was", "were", "be", "been", "being", "am", "do", "did", "have",
     "had", "having", "will", "would", "can", "could", "may", "might", "must", "shall", "should",
     "this", "these", "that", "those", "it", "its", "his", "her", "i", "you", "we", "one", "ones",
-    "no", "not", "nor", "none", "nothing", "as", "us", "left", "people", "sure",
+    "no", "not", "nor", "none", "nothing", "as", "us", "left", "people", "sure", "mostly",
 }  # fmt: skip
 _IRREGULAR = {
     "leant": "lean", "stood": "stand", "fell": "fall", "fallen": "fall", "gave": "give",
@@ -27,7 +27,8 @@ _IRREGULAR = {
     "told": "tell", "found": "find", "took": "take", "taken": "take", "bent": "bend",
     "broke": "break", "broken": "break", "meant": "mean", "kept": "keep", "held": "hold",
     "grew": "grow", "grown": "grow", "hid": "hide", "hidden": "hide", "began": "begin",
-    "became": "become", "came": "come", "went": "go", "gone": "go", "chose": "choose",
+    "became": "become", "came": "come", "went": "go", "gone": "go", "goes": "go", "does": "do",
+    "has": "have", "led": "lead", "brought": "bring", "felt": "feel", "lost": "lose", "chose": "choose",
     "chosen": "choose", "drew": "draw", "drawn": "draw", "written": "write", "wrote": "write",
     "worn": "wear", "wore": "wear", "sat": "sit", "lay": "lie", "lain": "lie", "lying": "lie",
     "torn": "tear", "persons": "person", "children": "child", "feet": "foot", "men": "man",

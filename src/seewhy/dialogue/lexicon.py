@@ -34,6 +34,7 @@ NUMBERS = (
 _LEAST_ALIKE = 3
 _BE = {"is", "are"}
 _HAVE = {"has", "have"}
+_BEFORE_MORE = {"for", "of", "to", "from", "on", "over", "in"}
 _TRIVIAL = {"yes", "no", "none", "there", "away", "missing", "absent"}
 
 
@@ -86,6 +87,9 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
     subject = normalise(domain.subject)
     found["noun"].add(subject)
     found["noun"].add(normalise(domain.scene))
+    full_name = normalise(domain.name.replace("_", " "))
+    if full_name[-len(subject) :] == subject:
+        found["noun"].add(full_name)  # "traffic sign" of "traffic_signs"
     for key, scene_class in domain.classes.items():
         if normalise(scene_class.say)[-len(subject) :] == subject:
             found["kind_noun"].add(subject)  # its classes are kinds of it
@@ -99,6 +103,11 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
                 found["class_bare"].add(number, Binding("label", key))
             rest = words[: -len(subject)] if words[-len(subject) :] == subject else ()
             found["class_bare"].add(rest or words, Binding("label", key))
+            for place in range(1, len(words) - 1) if subject[-1] not in words else ():
+                if words[place] in _BEFORE_MORE:
+                    # "Parking for lorries" is "a parking sign for lorries", too.
+                    named = (*words[:place], *subject, *words[place:])
+                    found["class"].add(named, Binding("label", key))
             if len(rest or words) == 2 and words_of(word)[0] in ("a", "an"):
                 # Of "a slippery road" can be asked whether the road is slippery.
                 modifier, noun = rest or words
@@ -123,17 +132,17 @@ def _add_feature(feature: Feature, found: dict[str, Entries], normalise: Normali
         # "The width of the base" is the base width.
         position = nouns[0].index("of")
         nouns.append((*nouns[0][position + 1 :], *nouns[0][:position]))
+        nouns.append((*nouns[0][position + 1 :], "its", *nouns[0][:position]))
         if not yes_or_no and not _number_of(feature.name):
             # Of "the shape of the head" is asked "what shape is the head?".
             quality, of_what = nouns[0][:position], nouns[0][position + 1 :]
-            for between in (("is",), ("has",), ("are",), ("have",)):
+            for between in (("is",), ("are",), ("have",)):
                 found["asked_quality"].add(
                     (*quality, *between, *of_what), Binding("feature", feature.key)
                 )
-            for do in ("do", "does"):
-                found["asked_quality"].add(
-                    (*quality, lemma(do), *of_what, "have"), Binding("feature", feature.key)
-                )
+            found["asked_quality"].add(
+                (*quality, "do", *of_what, "have"), Binding("feature", feature.key)
+            )
     had = [
         set(normalise(part.rest))
         for part in parts.values()
@@ -206,8 +215,8 @@ def _add_part(
     found["state"].add(predicate, meaning)
     found["possession"].add((*predicate, *noun), meaning)
     found["possession"].add((*noun, "that", "is", *predicate), meaning)
-    found["possession"].add((*noun, "that", "has", "been", *predicate), meaning)
-    found["possession"].add((*noun, "which", "has", "been", *predicate), meaning)
+    found["possession"].add((*noun, "that", "have", "been", *predicate), meaning)
+    found["possession"].add((*noun, "which", "have", "been", *predicate), meaning)
     if subject.split()[0] in ("a", "an"):
         # That one is so is denied of every one: "are all blocks aligned?".
         for some in ((lemma("something"),), ("one", *noun), ("of", *noun), ("one", "of", *noun)):

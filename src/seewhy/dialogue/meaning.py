@@ -26,6 +26,7 @@ __all__ = [
     "persons",
     "plain",
     "polar",
+    "preferred",
     "supposing",
     "sure",
     "told",
@@ -40,7 +41,9 @@ def polar(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
     """Whether one thing is so."""
     for said in all_said(bindings)[:1]:
         turned = _turned(domain, said) if said.denied else said.statement
-        if said.denied and turned == said.statement:
+        if said.denied and any(binding.role == "asking_tag" for binding in bindings):
+            yield _is(said.statement)  # "it is not brown, is it?"
+        elif said.denied and turned == said.statement:
             # "Is it not brown?" of many colours: which it is answers it, whatever is meant.
             yield (
                 _question(Asks.CLASS)
@@ -49,6 +52,15 @@ def polar(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
             )
         else:
             yield _is(turned)
+
+
+def preferred(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
+    """Whether one thing is so rather than another of its kind: "is it red rather than white?"."""
+    said = all_said(bindings)
+    if len(said) != 2 or said[0].denied or said[0].statement == said[1].statement:
+        return
+    if said[0].statement.feature == said[1].statement.feature:
+        yield _is(said[0].statement)
 
 
 def joined(domain: Domain, bindings: tuple[Binding, ...], asks: Asks) -> Iterator[Question]:

@@ -33,6 +33,9 @@ _LONGEST_OPENING = 12
 _TAG = re.compile(r",\s*(right|correct|true|no|yes|okay|ok|huh|eh)\s*[.?!]*\s*$", re.IGNORECASE)
 """What may follow a statement to make it a question: "it leans, right?"."""
 
+_POLITE_NOT = re.compile(r"^(is|are|does|do|has|have|can|will|would) not (?=it|this|that|the\b)")
+"""A "not" that asks the same: "isn't it crossed out?"."""
+
 
 class Questions:
     """The questions that can be asked about pictures of a domain.
@@ -125,9 +128,15 @@ class Questions:
             if follow_up:
                 return [self._worded(question) for question in follow_up]
         by_template = by_template or self._embedded_in(text)
+        plainly = _POLITE_NOT.sub(r"\1 ", self._vocabulary.plainly(text))
+        if by_template is None and plainly != text:
+            words_of_it = self._vocabulary.for_templates(plainly)
+            by_template = self._template(self._known, plainly, words_of_it)
         if by_template is not None:
             return [by_template]
         read = self._readings.read(words) or self._readings.read(self._vocabulary.bare(words))
+        if not read and "'s" in text:
+            return self._read(text.replace("'s", " is"), previous)  # "the room's empty"
         return [self._worded(question) for question in read]
 
     def _template(

@@ -80,7 +80,9 @@ class Readings:
         classes = [
             question
             for question in found
-            if question.label or (question.statements and question.statements[0].label)
+            if question.asks is Asks.CLASS
+            or question.label
+            or (question.statements and question.statements[0].label)
         ]
         if classes:
             return classes
@@ -168,7 +170,7 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
         ("choose_class", _plain(Asks.CLASS)),
         ("choose_value", meaning.choice),
     ),
-    (("whether", meaning.polar),),
+    (("whether", meaning.polar), ("preferred", meaning.preferred)),
     (
         ("both", _joined(Asks.ALL)),
         ("either", _joined(Asks.EITHER)),

@@ -32,7 +32,7 @@ _STATEMENTS = (
     "pair_rest", "lacking", "pair_two", "fragment_named", "possessed", "dispossessed",
     "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class", "supposed_object",
     "no_object", "half", "inverted",
-    "footing",
+    "footing", "existing_absent", "avoided_form", "because_told", "goal_verb",
 )  # fmt: skip
 
 
@@ -41,7 +41,8 @@ _ROLES: dict[str, Fold] = {
     for name, role in {
         "not": "denied", "none": "denied", "without": "denied", "not_longer": "denied",
         "gone": "denied", "taking": "denied", "put_back": "denied", "back": "denied",
-        "free_of": "denied", "fore": "forward",
+        "free_of": "denied", "nothing": "denied", "fore": "forward", "asking_tag": "asking_tag",
+        "asking_there": "asking_tag",
     }.items()
 }  # fmt: skip
 

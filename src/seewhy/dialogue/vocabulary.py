@@ -8,7 +8,7 @@ from functools import lru_cache
 import snowballstemmer
 
 from seewhy.dialogue.grammar_file import around_phrases, aside_phrases
-from seewhy.dialogue.inflection import ARTICLES, lemmas
+from seewhy.dialogue.inflection import ARTICLES, lemma, lemmas
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
@@ -64,7 +64,17 @@ class Vocabulary:
         self._synonyms = _by_first(
             [(_lemmas(other), _lemmas(canonical)) for other, canonical in pairs]
         )
-        self._aside = _by_first([(_lemmas(words_of(phrase)), ()) for phrase in aside_phrases()])
+        # "Clearly" says nothing of a picture, where "clear" may.
+        self._adverbs = frozenset(
+            phrase for phrase in aside_phrases() if " " not in phrase and phrase.endswith("ly")
+        )
+        self._aside = _by_first(
+            [
+                (_lemmas(words_of(phrase)), ())
+                for phrase in aside_phrases()
+                if phrase not in self._adverbs
+            ]
+        )
         self._before, self._behind = (
             frozenset(_lemmas(words_of(phrase)) for phrase in phrases)
             for phrases in around_phrases()
@@ -85,10 +95,35 @@ class Vocabulary:
     def for_grammar(self, text: str) -> tuple[str, ...]:
         """Return the words of a text without inflections, synonyms and what may be left out."""
         words = [
-            part for word in words_of(text) for part in _of_owner(word) if part not in ARTICLES
+            part
+            for word in words_of(text)
+            for part in _of_owner(word)
+            if part not in ARTICLES and part not in self._adverbs
         ]
         words = _replaced(lemmas(words), self._synonyms)
         return self._unfilled(tuple(_replaced(words, self._aside)))
+
+    def plainly(self, text: str) -> str:
+        """Return a text without what may stand in any question and changes nothing of it.
+
+        Examples
+        --------
+        >>> from seewhy.domain.domain import load_domain
+        >>> Vocabulary(load_domain("traffic_signs")).plainly("what does it mean for me, please")
+        'what does it mean'
+        """
+        words = [word for word in words_of(text) if word not in self._adverbs]
+        kept = [lemma(word) for word in words]
+        position = 0
+        while position < len(words):
+            for phrase, _ in self._aside.get(kept[position], ()):
+                end = position + len(phrase)
+                if tuple(kept[position:end]) == phrase:
+                    del words[position:end], kept[position:end]
+                    position -= 1
+                    break
+            position += 1
+        return " ".join(words)
 
     def bare(self, words: tuple[str, ...]) -> tuple[str, ...]:
         """Return normalised words without what may stand before and behind any question.

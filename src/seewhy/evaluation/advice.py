@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from seewhy.domain.tables import CLASS
+from seewhy.evaluation.share import Share
 from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.evaluation.recognition import Recognition
     from seewhy.evaluation.result import Evaluation
 
-__all__ = ["ENOUGH", "advice", "training_notice"]
+__all__ = ["ENOUGH", "Shown", "advice", "few_pictures", "training_notice"]
 
 ENOUGH = 40
 """So many pictures to train on should show a value that is not recognised well."""
@@ -195,17 +197,59 @@ def _never_recognised(evaluation: Evaluation) -> Iterator[str]:
 
 
 def _too_few(evaluation: Evaluation) -> Iterator[str]:
-    cases = []
-    for key, recognition in _recognitions(evaluation):
-        recall = recognition.confusion.recall
-        for value, number in evaluation.training_pictures[key].items():
-            left_out = key == CLASS and value in evaluation.without
-            known = value in recall and recall[value].value >= WELL
-            if number < ENOUGH and not left_out and not known:
-                cases.append((number, key, value, recall.get(value)))
+    yield from few_pictures(
+        Shown(key, value, number, recognition.confusion.recall.get(value))
+        for key, recognition in _recognitions(evaluation)
+        for value, number in evaluation.training_pictures[key].items()
+        if not (key == CLASS and value in evaluation.without)
+    )
+
+
+@dataclass(frozen=True)
+class Shown:
+    """How many pictures teach a value, and how well it is recognised.
+
+    Attributes
+    ----------
+    key, value : str
+        A feature, or ``class``, and its value.
+    pictures : int
+        To train on that show it.
+    recognised : Share or None
+        Of evaluated pictures that show it; None where none does.
+    """
+
+    key: str
+    value: str
+    pictures: int
+    recognised: Share | None
+
+
+def few_pictures(values: Iterable[Shown]) -> Iterator[str]:
+    """Say of which values too few pictures are there to learn them, and how many more to label.
+
+    Examples
+    --------
+    >>> from seewhy.evaluation.share import Share
+    >>> for sentence in few_pictures([Shown("light", "dim", 12, Share(3, 4))]):
+    ...     print(sentence)
+    12 pictures to train on show light = dim, 75.0 % of 4 evaluated were recognised: label 30 more.
+    """
+    cases = [
+        shown
+        for shown in values
+        if shown.pictures < ENOUGH and (shown.recognised is None or shown.recognised.value < WELL)
+    ]
     # What nothing was learned of first, then what is recognised worst.
-    cases.sort(key=lambda case: (case[0] > 0, case[3].value if case[3] else 1.0, case[0]))
-    for number, key, value, share in cases[:SHOWN]:
+    cases.sort(
+        key=lambda case: (
+            case.pictures > 0,
+            case.recognised.value if case.recognised else 1.0,
+            case.pictures,
+        )
+    )
+    for case in cases[:SHOWN]:
+        number, share = case.pictures, case.recognised
         more = 10 * math.ceil((ENOUGH - number) / 10)
         shown = f"{number or 'no'} picture{'s' * (number > 1)} to train on"
         judged = (
@@ -214,7 +258,7 @@ def _too_few(evaluation: Evaluation) -> Iterator[str]:
             else f"{percent(share.value)} of {share.of} evaluated {_were(share.of)} recognised"
         )
         yield (
-            f"{shown} show{'s' * (number < 2)} {_value(key, value)}, "
+            f"{shown} show{'s' * (number < 2)} {_value(case.key, case.value)}, "
             f"{judged}: label {more}{' more' if number else ''}."
         )
     if len(cases) > SHOWN:

@@ -81,7 +81,39 @@ def sketch_of(
     DomainError
         If the source shows fewer than two classes.
     """
-    vocabulary, source = read.vocabulary, str(read.request.source)
+    return sketch_of_vocabulary(
+        read.vocabulary,
+        read.class_features,
+        name=name,
+        subject=subject,
+        source=str(read.request.source),
+        words=words,
+        is_look=is_look,
+    )
+
+
+def sketch_of_vocabulary(
+    vocabulary: Vocabulary,
+    class_features: ClassFeatures | None,
+    *,
+    name: str,
+    subject: str,
+    source: str,
+    words: WordsRecord | None = None,
+    is_look: bool = False,
+) -> Sketch:
+    """Return what named classes and features make; see :func:`sketch_of`.
+
+    Parameters
+    ----------
+    vocabulary : Vocabulary
+    class_features : ClassFeatures or None
+        What follows from the classes.
+    name, subject, source : str
+        As :class:`Sketch` has them.
+    words, is_look
+        As for :func:`sketch_of`.
+    """
     words = words or WordsRecord()
     classes = _distinct_words({**vocabulary.class_words, **_of(vocabulary, words)})
     if len(classes) < 2:
@@ -107,7 +139,7 @@ def sketch_of(
         name=name,
         classes=classes,
         features=features,
-        class_values=_class_values(read.class_features, vocabulary),
+        class_values=_class_values(class_features, vocabulary),
         subject=subject,
         source=source,
     )

@@ -10,7 +10,10 @@ from seewhy.studio.record import Entry
 __all__ = ["LABEL", "REASONS", "ROWS", "Label", "Labels", "labels_of"]
 
 LABEL = "label"
-"""Body: ``values``, picture → feature or ``class`` → value (None: nobody knows), and ``how``."""
+"""Body: ``values``, picture → feature or ``class`` → value (None: nobody knows), and ``how``.
+
+``follows`` has what follows from them, as ``values`` has what was said.
+"""
 
 REASONS = "reasons"
 """Body: ``reasons``, picture → the features that its class rests on."""
@@ -84,14 +87,9 @@ def labels_of(entries: Iterable[Entry]) -> Labels:
     rows: dict[str, Mapping[str, str]] = {}
     for entry in entries:
         if entry.kind == LABEL:
-            for picture, values in entry.body["values"].items():
-                found = of.setdefault(picture, {})
-                for name, value in values.items():
-                    found.pop(name, None)
-                    if value is not None:
-                        found[name] = Label(
-                            value, entry.who, entry.at, entry.body["how"], entry.number
-                        )
+            for key, how in (("values", entry.body["how"]), ("follows", "follows")):
+                for picture, values in entry.body.get(key, {}).items():
+                    _say(of.setdefault(picture, {}), values, entry, how)
         elif entry.kind == REASONS:
             reasons |= {
                 picture: tuple(features) for picture, features in entry.body["reasons"].items()
@@ -99,3 +97,10 @@ def labels_of(entries: Iterable[Entry]) -> Labels:
         elif entry.kind == ROWS:
             rows |= entry.body["rows"]
     return Labels(of, reasons, rows)
+
+
+def _say(found: dict[str, Label], values: Mapping[str, str | None], entry: Entry, how: str) -> None:
+    for name, value in values.items():
+        found.pop(name, None)
+        if value is not None:
+            found[name] = Label(value, entry.who, entry.at, how, entry.number)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from threading import RLock
 from typing import Any
@@ -46,6 +46,11 @@ class Project:
     folder : Path
         Made where it is missing.
 
+    Attributes
+    ----------
+    on_change : callable
+        Called after whatever changed the record or the pictures.
+
     Raises
     ------
     SeeWhyError
@@ -67,6 +72,7 @@ class Project:
         self._domain: tuple[Mapping[str, str], Domain] | None = None
         self._labels: tuple[Sequence[Entry], Labels] | None = None
         self._pictures: tuple[str, ...] | None = None
+        self.on_change: Callable[[], None] = lambda: None
         self.refresh()
 
     # What there is ----------------------------------------------------------------------------
@@ -167,7 +173,8 @@ class Project:
             self._take_in_changes()
             entry = self.record.add(kind, body, who=who)
             self._write()
-            return entry
+        self.on_change()
+        return entry
 
     def label(
         self, values: Mapping[str, Mapping[str, str | None]], *, who: str, how: str = "typed"
@@ -187,7 +194,8 @@ class Project:
         with self._lock:
             entry = self.record.take_back(number, who=who)
             self._write()
-            return entry
+        self.on_change()
+        return entry
 
     def refresh(self) -> None:
         """Look at the folder anew: pictures that came, and files that another program changed."""
@@ -195,6 +203,7 @@ class Project:
             self._pictures = None
             self._take_in_changes()
             self._write()
+        self.on_change()
 
     # Files ------------------------------------------------------------------------------------
 

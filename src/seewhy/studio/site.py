@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import secrets
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from typing import Annotated, cast
 
 from fastapi import Depends, FastAPI, Form, Request, Response
@@ -16,14 +18,16 @@ from seewhy.studio.access import AccessRules
 from seewhy.studio.guard import Guard, require_csrf
 from seewhy.studio.pages import PAGES, pictures
 from seewhy.studio.project import Project
+from seewhy.studio.proposing import Embed, Proposer, backbone_embedding
 from seewhy.studio.rendering import STATIC, from_script, render
 from seewhy.studio.session import THEMES, Theme, keep_theme, keep_who
 from seewhy.studio.state import Studio
+from seewhy.studio.trail import Trails
 
 __all__ = ["site"]
 
 
-def site(project: Project, *, rules: AccessRules) -> FastAPI:
+def site(project: Project, *, rules: AccessRules, embed: Embed | None = None) -> FastAPI:
     """Return the application that shows a project.
 
     Parameters
@@ -31,9 +35,21 @@ def site(project: Project, *, rules: AccessRules) -> FastAPI:
     project : Project
     rules : AccessRules
         Who may ask, and how large a request may be.
+    embed : callable, optional
+        What looks at pictures for the proposals; the domain's backbone where left out.
     """
-    app = FastAPI(title="SeeWhy studio", openapi_url=None, docs_url=None, redoc_url=None)
-    app.state.studio = Studio(project)
+    proposer = Proposer(project, embed or backbone_embedding())
+
+    @asynccontextmanager
+    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        proposer.start()
+        yield
+        proposer.close()
+
+    app = FastAPI(
+        title="SeeWhy studio", openapi_url=None, docs_url=None, redoc_url=None, lifespan=lifespan
+    )
+    app.state.studio = Studio(project, proposer, Trails(), local=not rules.token)
     app.state.csrf_key = secrets.token_bytes(32)
     for page in PAGES:
         app.include_router(page.router, dependencies=[Depends(require_csrf)])

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from fastapi import Request
 
 from seewhy.studio.project import Project
+from seewhy.studio.proposing import Proposer
+from seewhy.studio.trail import Trails
 
 __all__ = ["Studio", "studio_of"]
 
@@ -18,9 +20,18 @@ class Studio:
     Attributes
     ----------
     project : Project
+    proposer : Proposer
+        Looks at pictures and trains heads behind the pages' back.
+    trails : Trails
+        Which pictures each browser was shown.
+    local : bool
+        Whether only browsers of this machine are let in, who may name its paths.
     """
 
     project: Project
+    proposer: Proposer
+    trails: Trails
+    local: bool
 
 
 def studio_of(request: Request) -> Studio:

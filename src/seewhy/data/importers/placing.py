@@ -100,7 +100,7 @@ def image_names(files: Sequence[str]) -> list[str]:
     used: set[str] = set()
     names = []
     for file in files:
-        parts = [_safe_part(part) for part in file.split("/")[len(shared) :]]
+        parts = [safe_part(part) for part in file.split("/")[len(shared) :]]
         name = "/".join(["images", *parts])
         stem, ending = splitext(name)
         number = 2
@@ -112,7 +112,8 @@ def image_names(files: Sequence[str]) -> list[str]:
     return names
 
 
-def _safe_part(part: str) -> str:
+def safe_part(part: str) -> str:
+    """Return a part of a path without what file systems refuse, of a length that they take."""
     safe = "".join(
         "_" if character in '<>:"|?*\\' or not character.isprintable() else character
         for character in part

@@ -1,0 +1,1 @@
+"""Labelling by hand: what is proposed, what follows, and which picture is worth most."""

@@ -1,0 +1,103 @@
+"""How far labelling has come, a feature and a value, and what would help most."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+
+from seewhy.domain.tables import CLASS
+from seewhy.evaluation.advice import Shown, few_pictures
+from seewhy.evaluation.share import Share
+from seewhy.studio.project import Project
+from seewhy.studio.proposing import Proposals
+
+__all__ = ["Progress", "QuestionProgress", "ValueProgress", "progress_of"]
+
+
+@dataclass(frozen=True)
+class ValueProgress:
+    """How many pictures show a value, and how well it is recognised where it was kept out."""
+
+    value: str
+    labelled: int
+    recognised: Share | None
+
+
+@dataclass(frozen=True)
+class QuestionProgress:
+    """How far a feature, or the class, has come."""
+
+    name: str
+    words: str
+    labelled: int
+    values: tuple[ValueProgress, ...]
+
+    @property
+    def recognised(self) -> Share | None:
+        """Of the pictures kept out, all values together."""
+        shares = [value.recognised for value in self.values if value.recognised is not None]
+        if not shares:
+            return None
+        return Share(sum(share.right for share in shares), sum(share.of for share in shares))
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far labelling has come.
+
+    Attributes
+    ----------
+    pictures, complete : int
+        All pictures, and those of which everything is said.
+    questions : tuple of QuestionProgress
+    advice : tuple of str
+        As ``seewhy evaluate`` gives it, with figures of heads on pictures kept out.
+    """
+
+    pictures: int
+    complete: int
+    questions: tuple[QuestionProgress, ...]
+    advice: tuple[str, ...]
+
+
+def progress_of(project: Project, proposals: Proposals) -> Progress:
+    """Count what is labelled."""
+    domain, labels = project.domain(), project.labels()
+    there = set(project.pictures())
+    names = {CLASS: tuple(domain.classes)} | {
+        key: feature.values for key, feature in domain.features.items()
+    }
+    counts: dict[str, Counter[str]] = {name: Counter() for name in names}
+    complete = 0
+    for picture, said in labels.of.items():
+        if picture not in there:
+            continue
+        complete += all(name in said for name in names)
+        for name, label in said.items():
+            if name in counts:
+                counts[name][label.value] += 1
+    questions = tuple(
+        QuestionProgress(
+            name,
+            "class" if name == CLASS else domain.features[name].name,
+            counts[name].total(),
+            tuple(
+                ValueProgress(value, counts[name][value], _recognised(proposals, name, place))
+                for place, value in enumerate(values)
+            ),
+        )
+        for name, values in names.items()
+    )
+    advice = few_pictures(
+        Shown(question.name, value.value, value.labelled, value.recognised)
+        for question in questions
+        for value in question.values
+    )
+    return Progress(len(there), complete, questions, tuple(advice) if complete else ())
+
+
+def _recognised(proposals: Proposals, name: str, place: int) -> Share | None:
+    judged = proposals.judged.get(name)
+    if judged is None or place >= len(judged.shown) or not judged.shown[place]:
+        return None
+    return Share(judged.right[place], judged.shown[place])
