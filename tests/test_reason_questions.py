@@ -87,7 +87,10 @@ def told(domain: Domain, values: list[str], *questions: str) -> list[str]:
             'The game is a win by the rule "a solid game that is not red is won" '
             "(knowledge.al:11).",
         ),
-        ("when does it lose?", 'The game is a lose by the rule "a red game is lost" (knowledge.al:9).'),
+        (
+            "when does it lose?",
+            'The game is a lose by the rule "a red game is lost" (knowledge.al:9).',
+        ),
         ("does the colour matter?", "Yes: if the game is red, it is a lose."),
         ("is the colour important?", "Yes: if the game is red, it is a lose."),
         (

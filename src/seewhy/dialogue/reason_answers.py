@@ -1,4 +1,4 @@
-"""Answers about reasons: by which rules a class follows, what matters, because of what, what else."""
+"""Answers about reasons: by which rules it is of a class, what matters to it, what else."""
 
 from __future__ import annotations
 
@@ -72,9 +72,7 @@ def say_axiom(axiom: Axiom) -> str:
     return f'the rule "{axiom.text}" ({file}:{axiom.location.line})'
 
 
-def _when(
-    domain: Domain, tree: DecisionTree, scene: Classification, label: str, why: Node
-) -> Told:
+def _when(domain: Domain, tree: DecisionTree, scene: Classification, label: str, why: Node) -> Told:
     """The rules that conclude a class."""
     literal = domain.classes[label].literal
     kind = AnswerType("when")
@@ -94,16 +92,14 @@ def _when(
     told = join_words([say_axiom(axiom) for axiom in rules[:_MOST_RULES]], word="or")
     more = len(rules) - _MOST_RULES
     text = f"{is_it} by {told}" + (f", or by {more} others" if more > 0 else "")
-    nodes = tuple(
-        Node(str(axiom.head), axiom.text, Basis.AXIOM, axiom=axiom) for axiom in rules
-    )
+    nodes = tuple(Node(str(axiom.head), axiom.text, Basis.AXIOM, axiom=axiom) for axiom in rules)
     return Told(kind, sentence(text), Node(str(literal), is_it, Basis.REASONS, children=nodes))
 
 
 def _matters(
     domain: Domain, decide: Decide, scene: Classification, feature: str, why: Node
 ) -> Told:
-    """Whether another value of a feature would change the class, and whether a rule speaks of it."""
+    """Whether another value of a feature would change the class, or a rule speaks of it."""
     declared, values = domain.features[feature], domain.named(scene.vector)
     kind = AnswerType("matters", (feature,))
     ground = least_sure(kind, scene, why)
@@ -189,9 +185,7 @@ def _more(domain: Domain, scene: Classification, why: Node, previous: Reply | No
     values = domain.named(scene.vector)
     told = _told_already(previous, values)
     because = why.features()
-    reasons = [
-        key for key, value in values.items() if key in because and key not in told and value
-    ]
+    reasons = [key for key, value in values.items() if key in because and key not in told and value]
     left = reasons or [key for key in values if key not in told and values[key] is not None]
     of_reasons = previous is not None and previous.question.asks in _ABOUT_REASONS
     if not left:

@@ -9,8 +9,8 @@ from itertools import islice, product
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.certainty import SURE_FROM, Ground, least_sure
-from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reason_answers import say_axiom
+from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reply import Classification, Reply
 from seewhy.dialogue.supposition import say_denied, say_values, supposed_values
 from seewhy.dialogue.told import Told
@@ -120,12 +120,16 @@ class Weighing:
         changes = {**given, **instead}
         kind = AnswerType("what_if", tuple(changes), (tuple(changes.items()),))
         clauses = [say_values(domain, given)] if given else []
-        clauses += [say_denied(domain, key, value, given=bool(given)) for key, value in denied.items()]
+        clauses += [
+            say_denied(domain, key, value, given=bool(given)) for key, value in denied.items()
+        ]
         begun = f"if {join_words(clauses)}"
         if len(found) == 1:
             still = "still " if label == scene.label else ""
-            is_it = "I cannot tell what it is" if label is None else (
-                f"it is {still}{domain.classes[label].say}"
+            is_it = (
+                "I cannot tell what it is"
+                if label is None
+                else (f"it is {still}{domain.classes[label].say}")
             )
             return Told(kind, sentence(f"{begun}, {is_it}"), node)
         told = []

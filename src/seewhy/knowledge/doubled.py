@@ -65,7 +65,9 @@ def _form(axiom: Axiom) -> tuple[str, list[str]]:
     """An axiom's head and conditions with variables named in the order in which they appear."""
     texts = [condition.text for condition in axiom.body]
     # In an order that no name has a say in.
-    ordered = sorted(texts, key=lambda text: substitute(text, dict.fromkeys(variables_in(text), "_")))
+    ordered = sorted(
+        texts, key=lambda text: substitute(text, dict.fromkeys(variables_in(text), "_"))
+    )
     head = f"{axiom.kind.value} {axiom.action or ''} {axiom.head}"
     named: dict[str, str] = {}
     for text in (head.split(" ", 1)[1], *ordered):

@@ -107,12 +107,11 @@ def say_supposed(view: RunView, step: Step) -> str:
 
 
 def say_hoped(view: RunView, step: Step) -> str:
-    """What the plan of a step only supposed, as it was not known then, or doubted though believed."""
+    """What the plan of a step only supposed: it was not known, or believed to be otherwise."""
     made = [
         earlier
         for earlier in view.run.steps
-        if earlier.number <= step.number
-        and earlier.decision in (Decision.PLAN, Decision.REPLAN)
+        if earlier.number <= step.number and earlier.decision in (Decision.PLAN, Decision.REPLAN)
     ]
     kind = view.domain.knowledge.signature.kind
     open_then = [

@@ -39,7 +39,9 @@ def plan(view: RunView, query: Query) -> Told:
         then = view.at(query.step)
         had = f"to {say_actions(then.plan, speech)}" if then.plan else "to do nothing more"
         was = f"at step {query.step} my plan was {had}"
-        return sentences([was, say_hoped(view, then) if then.plan else ""]), {"actions": [str(action) for action in then.plan]}
+        return sentences([was, say_hoped(view, then) if then.plan else ""]), {
+            "actions": [str(action) for action in then.plan]
+        }
     if query.past and run.plans:
         made = [
             said
@@ -111,8 +113,9 @@ def done(view: RunView, query: Query) -> Told:
 
 
 def how_many_done(view: RunView, query: Query) -> Told:
-    """How many actions were done so far, and how many of them in vain."""
-    done_so = [step for step in view.run.steps if step.action is not None]
+    """How many actions were done so far, or before a step, and how many of them in vain."""
+    until = len(view.run.steps) if query.step is None else query.step
+    done_so = [step for step in view.run.steps if step.action is not None and step.number < until]
     failed = [step for step in done_so if (step.number, step.action) in view.failures]
     reasons = {"steps": [step.number for step in done_so], "failed": len(failed)}
     if not done_so:
