@@ -21,6 +21,7 @@ from seewhy.errors import DatasetError, KnowledgeError
 from seewhy.evaluation import AxiomRecord, axiom_records
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.consistency import never_applies
+from seewhy.knowledge.doubled import doubled
 from seewhy.knowledge.grounding_size import large_grounding
 from seewhy.knowledge.odd_loop import say_odd_loop
 from seewhy.knowledge.reasoner import Reasoner, Verdict
@@ -28,6 +29,8 @@ from seewhy.knowledge.scene import FeatureVector, SceneSchema
 
 MOST_VECTORS = 20_000
 _SCENES_OF_THINGS = 500
+RIGHT_ENOUGH = 0.9
+"""Of the scenes that an axiom decides: a rule with fewer right is doubtful."""
 _LOOKED_AT = 50  # feature vectors without an answer set, for the reasons why
 
 
@@ -49,10 +52,21 @@ class DomainReport:
     decided: float | None = None
     decided_rightly: float | None = None
 
+    @property
+    def doubtful(self) -> tuple[str, ...]:
+        """What each axiom is wrong about that is right less often than nine times in ten."""
+        return tuple(
+            f'the rule "{record.text}" is right about {record.right} of the {record.decided} '
+            f"scenes that it decides ({record.statement})"
+            for record in self.axioms
+            if record.accuracy is not None and record.accuracy < RIGHT_ENOUGH
+        )
+
     def to_dict(self) -> dict[str, Any]:
         """Return the report as values that JSON can hold."""
         return {
             **asdict(self),
+            "doubtful": list(self.doubtful),
             "axioms": [{**asdict(record), "accuracy": record.accuracy} for record in self.axioms],
         }
 
@@ -102,12 +116,13 @@ def _check_folder(domain: Domain, reasoner: Reasoner) -> DomainReport:
         f"{axiom.location}: no feature vector satisfies the conditions of '{axiom}'"
         for axiom in never_applies(replace(domain.knowledge, axioms=sound), domain.schema)
     ]
+    warnings += doubled(domain.knowledge.axioms)
     warnings += filter(None, [large_grounding(domain.knowledge)])
     covered = {question.feature for question in questions.all if question.feature}
     warnings += [
         f"no question asks about the feature '{key}'"
         for key in domain.features
-        if key not in covered
+        if questions.all and key not in covered  # without templates the grammar asks for all
     ]
     return DomainReport(
         questions=len(questions.one_of_each()),

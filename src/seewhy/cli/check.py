@@ -66,7 +66,9 @@ def check(
         )
     if planning is not None:
         _print_planning(planning)
-    say("nothing is wrong")
+    for doubt in report.doubtful:
+        say(f"doubtful: {doubt}")
+    say(f"nothing is wrong{' but what is doubtful' if report.doubtful else ''}")
 
 
 def _checked_planning(domain: str) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from seewhy.dialogue.constant_features import with_only_shown
 from seewhy.dialogue.default_reason import say_usual
 from seewhy.dialogue.narration import narrate
 from seewhy.dialogue.question import Asks, Question
+from seewhy.dialogue.reason_answers import OF_REASONS, tell_of_reasons
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience
 from seewhy.dialogue.reply import UNCERTAIN, UNKNOWN, Classification, Reply
@@ -187,8 +188,13 @@ class Answering:
             kind = AnswerType("unknown")
             words = word_answer(self.domain, question, kind, vector=scene.vector, label=None)
             return Told(kind, words, why)
+        weighing = Weighing(self.domain, self.reasoned, self.tree, self._tree_why)
+        if question.asks in OF_REASONS:
+            return tell_of_reasons(
+                self.reasoned, self.tree, weighing.decided, scene, question,
+                why=why, previous=previous,
+            )  # fmt: skip
         if question.asks in _WEIGHED:
-            weighing = Weighing(self.domain, self.reasoned, self.tree, self._tree_why)
             return weighing.weigh(scene, question, why=why, previous=previous)
         return tell(self.domain, self.reasoned, scene, question, why=why, look=look)
 

@@ -220,6 +220,7 @@ class Questions:
             problem = f"'{' '.join(text.split())}' has no word in the vocabulary's alphabet"
         if problem is not None:
             examples = tuple(f"{question.text}?" for question in self.one_of_each()[:3])
+            examples = examples or self._suggestions.nearest("what")
             raise QuestionError(f"{problem}; {_suggest(examples)}", nearest=examples)
 
 

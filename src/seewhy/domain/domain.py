@@ -162,7 +162,7 @@ def load_domain(name: str | Path) -> Domain:
     questions = read_toml(folder / "questions.toml", QuestionsFile)
     place = KeyPlace(path)
     _check_source(table, place)
-    _check_parts(table, questions, place)
+    _check_parts(table, place)
     _check_scene(table, knowledge, place)
     things = None if table.things is None else read_things(table.things, knowledge, place)
     if things is not None:
@@ -214,15 +214,11 @@ def _check_source(table: DomainFile, place: KeyPlace) -> None:
         )
 
 
-def _check_parts(table: DomainFile, questions: QuestionsFile, place: KeyPlace) -> None:
-    """Refuse a domain without features, classes or questions, where there are no things."""
+def _check_parts(table: DomainFile, place: KeyPlace) -> None:
+    """Refuse a domain without features or classes, where there are no things."""
     for name, part in (("features", table.features), ("classes", table.classes)):
         if not part and table.things is None:
             raise DomainError(f"{place.at(name)}: '{name}' is missing; add it")
-    if not questions.question and table.things is None:
-        raise DomainError(
-            f"{place.path.with_name('questions.toml')}:1: 'question' is missing; add it"
-        )
 
 
 def _check_shared_words(

@@ -53,8 +53,6 @@ class QuestionsFile(StrictTable):
     )
     question: tuple[QuestionTable, ...] = Field(
         default=(),
-        min_length=1,
         max_length=2000,
-        description="One table a thing that can be asked; only a domain with [things] may be "
-        "without.",
+        description="One table a thing that can be asked; none where the grammar says it all.",
     )

@@ -172,10 +172,14 @@ class BeliefAnswers:
         single = {fluent.predicate for fluent in places(self.domain) if fluent.single}
         who = self.speech.every(literal for literal in found if literal.name in single)
         described = describe_place(beliefs, place, step, named=bool(who))
-        said = [who, *described] if found else [self._nothing(place, beliefs, step)]
+        if query.text.startswith("who "):
+            # Whoever is there is what can be at one place only.
+            found = [literal for literal in found if literal.name in single]
+            described = []
+        said = [who, *described] if found else [self._nothing(place, beliefs, step, query)]
         return sentences(said), {"literals": [str(literal) for literal in found]}
 
-    def _nothing(self, place: str, beliefs: Beliefs, step: int) -> str:
+    def _nothing(self, place: str, beliefs: Beliefs, step: int, query: Query) -> str:
         fluents = [fluent for fluent in places(self.domain) if self._can_be_at(fluent, place)]
         where = " or ".join(dict.fromkeys(fluent.preposition for fluent in fluents))
         looked = any(
@@ -184,7 +188,8 @@ class BeliefAnswers:
             for other in places(self.domain)
             if seen.name == other.predicate
         )
-        said = f"I know of nothing {where} {self.speech.name(place)}"
+        nothing = none_of(query.text)
+        said = f"I know of {nothing} {where} {self.speech.name(place)}"
         return said if looked else f"{said}; I have not looked there"
 
     def _because(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:

@@ -26,6 +26,7 @@ from seewhy.planning.execution.execution import Run
 _ABOUT_RUN: Mapping[Asks, Callable[[RunView, Query], Told]] = {
     Asks.PLAN: course_answers.plan,
     Asks.DONE: course_answers.done,
+    Asks.HOW_MANY_DONE: course_answers.how_many_done,
     Asks.GOAL: course_answers.goal,
     Asks.DID: course_answers.did_so,
     Asks.ENDED: course_answers.has_ended,
