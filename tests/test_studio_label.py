@@ -44,7 +44,7 @@ class Browser:
             path, data={"csrf": self.csrf, **fields}, headers=HTMX if part else {}
         )
         assert answered.status_code == 200, answered.text
-        assert self.proposer.settle(20)
+        assert self.proposer.settle(120)
         return answered.text
 
     def get(self, path: str, *, part: bool = False) -> str:
@@ -196,14 +196,14 @@ def test_previous_and_next_lead_where_one_was(browser: Browser) -> None:
 
 
 def test_the_first_pictures_differ(browser: Browser) -> None:
-    assert browser.proposer.settle(20)
+    assert browser.proposer.settle(120)
     order = [name for name, _ in browser.proposer.latest().order]
     # a, c and e are red, b, d and f are green: one of each comes first.
     assert {"ace".find(name[0]) >= 0 for name in order[:2]} == {True, False}
 
 
 def test_news_come_only_where_there_are_any(browser: Browser) -> None:
-    assert browser.proposer.settle(20)
+    assert browser.proposer.settle(120)
     browser.get("/label?picture=a.png")
     version = browser.proposer.latest().version
     path = "/label/news?picture=a.png&version="

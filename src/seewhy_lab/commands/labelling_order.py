@@ -22,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
+from sklearn.isotonic import IsotonicRegression
 
 from seewhy.data.importers import ImportRequest, read_source
 from seewhy.data.importers.reading import ReadSource, detect_format
@@ -142,14 +143,23 @@ def trial(lesson: Lesson, *, seed: int, step: int, most: int) -> tuple[Curve, Cu
     )
 
 
-def needed(curve: Curve, accuracy: float) -> int | None:
-    """The labels from which on a curve is never below an accuracy."""
-    found = None
-    for labels, reached in reversed(curve):
-        if reached < accuracy:
-            return found
-        found = labels
-    return found
+def smoothed(curves: Sequence[Curve]) -> Curve:
+    """The mean of curves, made to rise (isotonic regression): chance alone lets them fall."""
+    labels = [point[0] for point in curves[0]]
+    mean = np.mean([[accuracy for _, accuracy in curve] for curve in curves], axis=0)
+    risen = IsotonicRegression().fit_transform(labels, mean)
+    return list(zip(labels, risen.tolist(), strict=True))
+
+
+def needed(curve: Curve, accuracy: float) -> float | None:
+    """The labels at which a rising curve reaches an accuracy, between its points if need be."""
+    before = (0, 0.0)
+    for labels, reached in curve:
+        if reached >= accuracy:
+            share = (accuracy - before[1]) / max(reached - before[1], 1e-9)
+            return before[0] + share * (labels - before[0])
+        before = (labels, reached)
+    return None
 
 
 def main() -> None:
@@ -179,19 +189,14 @@ def main() -> None:
     for seed in range(options.trials):
         both.append(trial(lesson, seed=seed, step=options.step, most=options.most))
         print(f"trial {seed + 1} of {options.trials} done", flush=True)
-    random, ordered = (
-        [
-            (points[0][0], float(np.mean([accuracy for _, accuracy in points])))
-            for points in zip(*curves, strict=True)
-        ]
-        for curves in zip(*both, strict=True)
-    )
+    random = smoothed([curve for curve, _ in both])
+    ordered = smoothed([curve for _, curve in both])
     print(f"{len(lesson.pooled)} pictures, features: {', '.join(lesson.targets)}")
     print("labels at random   accuracy   labels in the studio's order   share")
     for labels, accuracy in random:
         if labels % max(options.most // 8, options.step) == 0:
             found = needed(ordered, accuracy)
-            said = f"{found:28}   {found / labels:5.2f}" if found is not None else "more"
+            said = f"{found:28.0f}   {found / labels:5.2f}" if found is not None else "more"
             print(f"{labels:16}   {accuracy:8.3f}   {said}")
     if options.json:
         options.json.write_text(json.dumps({"random": random, "ordered": ordered}, indent=1))
