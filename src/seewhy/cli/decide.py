@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from seewhy.cli.decide_things import Wanted, decide_things
 from seewhy.cli.options import DomainName, Json
 from seewhy.cli.screen import complain, print_json, say
 
@@ -21,12 +23,32 @@ def decide(
         list[str] | None,
         typer.Argument(
             metavar="[FEATURE=VALUE]...",
-            help="What a picture would show, as in colour=brown; what is left out is not known.",
+            help="What a picture would show, as in colour=brown; what is left out is not known. Of "
+            "things: cup.colour=brown, and on=cup,book for what holds between two.",
         ),
     ] = None,
     ask: Annotated[
         list[str] | None,
         typer.Option("--ask", help="Also answer this question; may be given several times."),
+    ] = None,
+    things: Annotated[
+        Path | None,
+        typer.Option("--things", help="A table of things (things.csv) in place of named ones."),
+    ] = None,
+    image: Annotated[
+        str | None, typer.Option("--image", help="Which picture of the table of things.")
+    ] = None,
+    why: Annotated[
+        list[str] | None,
+        typer.Option("--why", help="Of things: why this is believed, or not, as in 'falls(cup)'."),
+    ] = None,
+    change: Annotated[
+        list[str] | None,
+        typer.Option("--change", help="Of things: the smallest change that makes this so."),
+    ] = None,
+    suppose: Annotated[
+        list[str] | None,
+        typer.Option("--if", help="Of things: what follows if this were so, as in cup.colour=red."),
     ] = None,
     json: Json = False,
 ) -> None:
@@ -35,9 +57,18 @@ def decide(
     from seewhy.dialogue.question import Asks, Question
     from seewhy.domain.assignments import named_values
     from seewhy.domain.domain import load_domain
-    from seewhy.errors import QuestionError
+    from seewhy.errors import DomainError, QuestionError
 
     loaded = load_domain(domain)
+    if loaded.things is not None:
+        wanted = Wanted(why=why or (), change=change or (), supposing=suppose or ())
+        decide_things(loaded, values or (), file=things, image=image, wanted=wanted, json=json)
+        return
+    if things or image or why or change or suppose:
+        raise DomainError(
+            f"the domain '{loaded.name}' has no things, of which --things, --image, --why, "
+            "--change and --if speak; ask with --ask"
+        )
     agent = Agent(loaded)
     scene = agent.classify_values(named_values(loaded, values or ()))
     reply = agent.answer(scene, Question(Asks.CLASS, "what is it", ()))
