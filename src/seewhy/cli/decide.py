@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from seewhy.cli.decide_things import Wanted, decide_things
+from seewhy.cli.decide_named_things import Wanted, decide_named_things
 from seewhy.cli.options import DomainName, Json
 from seewhy.cli.screen import complain, print_json, say
 
@@ -62,7 +62,9 @@ def decide(
     loaded = load_domain(domain)
     if loaded.things is not None:
         wanted = Wanted(why=why or (), change=change or (), supposing=suppose or ())
-        decide_things(loaded, values or (), file=things, image=image, wanted=wanted, json=json)
+        decide_named_things(
+            loaded, values or (), file=things, image=image, wanted=wanted, json=json
+        )
         return
     if things or image or why or change or suppose:
         raise DomainError(

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from seewhy.domain.domain import Domain
     from seewhy.knowledge.axiom import Literal
 
-__all__ = ["Wanted", "decide_things"]
+__all__ = ["Wanted", "decide_named_things"]
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Wanted:
     supposing: Sequence[str] = ()
 
 
-def decide_things(
+def decide_named_things(
     domain: Domain,
     assignments: Sequence[str],
     *,
