@@ -63,8 +63,8 @@ def decide(
             "with --scene FILE"
         )
     agent = Agent(loaded)
-    scene = agent.classify_values(named_values(loaded, values or ()))
-    reply = agent.answer(scene, Question(Asks.CLASS, "what is it", ()))
+    classified = agent.classify_values(named_values(loaded, values or ()))
+    reply = agent.answer(classified, Question(Asks.CLASS, "what is it", ()))
     replies: dict[str, Reply] = {}
     before: Reply | None = None
     for question in ask or ():
@@ -75,8 +75,8 @@ def decide(
         except QuestionError as problem:
             complain(str(problem))  # the others are answered all the same
             continue
-        before = replies[question] = agent.answer(scene, asked, previous=before)
-    _print(loaded, scene, reply, replies, json=json)
+        before = replies[question] = agent.answer(classified, asked, previous=before)
+    _print(loaded, classified, reply, replies, json=json)
     if len(replies) < len(set(ask or ())):
         raise typer.Exit(2)
 
