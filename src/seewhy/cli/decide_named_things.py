@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import typer
+
+from seewhy.cli.decide_things import answers_about, print_reply
 from seewhy.cli.screen import print_json, say
 
 if TYPE_CHECKING:
@@ -24,6 +27,7 @@ class Wanted:
     why: Sequence[str] = ()
     change: Sequence[str] = ()
     supposing: Sequence[str] = ()
+    ask: Sequence[str] = ()
 
 
 def decide_named_things(
@@ -41,7 +45,16 @@ def decide_named_things(
     from seewhy.data.thing_tables import things_of_file
     from seewhy.dialogue.scene_beliefs import SceneBeliefs
     from seewhy.domain.assignments import named_values
+    from seewhy.errors import DomainError
 
+    assert domain.things is not None, "the domain has no things"
+    if file is None and image is not None:
+        raise DomainError("--image goes with --things or --scene")
+    if file is None and not assignments:
+        raise DomainError(
+            f"{domain.name} has things: name some, as in cup.{next(iter(domain.things.features))}="
+            "…, or give a table with --things FILE or an annotated scene with --scene FILE"
+        )
     if file is None:
         vector, things = named_scene(domain, assignments)
     else:
@@ -58,10 +71,17 @@ def decide_named_things(
     if wanted.supposing:
         other = supposed(domain, vector, names, wanted.supposing)
         found["supposing"] = _found(SceneBeliefs(domain, other, names, reasoner=beliefs.reasoner))
+    replies, failed = answers_about(domain.things, beliefs.scene, wanted.ask)
     if json:
-        print_json({"domain": domain.name, "things": names, **found})
-        return
-    _print(found, supposing=", ".join(wanted.supposing))
+        answers = [reply.to_dict() for reply in replies]
+        print_json({"domain": domain.name, "things": names, **found, "answers": answers})
+    else:
+        _print(found, supposing=", ".join(wanted.supposing))
+        for reply in replies:
+            say()
+            print_reply(reply)
+    if failed:
+        raise typer.Exit(2)
 
 
 def _found(beliefs: SceneBeliefs) -> dict[str, Any]:

@@ -11,15 +11,14 @@ from pathlib import Path
 from seewhy.data.listed_relations import contradicted, not_listed
 from seewhy.data.scene import Scene, TablePlace
 from seewhy.data.table import Table, read_table
-from seewhy.data.thing import CORNERS, THINGS, BoundingBox, Related, Thing
+from seewhy.data.thing import CORNERS, RELATIONS, THINGS, BoundingBox, Related, Thing
 from seewhy.domain.domain import Domain
 from seewhy.domain.things import Things
 from seewhy.errors import DatasetError, PictureError
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["RELATIONS", "cells_of_relations", "cells_of_things", "things_of_file", "with_things"]
+__all__ = ["cells_of_relations", "cells_of_things", "things_of_file", "with_things"]
 
-RELATIONS = "relations.csv"
 _FIRST = ("image", "thing", *CORNERS)
 _NO_FEATURES = ("kind", "x", "y", "z")
 """Columns that other tools leave beside those of the features."""

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from itertools import permutations
 
+from seewhy.data.thing_scene import ThingScene, thing_scene
 from seewhy.domain.domain import Domain
 from seewhy.domain.wording import join_words, say_literal
 from seewhy.errors import QuestionError
@@ -15,12 +17,15 @@ from seewhy.knowledge.justification import Node
 from seewhy.knowledge.language import read_literal
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.knowledge.things import things_of
+from seewhy.knowledge.things import of_things, things_of
 from seewhy.knowledge.why import why
 from seewhy.knowledge.why_not import why_not
 from seewhy.text.nearest import did_you_mean
 
 __all__ = ["SceneBeliefs"]
+
+_CHANGES = 8
+"""Of changes that are equally small, so many are told."""
 
 
 class SceneBeliefs:
@@ -120,6 +125,31 @@ class SceneBeliefs:
             if schema.feature_of(literal) is None and key_of(literal) not in classes
         )
 
+    @property
+    def scene(self) -> ThingScene:
+        """The things with what is seen of them, and what is measured, seen or concluded of two."""
+        things = self.domain.things
+        assert things is not None, "the domain has no things"
+        terms = list(self.names)
+        shown = dict(zip(self.domain.schema.features, self.vector, strict=True))
+        believed = {key_of(literal) for literal in self.concluded}
+        related: dict[str, list[tuple[int, int]]] = {key: [] for key in things.relations}
+        unknown: dict[str, list[tuple[int, int]]] = {key: [] for key in things.relations}
+        for key in things.relations:
+            for pair in permutations(range(len(terms)), 2):
+                named = of_things(key, *(terms[number] for number in pair))
+                value = shown.get(named) if named in shown else "no"
+                if value == "yes" or named in believed:
+                    related[key].append(pair)
+                elif value is None:
+                    unknown[key].append(pair)
+        return thing_scene(
+            things,
+            [{key: shown[of_things(key, term)] for key in things.features} for term in terms],
+            relations=related,
+            not_known=unknown,
+        )
+
     def is_believed(self, literal: Literal) -> bool:
         """Whether a literal is believed."""
         return key_of(literal) in set(map(str, self.reasoner.believed(self.vector)))
@@ -131,7 +161,7 @@ class SceneBeliefs:
 
     def changes(self, literal: Literal) -> tuple[Change, ...]:
         """Return the smallest changes that make a literal believed."""
-        return self._finder.smallest_for(self.vector, literal)
+        return self._finder.smallest_for(self.vector, literal, limit=_CHANGES)
 
     @cached_property
     def _finder(self) -> ChangeFinder:
