@@ -112,9 +112,7 @@ def test_wrong_answers_are_written_with_what_was_understood(run: Run, tmp_path: 
     wrong["questions"][3]["question"] = "What zorb is the red thing?"
     scenes, questions = written(tmp_path, "s.json", SCENES), written(tmp_path, "q.json", wrong)
     out = tmp_path / "wrong.txt"
-    found = run(
-        "evaluate", "clevr", "--scenes", scenes, "--questions", questions, "--wrong", out
-    )
+    found = run("evaluate", "clevr", "--scenes", scenes, "--questions", questions, "--wrong", out)
     assert found.code == 0
     assert "5 questions about 1 scenes: 4 understood, 3 right (60.0 %" in found.out
     text = out.read_text(encoding="utf-8")
@@ -138,8 +136,14 @@ def damaged(path: tuple[str | int, ...], value: object) -> dict[str, Any]:
 
 FIRST = ("scenes", 0)
 DAMAGED_SCENES: dict[str, tuple[object, str]] = {
-    "not JSON": ('{"scenes": [', "s.json:1:13: is no valid JSON (expecting value); export it again"),
-    "something else": ("[1, 2]", "s.json: has no scenes; it must be an object with a list 'scenes'"),
+    "not JSON": (
+        '{"scenes": [',
+        "s.json:1:13: is no valid JSON (expecting value); export it again",
+    ),
+    "something else": (
+        "[1, 2]",
+        "s.json: has no scenes; it must be an object with a list 'scenes'",
+    ),
     "no list": (
         {"scenes": {"a": 1}},
         "s.json: 'scenes' must be a list; correct it or export it again",
@@ -290,10 +294,10 @@ COMMANDS = {
     "exported file",
     "data import coco x --scenes s.json --out out": "--scenes and --questions go with 'seewhy data "
     "import clevr'",
-    "decide tabletop": "tabletop has no features of the whole picture; ask about the things of a "
-    "scene with --scene FILE",
+    "decide tabletop": "tabletop has things: name some, as in cup.size=…, or give a table with "
+    "--things FILE or an annotated scene with --scene FILE",
     "decide tabletop --scene s.json --image 4": "has no scene with image_index 4",
-    "decide tabletop --image 4": "--image goes with --scene",
+    "decide tabletop --image 4": "--image goes with --things or --scene",
     "decide tabletop --scene s.json --ask zorb": "I do not understand the question; 'zorb' is no "
     "word of the domain",
 }
@@ -374,7 +378,7 @@ def test_a_scene_is_asked_about(run: Run, tmp_path: Path) -> None:
 
 
 def _archive() -> Path:
-    """The archive with scenes and questions that were made with the public generator's templates."""
+    """The archive with scenes, and questions that the public generator's templates made."""
     beside = Path(__file__).parents[2] / "shared" / "data" / "clevr.zip"
     path = Path(os.environ.get("SEEWHY_CLEVR", beside))
     if not path.exists():

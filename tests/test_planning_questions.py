@@ -1126,14 +1126,14 @@ def test_answers_in_any_other_domain(lamps: tuple[PlanningDomain, Run], question
     ],
 )
 def test_a_search_tells_what_was_believed_and_what_was_supposed(
-    transitions: Transitions, question: str, right: str
+    transitions: TransitionFunction, question: str, right: str
 ) -> None:
     searched = office_run(transitions, "loc(sally,bathroom)")
     assert asked(searched, question) == right
 
 
 def test_what_was_believed_otherwise_is_told_beside_what_a_plan_supposes(
-    transitions: Transitions,
+    transitions: TransitionFunction,
 ) -> None:
     def late(step: int, state: World) -> World:
         walked = [term("walk(sally,library)")]

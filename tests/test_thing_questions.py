@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -341,9 +342,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("question", REFUSED)
-def test_what_is_not_understood(
-    question: str, answerer: ThingAnswerer, scene: ThingScene
-) -> None:
+def test_what_is_not_understood(question: str, answerer: ThingAnswerer, scene: ThingScene) -> None:
     with pytest.raises(QuestionError) as refused:
         answerer.answer(question, scene)
     assert str(refused.value) == REFUSED[question]
@@ -429,7 +428,7 @@ class Asked:
     meaning: Callable[[ThingScene], object]
 
 
-class NotOne(Exception):
+class NotOneError(Exception):
     """A question speaks of the one thing, and there is not one."""
 
 
@@ -489,7 +488,7 @@ def the(chance: random.Random, depth: int) -> Asked:
         found = inside.meaning(scene)
         assert isinstance(found, set)
         if len(found) != 1:
-            raise NotOne
+            raise NotOneError
         (one,) = found
         return int(one)
 
@@ -580,7 +579,7 @@ def random_questions(things: Things, count: int) -> Iterator[tuple[str, ThingSce
         scene, question = random_scene(chance, things), asked(chance)
         try:
             answer = question.meaning(scene)
-        except NotOne:
+        except NotOneError:
             continue
         count -= 1
         yield question.words, scene, answer
@@ -596,9 +595,7 @@ def test_random_questions_mean_what_a_plain_interpreter_says(
         assert list(reply.justification.walk())
 
 
-def test_every_change_that_is_told_makes_the_answer(
-    answerer: ThingAnswerer, table: Things
-) -> None:
+def test_every_change_that_is_told_makes_the_answer(answerer: ThingAnswerer, table: Things) -> None:
     """What is found is applied, and the question is asked again of the changed scene."""
     from seewhy.dialogue.things.changing import smallest_change
     from seewhy.dialogue.things.edits import edited
@@ -618,3 +615,11 @@ def test_every_change_that_is_told_makes_the_answer(
         evaluation = Evaluation(changed, table, without=without)
         assert outcome_of(reply.query, evaluation).value is not answer
     assert found > 5
+
+
+def test_the_page_says_what_is_answered(answerer: ThingAnswerer, scene: ThingScene) -> None:
+    page = Path(__file__).parents[1] / "docs" / "things.md"
+    rows = re.findall(r"^\| [^|]+ \| ([A-Z][^|]+\?) \| ([^|]+) \|$", page.read_text("utf-8"), re.M)
+    assert len(rows) == 10
+    for question, answer in rows:
+        assert answerer.answer(question, scene).text == answer

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from seewhy.data.dataset import TABLE, Dataset
 from seewhy.data.scene_rows import cells_of_scenes
-from seewhy.data.thing import THINGS
-from seewhy.data.thing_tables import RELATIONS, cells_of_relations, cells_of_things
+from seewhy.data.thing import RELATIONS, THINGS
+from seewhy.data.thing_tables import cells_of_relations, cells_of_things
 from seewhy.files.whole_files import write_whole
 
 __all__ = ["write_tables"]

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-__all__ = ["CORNERS", "THINGS", "BoundingBox", "Related", "Thing"]
+__all__ = ["CORNERS", "RELATIONS", "THINGS", "BoundingBox", "Related", "Thing"]
 
 THINGS = "things.csv"
 """The table of things beside that of the pictures."""
+
+RELATIONS = "relations.csv"
+"""The table of what holds between two of them."""
 
 CORNERS = ("left", "top", "right", "bottom")
 """Its columns of a box."""

@@ -8,17 +8,17 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from seewhy.data.listed_relations import contradicted, not_listed
 from seewhy.data.scene import Scene, TablePlace
 from seewhy.data.table import Table, read_table
-from seewhy.data.thing import CORNERS, THINGS, BoundingBox, Related, Thing
+from seewhy.data.thing import CORNERS, RELATIONS, THINGS, BoundingBox, Related, Thing
 from seewhy.domain.domain import Domain
 from seewhy.domain.things import Things
 from seewhy.errors import DatasetError, PictureError
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["RELATIONS", "cells_of_relations", "cells_of_things", "with_things"]
+__all__ = ["cells_of_relations", "cells_of_things", "things_of_file", "with_things"]
 
-RELATIONS = "relations.csv"
 _FIRST = ("image", "thing", *CORNERS)
 _NO_FEATURES = ("kind", "x", "y", "z")
 """Columns that other tools leave beside those of the features."""
@@ -64,6 +64,36 @@ def cells_of_relations(named: Sequence[tuple[str, Scene]]) -> dict[str, list[str
         "other": [said.other for _, said in rows],
         "holds": [words[said.holds] for _, said in rows],
     }
+
+
+def things_of_file(
+    file: Path, domain: Domain, *, image: str | None = None
+) -> tuple[tuple[Thing, ...], tuple[Related, ...]]:
+    """Return the things of one picture of a table, which need not be there.
+
+    Relations are read from a relations.csv beside it. ``image`` names the picture where the table
+    has several.
+
+    Raises
+    ------
+    DatasetError
+        If the table is wrong or has no such picture.
+    """
+    assert domain.things is not None, "the domain has no things"
+    if not file.is_file():
+        raise DatasetError(f"{file}: there is no such file; name a table of things")
+    found = _things(file, domain.things, domain, None)
+    if image is None and len(found) != 1:
+        raise DatasetError(
+            f"{file}: has the things of {len(found)} pictures; name one of them with --image"
+        )
+    if image is not None and image not in found:
+        raise DatasetError(
+            f"{file}: has no things of '{image}'; {did_you_mean(image, sorted(found))}"
+        )
+    chosen = next(iter(found)) if image is None else image
+    said = _related(file.with_name(RELATIONS), domain.things, found)
+    return tuple(found[chosen]), tuple(said.get(chosen, ()))
 
 
 def with_things(
@@ -126,14 +156,15 @@ def _rows(file: Path, known: Sequence[str], needed: Sequence[str], what: str) ->
 
 
 def _things(
-    file: Path, things: Things, domain: Domain, images: Collection[str]
+    file: Path, things: Things, domain: Domain, images: Collection[str] | None
 ) -> dict[str, list[Thing]]:
-    """Picture → its things."""
+    """Picture → its things; of any pictures where ``images`` is None."""
     found: dict[str, list[Thing]] = {}
     known = (*_FIRST, *things.features, *_NO_FEATURES)
-    for cells in _rows(file, known, ("image",), "feature of things"):
+    needed = () if images is None else ("image",)
+    for cells in _rows(file, known, needed, "feature of things"):
         image = cells["image"].replace("\\", "/")
-        if image not in images:
+        if images is not None and image not in images:
             raise DatasetError(
                 f"{cells.place}: the picture '{image}' is none of scenes.csv; "
                 f"{did_you_mean(image, sorted(images))}"
@@ -254,7 +285,13 @@ def _related(
         said[image].append(_one_related(cells, things, found[image]))
     listed = {one.relation for of_image in said.values() for one in of_image}
     for image, of_image in said.items():
-        of_image += _not_so(of_image, found[image], things, listed)
+        if (both := contradicted(of_image, things)) is not None:
+            first, second = both
+            raise DatasetError(
+                f"{file}:{second.line}: '{second.relation}' of '{second.thing}' and "
+                f"'{second.other}' is said otherwise in line {first.line}; remove one of the two"
+            )
+        of_image += not_listed(of_image, found[image], things, listed)
     return said
 
 
@@ -284,19 +321,3 @@ def _one_related(cells: _Cells, things: Things, here: Sequence[Thing]) -> Relate
     return Related(
         cells["relation"], cells["thing"], cells["other"], _HOLDS[cells["holds"]], cells.line
     )
-
-
-def _not_so(
-    said: Sequence[Related], here: Sequence[Thing], things: Things, listed: Collection[str]
-) -> Iterator[Related]:
-    """Yield that what is not listed is not so, of relations that are listed at all."""
-    told = {(one.relation, one.thing, one.other) for one in said}
-    for one in said:
-        if (converse := things.relations[one.relation].converse) is not None:
-            told.add((converse, one.other, one.thing))
-    for relation in things.relations:
-        if relation in listed:
-            for thing in here:
-                for other in here:
-                    if thing is not other and (relation, thing.name, other.name) not in told:
-                        yield Related(relation, thing.name, other.name, holds=False)

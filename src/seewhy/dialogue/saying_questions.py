@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.antecedent import say_denied
+from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.domain.domain import Domain
 from seewhy.domain.wording import join_words, say_literal
 

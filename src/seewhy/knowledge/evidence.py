@@ -12,7 +12,7 @@ import clingo
 from seewhy.knowledge.axiom import Axiom, Literal
 from seewhy.knowledge.condition_words import say_condition
 from seewhy.knowledge.foundation import Forced, Foundation, Need, opposite
-from seewhy.knowledge.ground import key_of, literal_of
+from seewhy.knowledge.ground import key_of, literal_of, text_of
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.possible import Asked, Belief, Instance
 from seewhy.knowledge.reasoner import AnswerSet, Reasoner
@@ -53,9 +53,9 @@ class Evidence:
         self.vector = dict(zip(self.schema.features, scene, strict=True))
         self.answer_set = answer_set
         self.say = say
-        self.holds = {str(symbol) for symbol in answer_set.holds}
+        self.holds = set(map(text_of, answer_set.holds))
         shared = answer_set.holds if believed is None else believed
-        self.believed = frozenset(map(str, shared))
+        self.believed = frozenset(map(text_of, shared))
         self.others = others
         self._foundations: dict[Belief, Foundation] = {}
         self._conditions_said: dict[tuple[str, bool], str] = {}

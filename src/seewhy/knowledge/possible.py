@@ -19,7 +19,7 @@ from seewhy.knowledge.axiom import (
     substitute,
     variables_in,
 )
-from seewhy.knowledge.ground import key_of
+from seewhy.knowledge.ground import key_of, predicate_of
 from seewhy.knowledge.grounding import Grounding
 from seewhy.knowledge.grounding_size import GroundingSize
 from seewhy.knowledge.language import Knowledge
@@ -140,7 +140,7 @@ class PossibleInstances:
 
     def concluding(self, key: str) -> list[Instance]:
         """The instances that conclude a literal in some scene."""
-        kind = (key.lstrip("-").split("(", 1)[0], not key.startswith("-"))
+        kind = (predicate_of(key), not key.startswith("-"))
         if kind not in self._concluding:
             by_key: dict[str, list[Instance]] = {}
             for axiom in self.knowledge.axioms:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Literal as OneOf
 
 import clingo
@@ -365,22 +365,37 @@ def _decision(believed: tuple[str, ...]) -> Decision:
     return Decision(None, Verdict.SEVERAL if believed else Verdict.SILENT)
 
 
+@lru_cache(maxsize=65_536)
+def _read_atom(
+    atom: clingo.Symbol,
+) -> tuple[str, clingo.Symbol | None, tuple[str, tuple[str, ...]] | None]:
+    """The predicate of an atom, the literal that it says is believed, the instance that it names.
+
+    The same atoms come again in one answer set after another.
+    """
+    name = atom.name
+    if name == "holds":
+        return name, atom.arguments[0], None
+    if name in ("fires", "exception"):
+        axiom, values = atom.arguments
+        return name, None, (axiom.name, tuple(map(str, values.arguments)))
+    return name, None, None
+
+
 def _answer_set(symbols: Iterable[clingo.Symbol]) -> AnswerSet:
     holds: set[clingo.Symbol] = set()
     firings: dict[str, list[tuple[str, ...]]] = {}
     exceptions: list[tuple[str, tuple[str, ...]]] = []
     conflict = False
-    for symbol in symbols:
-        if symbol.name == "holds":
-            holds.add(symbol.arguments[0])
-        elif symbol.name in ("fires", "exception"):
-            axiom, values = symbol.arguments[0].name, tuple(map(str, symbol.arguments[1].arguments))
-            if symbol.name == "fires":
-                firings.setdefault(axiom, []).append(values)
-            else:
-                exceptions.append((axiom, values))
-        elif symbol.name == "conflict":
-            conflict = True
+    for kind, literal, instance in map(_read_atom, symbols):
+        if literal is not None:
+            holds.add(literal)
+        elif instance is None:
+            conflict = conflict or kind == "conflict"
+        elif kind == "fires":
+            firings.setdefault(instance[0], []).append(instance[1])
+        else:
+            exceptions.append(instance)
     for instances in firings.values():
         instances.sort()
     return AnswerSet(frozenset(holds), firings, tuple(sorted(exceptions)), conflict)

@@ -13,15 +13,14 @@ from seewhy.data.dataset import TABLE
 from seewhy.data.importers.clevr import AskedOfScene, read_questions, read_scenes
 from seewhy.data.importers.folder_files import FolderFiles
 from seewhy.data.importers.placing import Placing
+from seewhy.data.thing import RELATIONS, THINGS
 from seewhy.data.thing_scene import ThingScene
 from seewhy.domain.things import Things
 from seewhy.errors import DatasetError
 from seewhy.files.whole_files import write_whole
 
-__all__ = ["QUESTIONS", "RELATIONS", "THINGS", "ImportedScenes", "import_scenes"]
+__all__ = ["QUESTIONS", "ImportedScenes", "import_scenes"]
 
-THINGS = "things.csv"
-RELATIONS = "relations.csv"
 QUESTIONS = "questions.csv"
 _AXES = ("x", "y", "z")
 
