@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from seewhy.data.importers import ImportedDataset, ImportRequest, Note
 
 CLEVR = "clevr"
-FORMATS = ("folder", "coco", "voc", "yolo", "labelstudio", "cvat", "table", CLEVR)
+FORMATS = ("folder", "coco", "voc", "yolo", "labelstudio", "cvat", "table")
 _MOST_NAMED = 5
 _MOST_CLASSES = 12
 
@@ -42,7 +42,7 @@ Out = Annotated[Path, typer.Option("--out", metavar="DIR", help="The folder to w
 def import_(
     format: Annotated[
         str,
-        typer.Argument(metavar="FORMAT", help=f"{', '.join(FORMATS[:-1])} or {FORMATS[-1]}."),
+        typer.Argument(metavar="FORMAT", help=f"{', '.join(FORMATS)} or {CLEVR}."),
     ],
     out: Out,
     source: Annotated[
@@ -220,7 +220,9 @@ def _check_format(name: str) -> None:
             raise SeeWhyError(
                 f"'{name}' is a source; say its format before it: {', '.join(FORMATS)}"
             )
-        raise SeeWhyError(f"'{name}' is no format that is imported; {did_you_mean(name, FORMATS)}")
+        raise SeeWhyError(
+            f"'{name}' is no format that is imported; {did_you_mean(name, (*FORMATS, CLEVR))}"
+        )
 
 
 def _one_source(sources: Sequence[Path]) -> Path:
