@@ -134,13 +134,23 @@ ANSWERS = {
     "There is a ball, what size is it?": ("large", None),
     "What other thing is the same colour as the small cube?": ((1,), None),
     "Is there anything else of the same shape as the ball?": (False, None),
-    "What shape is the cube's leftmost thing": None,
+    "What colour is the thing that the ball is left of?": ("green", None),
+    "How many of the things are large?": (2, None),
+    "Are there any cubes or green balls?": (
+        True,
+        "Yes: there are two things that are cubes or green spheres: the small red metal cube and "
+        "the large red rubber cube.",
+    ),
+    "What's the ball's size?": ("large", None),
+    "What size is the left cube?": ("small", None),
+    "Which cube is the largest?": ((1,), "It is the large red rubber cube."),
+    "Is the ball larger than every cube?": (False, None),
 }
 
 
-@pytest.mark.parametrize("question", [q for q, expected in ANSWERS.items() if expected])
+@pytest.mark.parametrize("question", ANSWERS)
 def test_an_answer(question: str, answerer: ThingAnswerer, scene: ThingScene) -> None:
-    value, text = ANSWERS[question] or (None, None)
+    value, text = ANSWERS[question]
     reply = answerer.answer(question, scene)
     assert reply.value == value
     assert isinstance(reply.value, bool) == isinstance(value, bool)
@@ -265,6 +275,39 @@ def test_the_smallest_change(
     asked = f"What would have to be otherwise for the answer to be {wanted}?"
     _, change = talk(answerer, scene, question, asked)
     assert change.text.startswith(CHANGES[question, wanted])
+
+
+def test_what_if(answerer: ThingAnswerer, scene: ThingScene) -> None:
+    _, red, gone, as_it_is = talk(
+        answerer,
+        scene,
+        "How many red things are there?",
+        "what if the ball were red?",
+        "what if the small cube were removed?",
+        "How many red things are there?",
+    )
+    assert (red.value, gone.value, as_it_is.value) == (3, 1, 2)
+    assert gone.text == "Then: there is one red thing: the large red rubber cube."
+    _, unclear = talk(answerer, scene, "Is there a ball?", "what if the cube were a ball?")
+    assert unclear.text.startswith("Which cube? There are two: ")
+
+
+def test_places_tell_what_is_near(answerer: ThingAnswerer, table: Things) -> None:
+    said = ("small red metal cube", "large blue metal sphere", "small green metal cylinder")
+    placed = thing_scene(
+        table,
+        [thing(one) for one in said],
+        relations={},
+        positions=[(0, 0, 0), (4, 0, 0), (1.5, 0.2, 0)],
+    )
+    asked = {
+        "What is the thing nearest to the cube?": (2,),
+        "Which thing is farthest from the cube?": (1,),
+        "What is between the cube and the ball?": (2,),
+    }
+    for question, value in asked.items():
+        assert answerer.answer(question, placed).value == value
+    assert answerer.answer("What is the thing nearest to the zylinder?", placed).value == (0,)
 
 
 def test_no_change_is_said_where_the_answer_is_that(

@@ -8,6 +8,7 @@ from typing import Any
 
 from seewhy.data.thing_scene import ThingScene
 from seewhy.dialogue.things.contrast import tell_change, tell_why, tell_why_not
+from seewhy.dialogue.things.edits import edited, supposed_edits
 from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
@@ -122,11 +123,9 @@ class ThingAnswerer:
             antecedent=previous.spoken_of if previous else None,
             answered=previous is not None,
         )
-        evaluation = previous.words.evaluation if previous else Evaluation(scene, self.things)
-        if evaluation.scene is not scene:
-            evaluation = Evaluation(scene, self.things)
-        words = previous.words if previous and previous.words.evaluation is evaluation else None
-        words = words or ThingWords(evaluation)
+        words = None if previous is None else previous.words
+        if words is None or words.evaluation.scene is not scene or words.evaluation.without:
+            words = ThingWords(Evaluation(scene, self.things))  # what was supposed is left again
         failed: ThingReply | None = None
         for reading in readings:
             reply = self._answered(question, reading, words, previous)
@@ -146,6 +145,8 @@ class ThingAnswerer:
                 return self._why(question, query.query, reading, words)
             if previous is None:
                 return None
+            if query.asks == "what_if":
+                return self._supposed(question, query, previous, words)
             if query.asks != "instead":
                 return _about_answer(question, query, previous)
             replaced = _instead(previous.query, query.instead)
@@ -160,6 +161,26 @@ class ThingAnswerer:
             return ThingReply(question, text, query, None, words, failed, spoken_of)
         text = tell(query, outcome, words)
         return ThingReply(question, text, query, outcome.value, words, None, spoken_of)
+
+    def _supposed(
+        self, question: str, asked: FollowUp, previous: ThingReply, words: ThingWords
+    ) -> ThingReply | None:
+        """The question before, asked of the scene as it would be."""
+        evaluation = words.evaluation
+        if not isinstance(asked.instead, Reference):
+            return None
+        try:
+            number = evaluation.the(asked.instead)
+        except UnclearReferenceError as failed:
+            text = tell_failure(failed, words)
+            return ThingReply(question, text, previous.query, None, words, failed)
+        edits = supposed_edits(number, asked.supposed)
+        if edits is None:
+            return None
+        scene, without = edited(evaluation.scene, self.things, edits)
+        supposed = ThingWords(Evaluation(scene, self.things, without=without))
+        reply = self._answered(question, Reading(previous.query), supposed, None)
+        return reply and replace(reply, text=f"Then: {reply.text[:1].lower()}{reply.text[1:]}")
 
     def _why(
         self, question: str, query: Query, reading: Reading, words: ThingWords

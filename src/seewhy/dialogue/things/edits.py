@@ -6,9 +6,21 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from seewhy.data.thing_scene import ThingScene
+from seewhy.dialogue.things.query import All, Condition, HasValue
 from seewhy.domain.things import Things
 
-__all__ = ["Add", "Edit", "Move", "Recolour", "Relate", "Remove", "edited", "is_in_order"]
+__all__ = [
+    "Add",
+    "Edit",
+    "Move",
+    "Recolour",
+    "Relate",
+    "Remove",
+    "edited",
+    "is_in_order",
+    "supposed_edits",
+    "values_to_try",
+]
 
 
 @dataclass(frozen=True)
@@ -59,6 +71,22 @@ class Add:
 
 
 Edit = Recolour | Move | Relate | Remove | Add
+
+
+def supposed_edits(number: int, condition: Condition | None) -> tuple[Edit, ...] | None:
+    """Return what has to change for a condition to hold of a thing; None: that it is not there.
+
+    Returns None for what could come about in several ways: to be left of something, not to be red.
+    """
+    if condition is None:
+        return (Remove(number),)
+    conditions = condition.conditions if isinstance(condition, All) else (condition,)
+    edits: list[Edit] = []
+    for part in conditions:
+        if not isinstance(part, HasValue):
+            return None
+        edits.append(Recolour(number, part.feature, part.value))
+    return tuple(edits)
 
 
 def is_in_order(scene: ThingScene, relation: str) -> bool:

@@ -104,6 +104,7 @@ class Evaluation:
     def __init__(self, scene: ThingScene, things: Things, *, without: int = 0) -> None:
         self.scene = scene
         self.things = things
+        self.without = without
         self.everything = ((1 << scene.count) - 1) & ~without
         self.with_value: dict[str, dict[str, int]] = {}
         self.without_value: dict[str, int] = {}
@@ -217,6 +218,8 @@ class Evaluation:
         one = 1 << number
         others = self.everything & ~one
         match condition:
+            case Related(relation=relation, inverse=True):
+                return self._stands_to(relation, number)
             case Related(relation=relation):
                 surely = self.scene.related[relation][number] & self.everything
                 unknown = self.scene.unknown.get(relation)
@@ -233,6 +236,16 @@ class Evaluation:
                 return Fits(others, others)
             case _:
                 return Fits(one, one)
+
+    def _stands_to(self, relation: str, number: int) -> Fits:
+        """The things to which one stands in a relation."""
+        unknown = self.scene.unknown.get(relation)
+        surely = maybe = 0
+        for other in members(self.everything & ~(1 << number)):
+            related = self.scene.related[relation][other] >> number & 1
+            surely |= related << other
+            maybe |= (related | (unknown[other] >> number & 1 if unknown else 0)) << other
+        return Fits(surely, maybe)
 
     def _toward(self, reference: Reference, condition: Condition) -> Fits:
         """What stands so to the thing, to some thing, or to every thing that is referred to."""

@@ -100,6 +100,19 @@ def _standing(bindings: Bindings) -> Bindings:
     return _condition(Related(str(_one(bindings, "relation")), _reference(bindings)))
 
 
+def _stood_to(bindings: Bindings) -> Bindings:
+    """What something else stands to: "the thing that the ball is left of"."""
+    relation = str(_one(bindings, "relation"))
+    return _condition(Related(relation, _reference(bindings), inverse=True))
+
+
+def _either_kind(bindings: Bindings) -> Bindings:
+    """Things of either of two descriptions: "cubes or green balls"."""
+    kinds = [d for d in meanings(bindings, "described") if isinstance(d, Description)]
+    either = AnyOf(tuple(all_of(settled(kind).conditions) for kind in kinds))
+    return (Binding("described", Description((either,), many=any(kind.many for kind in kinds))),)
+
+
 def _reference(bindings: Bindings, at: int = 0) -> Reference:
     found = meanings(bindings, "one")[at]
     if not isinstance(found, Reference):
@@ -221,6 +234,9 @@ PHRASES: dict[str, Fold] = {
     "being_neither": _neither,
     "kind_of": _kind_of,
     "standing": _standing,
+    "stood_to": _stood_to,
+    "either_kind": _either_kind,
+    "best": _picked,
     "verb_and_one": _standing,
     "same_as": _shares,
     "as_much": _shares,

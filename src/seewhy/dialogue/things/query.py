@@ -64,10 +64,11 @@ class HasValue:
 
 @dataclass(frozen=True)
 class Related:
-    """A thing stands in a relation to what is referred to."""
+    """A thing stands in a relation to what is referred to; ``inverse``: that stands so to it."""
 
     relation: str
     to: Reference
+    inverse: bool = False
 
 
 @dataclass(frozen=True)

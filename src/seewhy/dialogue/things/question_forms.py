@@ -34,7 +34,7 @@ Wanted = bool | int | HasValue | None
 
 @dataclass(frozen=True)
 class FollowUp:
-    """A question about the answer before: ``why``, ``why_not``, ``change`` or ``instead``.
+    """A question about the answer before: why, why not, what change, what if, and of others.
 
     ``wanted`` is the other answer; ``instead`` what is to be put in the place of what the question
     before asked about. With ``query`` it names the answer itself: "why is there no red cube?".
@@ -44,6 +44,8 @@ class FollowUp:
     wanted: Wanted = None
     instead: Description | Reference | None = None
     query: Query | None = None
+    supposed: Condition | None = None
+    """What is supposed of ``instead``, in "what if the ball were red?"; None: that it is gone."""
 
 
 def _query(query: Query) -> Bindings:
@@ -156,6 +158,18 @@ def _follow(asks: str) -> Fold:
     return fold
 
 
+def _supposing(bindings: Bindings) -> Bindings:
+    if meanings(bindings, "follow_up"):
+        return bindings
+    conditions = _conditions(bindings)
+    follow_up = FollowUp(
+        "what_if",
+        instead=_references(bindings)[0],
+        supposed=all_of(conditions) if conditions else None,
+    )
+    return (Binding("follow_up", follow_up),)
+
+
 def _wanted(bindings: Bindings) -> Bindings | None:
     for role in ("wanted", "number", "condition"):
         if found := meanings(bindings, role):
@@ -192,6 +206,8 @@ QUESTIONS: dict[str, Fold] = {
     "why_not": _follow("why_not"),
     "change": _follow("change"),
     "instead": _follow("instead"),
+    "what_if": _supposing,
+    "without_it": _supposing,
     "wanted": _wanted,
     "yes": _so(True),
     "no": _so(False),

@@ -29,7 +29,9 @@ LONGEST = 1000
 MOST_WORDS = 120
 _MOST_READINGS = 12
 _SENTENCES = re.compile(r"[.;:!?\n]+")
-_POSSESSIVE = re.compile(r"(\w)['’]s\b")
+_POSSESSIVE = re.compile(
+    r"(?<!\bwhat)(?<!\bit)(?<!\bthat)(?<!\bthere)(?<!\bwho)(?<!\bwhere)['’]s\b", re.I
+)
 _PRONOUNS = frozenset({"it", "its", "they", "them", "their"})
 
 
@@ -82,7 +84,7 @@ class QuestionReader:
             raise QuestionError(
                 f"the question has {len(text):,} characters; ask in {LONGEST:,} at most"
             )
-        sentences = [words_of(_POSSESSIVE.sub(r"\1 s", part)) for part in _SENTENCES.split(text)]
+        sentences = [words_of(_POSSESSIVE.sub(" s", part)) for part in _SENTENCES.split(text)]
         sentences = [words for words in sentences if words]
         if not sentences:
             raise QuestionError("the question has no words; ask 'how many things are there?'")

@@ -149,8 +149,11 @@ class Reasons:
         match condition:
             case HasValue(feature=feature, value=value):
                 return self._seen(number, feature, value, subject)
-            case Related(relation=relation, to=to) if to.which is References.THE:
-                return self._related(number, relation, self.evaluation.the(to), subject)
+            case Related(relation=relation, to=to, inverse=inverse) if to.which is References.THE:
+                other = self.evaluation.the(to)
+                if inverse:
+                    return self._related(other, relation, number, self.words.name(other))
+                return self._related(number, relation, other, subject)
             case Shares(feature=feature, other=one) | Compares(feature=feature, than=one) if (
                 one.which is References.THE
             ):

@@ -154,6 +154,8 @@ class ThingWords:
         noun = noun or self.things.one
         if several:
             noun = self.things.many if noun == self.things.one else plural(noun)
+        if isinstance(description.selection, Nearest):
+            behind.append(self._at_distance(description.selection))
         selected = self._selected(description)
         return " ".join(filter(None, [selected, *adjectives, noun, " and ".join(behind)]))
 
@@ -169,12 +171,13 @@ class ThingWords:
             case Ranked(feature=feature, most=most):
                 values = self.things.features[feature].values
                 return superlative(self.value(feature, values[-1 if most else 0]))
-            case Nearest(to=to, farthest=farthest):
-                far = "farthest from" if farthest else "nearest to"
-                return f"({far} {self.reference(to)})"
             case Numbered(number=number):
                 return "last" if number < 0 else RANKS[number - 1] if number <= 12 else str(number)
         return ""
+
+    def _at_distance(self, nearest: Nearest) -> str:
+        far = "farthest from" if nearest.farthest else "nearest to"
+        return f"{far} {self.reference(nearest.to)}"
 
     def _behind(self, condition: Condition, many: bool) -> str:
         """A condition behind a noun."""
@@ -197,6 +200,9 @@ class ThingWords:
                 if not self._as_noun(condition):
                     return said
                 return plural(said) if many else with_article(said)
+            case Related(relation=relation, to=to, inverse=True):
+                said = self.things.relations[relation].say.format(self.reference(to), "it")
+                return f"such that {said}"
             case Related(relation=relation, to=to):
                 return self.predicate_of(relation, self.reference(to))
             case Shares(feature=feature, other=other):
