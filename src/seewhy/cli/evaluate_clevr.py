@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from seewhy.cli.screen import add_row, output, percent, print_json, progress, say, table
+from seewhy.cli.screen import add_row, output, print_json, progress, say, table
+from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.evaluation.thing_questions import ThingEvaluation
