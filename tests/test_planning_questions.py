@@ -17,6 +17,7 @@ from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import read_knowledge
 from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.dialogue.run_answers import answer
+from seewhy.planning.dialogue.surface_realisation import Speech
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.execution import Run, execute
 from seewhy.planning.execution.transition_function import TransitionFunction, World
@@ -1146,3 +1147,10 @@ def test_what_was_believed_otherwise_is_told_beside_what_a_plan_supposes(
         "and deliver the first message to Sally. My plan only supposed that Sally was in her "
         "office: what I believed, that Sally was not in her office, might have changed."
     )
+
+
+def test_what_is_mine_is_said_in_the_first_person() -> None:
+    has = OFFICE.words.fluents["has"].model_copy(update={"say": "the bucket of {0} is empty"})
+    words = replace(OFFICE.words, fluents={**OFFICE.words.fluents, "has": has})
+    assert Speech(words).said(term("has(rob1,m1)")) == "my bucket was empty"
+    assert Speech(words).say(term("has(sally,m1)")) == "the bucket of Sally is empty"

@@ -19,6 +19,7 @@ _AS_THEY_ARE = {
     "had", "having", "will", "would", "can", "could", "may", "might", "must", "shall", "should",
     "this", "these", "that", "those", "it", "its", "his", "her", "i", "you", "we", "one", "ones",
     "no", "not", "nor", "none", "nothing", "as", "us", "left", "people", "sure", "mostly",
+    "leaving",
 }  # fmt: skip
 _IRREGULAR = {
     "leant": "lean", "stood": "stand", "fell": "fall", "fallen": "fall", "gave": "give",
