@@ -126,9 +126,7 @@ class ThingAnswerer:
                 "two steps"
             ) from None
 
-    def _answer(
-        self, question: str, scene: ThingScene, previous: ThingReply | None
-    ) -> ThingReply:
+    def _answer(self, question: str, scene: ThingScene, previous: ThingReply | None) -> ThingReply:
         readings = self.reader.readings(
             question,
             antecedent=previous.spoken_of if previous else None,
