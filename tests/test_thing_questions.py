@@ -397,6 +397,11 @@ def test_long_chains_end(answerer: ThingAnswerer, scene: ThingScene) -> None:
     assert reply.failed is not None
 
 
+def test_a_question_that_is_nested_too_deeply(answerer: ThingAnswerer, scene: ThingScene) -> None:
+    with pytest.raises(QuestionError, match="ask in two steps"):
+        answerer.answer("what is " + "the thing that is " * 28 + "red?", scene)
+
+
 def test_another_domain(tmp_path: Path) -> None:
     things = load_domain(write_plates(tmp_path)).things
     assert things is not None

@@ -118,6 +118,15 @@ class ThingAnswerer:
         QuestionError
             If the question is not understood.
         """
+        try:
+            return self._answer(question, scene, previous)
+        except RecursionError:
+            raise QuestionError(
+                "the question speaks of things by things by things, too many times over; ask in "
+                "two steps"
+            ) from None
+
+    def _answer(self, question: str, scene: ThingScene, previous: ThingReply | None) -> ThingReply:
         readings = self.reader.readings(
             question,
             antecedent=previous.spoken_of if previous else None,

@@ -7,9 +7,10 @@ change its answer, and is left as it is; so the search is exact, within its boun
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from itertools import combinations, product
+from math import comb
 
 from seewhy.data.thing_scene import ThingScene
 from seewhy.dialogue.things.edits import (
@@ -45,7 +46,7 @@ __all__ = ["Found", "smallest_change"]
 MOST_LOOKED_AT = 30_000
 """Changed scenes that are looked at."""
 MOST_CHANGES = 3
-_MOST_ADDED = 2_000
+_MOST_ADDED = 20_000
 
 
 @dataclass(frozen=True)
@@ -60,12 +61,15 @@ class Found:
         How many other changes are as small.
     looked_at : int
         The most changes at once that were all looked at.
+    without_additions : bool
+        Whether one thing more was not tried, because it might be like too many.
     """
 
     changes: tuple[str, ...] | None
     others: int = 0
     looked_at: int = 0
     edits: tuple[Edit, ...] = ()
+    without_additions: bool = False
 
 
 @dataclass
@@ -103,14 +107,20 @@ def smallest_change(query: Query, aim: Value, words: ThingWords) -> Found:
     scene, things = words.evaluation.scene, words.things
     spoken = _Spoken()
     spoken.read(query)
-    single = [*_edits(scene, words, spoken)]
+    tried = dict(values_to_try(things, spoken.values, spoken.compared))
+    orders = _one_way(words, {r for r in spoken.relations if is_in_order(scene, r)})
+    loose = _one_way(words, {r for r in spoken.relations if not is_in_order(scene, r)})
+    plain = [*_edits(scene, tried, orders, loose)]
+    adding = _additions(scene, tried, orders, loose)
+    additions = [] if adding is None else [*adding]
+    left_out = adding is None
     looked_at = 0
     for size in range(1, MOST_CHANGES + 1):
-        if _choices(len(single), size) + looked_at > MOST_LOOKED_AT:
-            return Found(None, looked_at=size - 1)
+        looked_at += comb(len(plain), size) + comb(len(plain), size - 1) * len(additions)
+        if looked_at > MOST_LOOKED_AT:
+            return Found(None, looked_at=size - 1, without_additions=left_out)
         reaching: list[tuple[Edit, ...]] = []
-        for edits in combinations(single, size):
-            looked_at += 1
+        for edits in _together(plain, additions, size):
             if not _apart(edits):
                 continue
             changed, without = edited(scene, things, edits)
@@ -119,15 +129,18 @@ def smallest_change(query: Query, aim: Value, words: ThingWords) -> Found:
         if reaching:
             first = reaching[0]
             said = tuple(_said(edit, words) for edit in first)
-            return Found(said, others=len(reaching) - 1, looked_at=size, edits=first)
-    return Found(None, looked_at=MOST_CHANGES)
+            return Found(said, len(reaching) - 1, size, first, left_out)
+    return Found(None, looked_at=MOST_CHANGES, without_additions=left_out)
 
 
-def _choices(count: int, size: int) -> int:
-    total = 1
-    for step in range(size):
-        total = total * (count - step) // (step + 1)
-    return total
+def _together(
+    plain: Sequence[Edit], additions: Sequence[Add], size: int
+) -> Iterator[tuple[Edit, ...]]:
+    """So many changes at once, of which one at most adds a thing."""
+    yield from combinations(plain, size)
+    for others in combinations(plain, size - 1):
+        for addition in additions:
+            yield (*others, addition)
 
 
 def _reaches(query: Query, aim: Value, evaluation: Evaluation) -> bool:
@@ -158,21 +171,20 @@ def _apart(edits: tuple[Edit, ...]) -> bool:
     return True
 
 
-def _edits(scene: ThingScene, words: ThingWords, spoken: _Spoken) -> Iterator[Edit]:
-    tried = dict(values_to_try(words.things, spoken.values, spoken.compared))
+def _edits(
+    scene: ThingScene, tried: Mapping[str, tuple[str, ...]], orders: list[str], loose: list[str]
+) -> Iterator[Edit]:
     for feature, values in tried.items():
         for number in range(scene.count):
             for value in values:
                 if scene.values[feature][number] != value:
                     yield Recolour(number, feature, value)
-    orders = _one_way(words, {r for r in spoken.relations if is_in_order(scene, r)})
     for relation in orders:
         for number in range(scene.count):
             here = scene.related[relation][number].bit_count()
             for place in range(scene.count):
                 if place != here:
                     yield Move(number, relation, place)
-    loose = _one_way(words, {r for r in spoken.relations if not is_in_order(scene, r)})
     for relation in loose:
         for to in range(scene.count):
             for number in range(scene.count):
@@ -181,7 +193,6 @@ def _edits(scene: ThingScene, words: ThingWords, spoken: _Spoken) -> Iterator[Ed
                     yield Relate(number, relation, to, holds)
     for number in range(scene.count):
         yield Remove(number)
-    yield from _additions(scene, tried, orders, loose)
 
 
 def _one_way(words: ThingWords, relations: set[str]) -> list[str]:
@@ -194,8 +205,9 @@ def _one_way(words: ThingWords, relations: set[str]) -> list[str]:
 
 
 def _additions(
-    scene: ThingScene, tried: dict[str, tuple[str, ...]], orders: list[str], loose: list[str]
-) -> Iterator[Add]:
+    scene: ThingScene, tried: Mapping[str, tuple[str, ...]], orders: list[str], loose: list[str]
+) -> Iterator[Add] | None:
+    """The things that may be added; None where there are too many of them to try."""
     features = list(tried)
     places = [range(scene.count + 1) for _ in orders]
     related: list[tuple[tuple[str, int], ...]] = [()]
@@ -206,15 +218,17 @@ def _additions(
     for place in places:
         count *= len(place)
     if count > _MOST_ADDED:
-        return
-    for values in product(*tried.values()):
-        for where in product(*places):
-            for links in related:
-                yield Add(
-                    tuple(zip(features, values, strict=True)),
-                    tuple(zip(orders, where, strict=True)),
-                    links,
-                )
+        return None
+    return (
+        Add(
+            tuple(zip(features, values, strict=True)),
+            tuple(zip(orders, where, strict=True)),
+            links,
+        )
+        for values in product(*tried.values())
+        for where in product(*places)
+        for links in related
+    )
 
 
 def _said(edit: Edit, words: ThingWords) -> str:

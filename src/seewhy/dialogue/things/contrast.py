@@ -120,13 +120,17 @@ def tell_change(query: Query, value: Value, wanted: Wanted, words: ThingWords) -
         return "Nothing: that is the answer."
     found = smallest_change(query, aim, words)
     said_aim = _aim(goal, words)
+    untried = " One thing more was not tried." if found.without_additions else ""
     if found.changes is None:
-        return sentence(
-            f"no change of up to {number_word(found.looked_at)} things {_makes(said_aim)}"
-        )
+        if not found.looked_at:
+            return "There are more changes than can be looked at."
+        count = number_word(found.looked_at)
+        several = f"up to {count} things" if found.looked_at > 1 else f"{count} thing"
+        return f"{sentence(f'no change of {several} {_makes(said_aim)}')}{untried}"
     others = f" {number_word(found.others).capitalize()} other" if found.others else ""
     ways = f"{others} change{'s' * (found.others > 1)} as small would do, too." if others else ""
-    return f"{sentence(f'if {join_words(found.changes)}, the answer would be {said_aim}')}{ways}"
+    told = sentence(f"if {join_words(found.changes)}, the answer would be {said_aim}")
+    return f"{told}{ways}{untried}"
 
 
 def _makes(aim: str) -> str:
