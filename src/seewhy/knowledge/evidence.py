@@ -9,13 +9,14 @@ from itertools import chain
 
 import clingo
 
+from seewhy.knowledge.answer_set import AnswerSet
 from seewhy.knowledge.axiom import Axiom, Literal
 from seewhy.knowledge.condition_words import say_condition
 from seewhy.knowledge.foundation import Forced, Foundation, Need, opposite
 from seewhy.knowledge.ground import key_of, literal_of, text_of
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.possible import Asked, Belief, Instance
-from seewhy.knowledge.reasoner import AnswerSet, Reasoner
+from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 from seewhy.knowledge.things import things_of
 

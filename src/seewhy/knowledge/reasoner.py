@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Literal as OneOf
 
 import clingo
 
+from seewhy.knowledge.answer_set import AnswerSet, answer_set_of
 from seewhy.knowledge.axiom import Axiom, AxiomKind
 from seewhy.knowledge.batch import SCENES, Batch
 from seewhy.knowledge.grounding import Grounding, Search
@@ -43,28 +44,6 @@ class Decision:
 
     label: str | None
     verdict: Verdict
-
-
-@dataclass(frozen=True)
-class AnswerSet:
-    """One preferred answer set, or the conflicting beliefs where there is none.
-
-    Attributes
-    ----------
-    holds : frozenset of clingo.Symbol
-        The literals believed; a negative symbol is believed false.
-    firings : mapping of str to list
-        Axiom identifier → the values of its variables, for every instance that fires.
-    exceptions : tuple
-        (axiom identifier, values) of the defaults that were given up for consistency.
-    conflict : bool
-        True if the answer set holds contradictory literals (there is no consistent one).
-    """
-
-    holds: frozenset[clingo.Symbol]
-    firings: dict[str, list[tuple[str, ...]]]
-    exceptions: tuple[tuple[str, tuple[str, ...]], ...]
-    conflict: bool
 
 
 class Reasoner:
@@ -281,7 +260,7 @@ class Reasoner:
             left = _MOST_ANSWER_SETS - len(found)
             if left <= 0:
                 break
-            found += map(_answer_set, self._explaining.models(assumed, most=left))
+            found += map(answer_set_of, self._explaining.models(assumed, most=left))
             if found and not self._exceptions_assumed(assumed):
                 break
         if not found:
@@ -299,7 +278,7 @@ class Reasoner:
     def _contradictory(self, vector: FeatureVector) -> list[AnswerSet]:
         explaining = self._explaining
         assumed = [*explaining.assume(vector), -explaining.strict, *self._no_exceptions]
-        return [_answer_set(symbols) for symbols in explaining.models(assumed, most=1)]
+        return [answer_set_of(symbols) for symbols in explaining.models(assumed, most=1)]
 
     @cached_property
     def _no_exceptions(self) -> list[int]:
@@ -352,7 +331,7 @@ class Reasoner:
         for assumed in self._consistent_trials(vector):
             symbols = self._explaining.consequences(assumed)
             if symbols is not None:
-                shared &= _answer_set(symbols).holds
+                shared &= answer_set_of(symbols).holds
                 if not self._exceptions_assumed(assumed):
                     break
         return shared
@@ -363,39 +342,3 @@ def _decision(believed: tuple[str, ...]) -> Decision:
     if len(believed) == 1:
         return Decision(believed[0], Verdict.BELIEVED)
     return Decision(None, Verdict.SEVERAL if believed else Verdict.SILENT)
-
-
-@lru_cache(maxsize=65_536)
-def _read_atom(
-    atom: clingo.Symbol,
-) -> tuple[str, clingo.Symbol | None, tuple[str, tuple[str, ...]] | None]:
-    """The predicate of an atom, the literal that it says is believed, the instance that it names.
-
-    The same atoms come again in one answer set after another.
-    """
-    name = atom.name
-    if name == "holds":
-        return name, atom.arguments[0], None
-    if name in ("fires", "exception"):
-        axiom, values = atom.arguments
-        return name, None, (axiom.name, tuple(map(str, values.arguments)))
-    return name, None, None
-
-
-def _answer_set(symbols: Iterable[clingo.Symbol]) -> AnswerSet:
-    holds: set[clingo.Symbol] = set()
-    firings: dict[str, list[tuple[str, ...]]] = {}
-    exceptions: list[tuple[str, tuple[str, ...]]] = []
-    conflict = False
-    for kind, literal, instance in map(_read_atom, symbols):
-        if literal is not None:
-            holds.add(literal)
-        elif instance is None:
-            conflict = conflict or kind == "conflict"
-        elif kind == "fires":
-            firings.setdefault(instance[0], []).append(instance[1])
-        else:
-            exceptions.append(instance)
-    for instances in firings.values():
-        instances.sort()
-    return AnswerSet(frozenset(holds), firings, tuple(sorted(exceptions)), conflict)
