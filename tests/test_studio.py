@@ -207,9 +207,7 @@ def test_what_is_no_picture_is_refused_and_kept_nowhere(
 
 
 @pytest.mark.parametrize("name", ["../../a.png", "/etc/a.png", "..\\..\\a.png", "C:\\a.png"])
-def test_no_name_leads_out_of_the_project(
-    new_client: TestClient, folder: Path, name: str
-) -> None:
+def test_no_name_leads_out_of_the_project(new_client: TestClient, folder: Path, name: str) -> None:
     above = set(folder.parent.rglob("*"))
     send(new_client, (name, png()))
     new = {path for path in folder.parent.rglob("*") if path not in above and path.is_file()}

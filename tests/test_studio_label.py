@@ -102,9 +102,7 @@ def test_without_scripts_the_same_comes_by_a_page(browser: Browser, project: Pro
     assert rows(project) == ["a.png,,,red,,,"]
 
 
-def test_proposals_are_marked_until_enter_confirms_them(
-    browser: Browser, project: Project
-) -> None:
+def test_proposals_are_marked_until_enter_confirms_them(browser: Browser, project: Project) -> None:
     for name, colour in (("a.png", "red"), ("b.png", "green")):
         browser.post("/label/set", picture=name, choice=f"colour={colour}")
     text = browser.get("/label?picture=d.png", part=True)
@@ -239,7 +237,7 @@ def test_progress_says_what_would_help(browser: Browser) -> None:
         browser.post("/label/set", picture="a.png", choice=choice)
     text = browser.get("/label/progress")
     assert "1 of 6 pictures are labelled" in text
-    assert "no picture to train on shows the class spoilt" in text
+    assert "No picture to train on shows the class spoilt" in text
 
 
 def test_the_history_says_who_and_takes_back(browser: Browser, project: Project) -> None:
@@ -251,9 +249,7 @@ def test_the_history_says_who_and_takes_back(browser: Browser, project: Project)
     browser.post("/label/take-back", part=False, number=number)
     assert project.labels().of.get("a.png", {}) == {}
     assert "(taken back)" in browser.get("/label/history")
-    again = browser.client.post(
-        "/label/take-back", data={"csrf": browser.csrf, "number": number}
-    )
+    again = browser.client.post("/label/take-back", data={"csrf": browser.csrf, "number": number})
     assert again.status_code == 422
 
 
