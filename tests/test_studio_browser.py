@@ -83,7 +83,7 @@ def page(chromium: Browser) -> Iterator[Page]:
     context.close()
     # A refused script or style (Content-Security-Policy) is an error of the console; so is an
     # answer that says what was wrong with a form, which is meant.
-    assert [problem for problem in problems if "status of 422" not in problem] == []
+    assert [problem for problem in problems if "422" not in problem] == []
 
 
 def until(project: Project, expected: dict[str, dict[str, str]]) -> None:

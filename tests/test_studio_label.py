@@ -237,7 +237,7 @@ def test_progress_says_what_would_help(browser: Browser) -> None:
         browser.post("/label/set", picture="a.png", choice=choice)
     text = browser.get("/label/progress")
     assert "1 of 6 pictures are labelled" in text
-    assert "no picture to train on shows the class spoilt" in text
+    assert "No picture to train on shows the class spoilt" in text
 
 
 def test_the_history_says_who_and_takes_back(browser: Browser, project: Project) -> None:

@@ -2,9 +2,8 @@
 
 A label is worth much where the heads are unsure, where the picture is unlike all that is labelled,
 and where it is typical of many others: one picture of its kind stands for them. The three are
-multiplied (the last counts by its square root). Pictures are taken one after the other, each
-counting as labelled for the next, so
-that no two of the first are alike.
+multiplied, the last by its square root. Pictures are taken one after the other, each counting as
+labelled for the next, so that no two of the first are alike.
 """
 
 from __future__ import annotations

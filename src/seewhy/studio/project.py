@@ -197,11 +197,17 @@ class Project:
         self.on_change()
         return entry
 
-    def refresh(self) -> None:
-        """Look at the folder anew: pictures that came, and files that another program changed."""
+    def refresh(self, *, who: str = _OUTSIDE, why: str = "changed outside") -> None:
+        """Look at the folder anew: pictures that came, and files that somebody changed.
+
+        Parameters
+        ----------
+        who, why : str
+            Who wrote the domain's files that the record does not know yet, and why.
+        """
         with self._lock:
             self._pictures = None
-            self._take_in_changes()
+            self._take_in_changes(who=who, why=why)
             self._write()
         self.on_change()
 
@@ -225,7 +231,7 @@ class Project:
             text = scenes_table(labels, domain)
             write_text(self.folder / TABLE, text, record=self.record, name=TABLE)
 
-    def _take_in_changes(self) -> None:
+    def _take_in_changes(self, *, who: str = _OUTSIDE, why: str = "changed outside") -> None:
         """Note what another program wrote, so that nothing of it is written over."""
         folder = self.domain_folder
         if folder is None:
@@ -238,7 +244,7 @@ class Project:
             if changed_outside(folder / name, said, record=self.record, name=name)
         }
         if changed:
-            self.record.add(FILES, {"files": changed, "why": "changed outside"}, who=_OUTSIDE)
+            self.record.add(FILES, {"files": changed, "why": why}, who=who)
         table, domain = self.folder / TABLE, self._usable_domain()
         if domain is not None and table.is_file():
             texts = {TABLE: scenes_table(self.labels(), domain)}

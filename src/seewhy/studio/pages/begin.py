@@ -85,7 +85,7 @@ def names(
         )
     named = NamedDomain(named_classes(classes), named_features(features), table, subject)
     domain_from_names(named, domain_place(project), data=str(project.folder))
-    project.refresh()
+    project.refresh(who=who_of(request), why="begun with these names")
     return _to(request, "/label")
 
 
