@@ -28,6 +28,7 @@ from seewhy.studio.project import Project
 __all__ = [
     "LARGEST",
     "Arrived",
+    "Sent",
     "domain_place",
     "from_folder",
     "from_source",
@@ -74,8 +75,16 @@ def safe_name(sent: str) -> str:
     return "/".join([safe_part(part) for part in parts if part][-_DEEPEST:])
 
 
-def sent_picture(project: Project, name: str, content: IO[bytes]) -> bool:
-    """Keep a picture that a browser sent; whether it is new.
+@dataclass(frozen=True)
+class Sent:
+    """A picture that a browser sent: its name in the project, and whether it is new."""
+
+    name: str
+    is_new: bool
+
+
+def sent_picture(project: Project, name: str, content: IO[bytes]) -> Sent:
+    """Keep a picture that a browser sent.
 
     Parameters
     ----------
@@ -106,12 +115,12 @@ def sent_picture(project: Project, name: str, content: IO[bytes]) -> bool:
     number = 1
     while target.exists():
         if target.is_file() and target.read_bytes() == held.getvalue():
-            return False
+            return Sent(target.relative_to(project.folder).as_posix(), False)
         number += 1
         target = target.with_name(f"{Path(safe).stem}-{number}{target.suffix}")
     with whole_file(target, durable=False) as temporary:
         temporary.write_bytes(held.getvalue())
-    return True
+    return Sent(target.relative_to(project.folder).as_posix(), True)
 
 
 def from_folder(project: Project, folder: Path) -> Arrived:

@@ -33,7 +33,7 @@ class Label:
         By whom and when, as the record has it.
     how : str
         ``typed``, ``confirmed`` (it was proposed), ``sheet`` (many at once), ``follows`` (from the
-        class), or ``table`` (it stood in scenes.csv).
+        class), ``corrected`` (an answer was wrong), or ``table`` (it stood in scenes.csv).
     entry : int
         The number of the record's entry.
     """

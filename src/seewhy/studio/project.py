@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from threading import RLock
 from typing import Any
@@ -13,14 +13,17 @@ from seewhy.data.importers.folder_files import FolderFiles
 from seewhy.data.importers.picture_files import is_picture_name
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.domain.tables import CLASS
-from seewhy.errors import DomainError, KnowledgeError, SeeWhyError
+from seewhy.errors import DomainError, KnowledgeError, RevisionError, SeeWhyError
+from seewhy.revision.edit import KNOWLEDGE, Edit
 from seewhy.studio.labels import LABEL, REASONS, ROWS, Labels, labels_of
 from seewhy.studio.record import Entry, Record
+from seewhy.studio.revised_domain import revised_domain
 from seewhy.studio.writing import (
     FILES,
     changed_outside,
     folder_texts,
     read_text,
+    revision_body,
     scenes_table,
     write_text,
 )
@@ -30,7 +33,7 @@ __all__ = ["Project"]
 _RECORD = "studio.sqlite"
 _DOMAIN_FILE = "domain.toml"
 _MODEL_FILE = "model.json"
-_OF_DOMAIN = (_DOMAIN_FILE, "knowledge.al", "questions.toml", "classes.csv")
+_OF_DOMAIN = (_DOMAIN_FILE, KNOWLEDGE, "questions.toml", "classes.csv")
 _OUTSIDE = "another program"
 
 
@@ -182,16 +185,32 @@ class Project:
         """Annotate pictures: picture → feature or ``class`` → value (None: nobody knows)."""
         return self.note(LABEL, {"values": values, "how": how}, who=who)
 
-    def revise(self, files: Mapping[str, str], *, why: str, who: str) -> Entry:
-        """Give files of the domain other texts, as one revision that can be taken back.
+    def revise(self, edits: Iterable[Edit], *, why: str, who: str) -> Entry:
+        """Edit files of the domain, as one revision that can be taken back.
 
-        The texts are not checked here: whoever proposes a revision has shown what it does.
+        Raises
+        ------
+        RevisionError, DomainError, KnowledgeError
+            If what an edit replaces does not stand in its file; if the knowledge would be broken.
         """
-        return self.note(FILES, {"files": dict(files), "why": why}, who=who)
+        body = revision_body(edits, why=why)
+        with self._lock:
+            self._take_in_changes()
+            held = (*self.record.holding(FILES), Entry(0, "", who, FILES, body))
+            self._require_readable(folder_texts(held))
+            return self.note(FILES, body, who=who)
 
     def take_back(self, number: int, *, who: str) -> Entry:
-        """Take an entry of the record back, and write the files as they were without it."""
+        """Take an entry of the record back, and write the files as they were without it.
+
+        Raises
+        ------
+        SeeWhyError
+            If it does not hold, or the knowledge would be broken without it.
+        """
         with self._lock:
+            self._take_in_changes()
+            self._require_without(number)
             entry = self.record.take_back(number, who=who)
             self._write()
         self.on_change()
@@ -210,6 +229,25 @@ class Project:
             self._take_in_changes(who=who, why=why)
             self._write()
         self.on_change()
+
+    def _require_without(self, number: int) -> None:
+        """Refuse to take back what a later revision builds on."""
+        before = self.record.holding(FILES)
+        after = self.record.holding(FILES, but=number)
+        if after == before:
+            return
+        try:
+            self._require_readable(folder_texts(after))
+        except (RevisionError, DomainError, KnowledgeError) as problem:
+            raise RevisionError(
+                f"entry {number} cannot be taken back: {problem}; take back first what was "
+                "revised later"
+            ) from None
+
+    def _require_readable(self, texts: Mapping[str, str]) -> None:
+        folder = self.domain_folder
+        if folder is not None:
+            revised_domain(folder, texts)
 
     # Files ------------------------------------------------------------------------------------
 

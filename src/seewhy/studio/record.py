@@ -153,16 +153,19 @@ class Record:
             ]
             return tuple(self._entries)
 
-    def holding(self, *kinds: str) -> Sequence[Entry]:
-        """Entries that nothing takes back, those of some kinds or all but the undoings."""
+    def holding(self, *kinds: str, but: int | None = None) -> Sequence[Entry]:
+        """Entries that nothing takes back, those of some kinds or all but the undoings.
+
+        ``but`` is the number of one that is looked at as if it were taken back.
+        """
         return tuple(
             entry
-            for entry in self._holding()
+            for entry in self._holding(but)
             if (entry.kind in kinds if kinds else entry.kind != UNDO)
         )
 
-    def _holding(self) -> list[Entry]:
-        taken_back: set[int] = set()
+    def _holding(self, but: int | None = None) -> list[Entry]:
+        taken_back = set() if but is None else {but}
         found: list[Entry] = []
         # What takes an entry back stands behind it.
         for entry in reversed(self.all()):

@@ -17,12 +17,15 @@ from seewhy.errors import SeeWhyError
 from seewhy.studio.access import AccessRules
 from seewhy.studio.guard import Guard, require_csrf
 from seewhy.studio.pages import PAGES, pictures
+from seewhy.studio.per_session import PerSession
 from seewhy.studio.project import Project
+from seewhy.studio.project_model import ProjectModel
 from seewhy.studio.proposing import Embed, Proposer, backbone_embedding
 from seewhy.studio.rendering import STATIC, from_script, render
 from seewhy.studio.session import THEMES, Theme, keep_theme, keep_who
 from seewhy.studio.state import Studio
-from seewhy.studio.trail import Trails
+from seewhy.studio.talk import Talk
+from seewhy.studio.trail import Trail
 
 __all__ = ["site"]
 
@@ -49,7 +52,14 @@ def site(project: Project, *, rules: AccessRules, embed: Embed | None = None) ->
     app = FastAPI(
         title="SeeWhy studio", openapi_url=None, docs_url=None, redoc_url=None, lifespan=lifespan
     )
-    app.state.studio = Studio(project, proposer, Trails(), local=not rules.token)
+    app.state.studio = Studio(
+        project,
+        proposer,
+        PerSession(Trail),
+        ProjectModel(project),
+        PerSession(Talk),
+        local=not rules.token,
+    )
     app.state.csrf_key = secrets.token_bytes(32)
     for page in PAGES:
         app.include_router(page.router, dependencies=[Depends(require_csrf)])

@@ -6,9 +6,12 @@ from dataclasses import dataclass
 
 from fastapi import Request
 
+from seewhy.studio.per_session import PerSession
 from seewhy.studio.project import Project
+from seewhy.studio.project_model import ProjectModel
 from seewhy.studio.proposing import Proposer
-from seewhy.studio.trail import Trails
+from seewhy.studio.talk import Talk
+from seewhy.studio.trail import Trail
 
 __all__ = ["Studio", "studio_of"]
 
@@ -22,15 +25,21 @@ class Studio:
     project : Project
     proposer : Proposer
         Looks at pictures and trains heads behind the pages' back.
-    trails : Trails
+    trails : PerSession of Trail
         Which pictures each browser was shown.
+    model : ProjectModel
+        Answers the questions.
+    talks : PerSession of Talk
+        What each browser asked.
     local : bool
         Whether only browsers of this machine are let in, who may name its paths.
     """
 
     project: Project
     proposer: Proposer
-    trails: Trails
+    trails: PerSession[Trail]
+    model: ProjectModel
+    talks: PerSession[Talk]
     local: bool
 
 

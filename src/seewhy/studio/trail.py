@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Iterable
-from threading import Lock
 
-__all__ = ["Trail", "Trails"]
-
-MOST = 200
-"""Browsers whose way is remembered."""
+__all__ = ["Trail"]
 
 
 class Trail:
@@ -54,20 +49,3 @@ class Trail:
         """Go to the picture shown before this one; stay where there is none."""
         self._at = max(self._at - 1, 0) if self._shown else -1
         return self.here
-
-
-class Trails:
-    """The trails of all browsers, the oldest forgotten."""
-
-    def __init__(self) -> None:
-        self._of: OrderedDict[str, Trail] = OrderedDict()
-        self._lock = Lock()
-
-    def of(self, session: str) -> Trail:
-        """The trail of a browser's session."""
-        with self._lock:
-            trail = self._of.pop(session, None) or Trail()
-            self._of[session] = trail
-            while len(self._of) > MOST:
-                self._of.popitem(last=False)
-            return trail

@@ -6,19 +6,34 @@ import csv
 import hashlib
 import io
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from seewhy.data.scene_rows import IMAGE
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.files.whole_files import write_whole
+from seewhy.revision.edit import LEARNED, Edit
 from seewhy.studio.labels import Labels
 from seewhy.studio.record import Entry, Record
 
-__all__ = ["FILES", "digest_of_text", "folder_texts", "scenes_table", "write_text"]
+__all__ = [
+    "FILES",
+    "digest_of_text",
+    "folder_texts",
+    "learned_edits",
+    "revision_body",
+    "scenes_table",
+    "write_text",
+]
 
 FILES = "files"
-"""Entries of this kind have ``files``, name → text of a domain's file, and ``why``."""
+"""Entries of this kind say what a domain's files hold, and ``why``.
+
+``files`` is name → text. A revision has ``edits`` instead, what was written in the place of what,
+so that it can be taken back whatever was revised behind it.
+"""
 
 
 def scenes_table(labels: Labels, domain: Domain) -> str:
@@ -44,13 +59,51 @@ def scenes_table(labels: Labels, domain: Domain) -> str:
     return stream.getvalue()
 
 
+def revision_body(edits: Iterable[Edit], *, why: str) -> dict[str, Any]:
+    """The body of an entry that revises files by edits.
+
+    Examples
+    --------
+    >>> body = revision_body([Edit("knowledge.al", 0, "a.", "b.")], why="a was wrong")
+    >>> said = Entry(1, "", "Ada", FILES, {"files": {"knowledge.al": "a."}, "why": "outside"})
+    >>> folder_texts([said, Entry(2, "", "Ada", FILES, body)])
+    {'knowledge.al': 'b.'}
+    """
+    return {"edits": [asdict(edit) for edit in edits], "why": why}
+
+
 def folder_texts(entries: Iterable[Entry]) -> dict[str, str]:
-    """Name → text of a domain's files, as the record has them last."""
+    """Name → text of a domain's files, as the record has them last.
+
+    Raises
+    ------
+    RevisionError
+        If what an edit replaces does not stand in the file.
+    """
     texts: dict[str, str] = {}
     for entry in entries:
-        if entry.kind == FILES:
-            texts |= entry.body["files"]
+        if entry.kind != FILES:
+            continue
+        texts |= entry.body.get("files", {})
+        for edit in _edits_of(entry):
+            if edit.file != LEARNED:
+                texts[edit.file] = edit.applied(texts.get(edit.file, ""))
     return texts
+
+
+def learned_edits(entries: Iterable[Entry]) -> tuple[Edit, ...]:
+    """What revisions change of the axioms that a model learned, in their order."""
+    return tuple(
+        edit
+        for entry in entries
+        if entry.kind == FILES
+        for edit in _edits_of(entry)
+        if edit.file == LEARNED
+    )
+
+
+def _edits_of(entry: Entry) -> Iterable[Edit]:
+    return (Edit(**edit) for edit in entry.body.get("edits", ()))
 
 
 def write_text(file: Path, text: str, *, record: Record, name: str) -> bool:

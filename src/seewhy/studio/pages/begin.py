@@ -55,7 +55,7 @@ def pictures(
         if not file.filename:
             continue
         try:
-            kept += sent_picture(project, file.filename, file.file)
+            kept += sent_picture(project, file.filename, file.file).is_new
         except PictureError as problem:
             refused.append(str(problem))
     project.refresh()

@@ -88,5 +88,6 @@ def _said(entry: Entry) -> str:
         named = {name for features in body["reasons"].values() for name in features}
         return f"because of {', '.join(sorted(named)) or 'nothing in particular'}"
     if entry.kind == "files":
-        return f"{', '.join(sorted(body['files']))}: {body['why']}"
+        named = {*body.get("files", ()), *(edit["file"] for edit in body.get("edits", ()))}
+        return f"{', '.join(sorted(named))}: {body['why']}"
     return entry.kind
