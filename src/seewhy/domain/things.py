@@ -175,7 +175,7 @@ def _feature(
             f"{key}({sort}).' (yes or no) or '#static {key}({sort}, SORT).', got '{predicate}' "
             f"({predicate.location})"
         )
-    values = ("yes", "no")
+    values: tuple[str, ...] = ("yes", "no")
     if len(predicate.sorts) == 2:
         values = knowledge.signature.members(predicate.sorts[1])
     for value in table.values:
