@@ -17,7 +17,6 @@ from things_knowledge import (
     tabletop_schema,
 )
 
-from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import axiom_rules, sort_facts
 from seewhy.knowledge.reasoner import Reasoner
@@ -127,13 +126,4 @@ def test_why_not(benchmark, scene):
     literal = reasoner.schema.classes[other]
     benchmark.pedantic(
         lambda: why_not(reasoner, vector, literal).to_text(), setup=reasoner.forget, rounds=10
-    )
-
-
-def test_smallest_change(benchmark, scene):
-    reasoner, vector, _, other = scene
-    finder = ChangeFinder(reasoner)
-    finder.smallest(vector, other, limit=1)
-    benchmark.pedantic(
-        lambda: finder.smallest(vector, other, limit=1), setup=reasoner.forget, rounds=2
     )

@@ -69,7 +69,7 @@ def named_scene(
                 raise DomainError(f"'{assignment}' must name two things, as in {relation}=cup,book")
             for thing in pair:
                 values.setdefault(thing, {})
-            related.append(Related(relation, *pair, holds=not name.startswith("-")))
+            related.append(Related(relation, pair[0], pair[1], not name.startswith("-")))
         else:
             if name not in domain.features:
                 known = (*domain.features, *things.relations, things.sort)

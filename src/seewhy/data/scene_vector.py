@@ -82,7 +82,9 @@ def vector_with_things(
         values.update({of_things(key, term): value for key, value in thing.values.items()})
     for key, relation in domain.things.relations.items():
         measure = MEASURES.get(relation.measure)
-        for first in things if measure is not None else ():
+        if measure is None:
+            continue
+        for first in things:
             for second in things:
                 if first is not second and first.box is not None and second.box is not None:
                     feature = of_things(key, terms[first.name], terms[second.name])

@@ -12,7 +12,7 @@ import clingo
 
 from seewhy.knowledge.answer_set import AnswerSet, answer_set_of
 from seewhy.knowledge.axiom import Axiom, AxiomKind
-from seewhy.knowledge.batch import SCENES, Batch
+from seewhy.knowledge.batch import SCENES, Batch, Outcome
 from seewhy.knowledge.grounding import Grounding, Search
 from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
 from seewhy.knowledge.language import Knowledge
@@ -170,13 +170,19 @@ class Reasoner:
                 outcomes = self._batch.outcomes(chunk)
             except (KeyError, ValueError):
                 continue  # a vector does not fit; solving it alone says so
+            decisions = {outcome: self._decision_of(outcome) for outcome in set(outcomes)}
             for vector, outcome in zip(chunk, outcomes, strict=True):
-                if outcome is None:
-                    continue
-                if not outcome.contradictory:
-                    self._decisions[vector] = _decision(outcome.classes)
-                elif not self._has_defaults:
-                    self._decisions[vector] = Decision(None, Verdict.CONTRADICTION)
+                decision = decisions[outcome]
+                if decision is not None:
+                    self._decisions[vector] = decision
+
+    def _decision_of(self, outcome: Outcome | None) -> Decision | None:
+        """The decision of an outcome; None where the solver has to tell."""
+        if outcome is None or (outcome.contradictory and self._has_defaults):
+            return None
+        if outcome.contradictory:
+            return Decision(None, Verdict.CONTRADICTION)
+        return _decision(outcome.classes)
 
     def _decide(self, vector: FeatureVector) -> Decision:
         plain = self._plain

@@ -255,9 +255,9 @@ def _solved(
     for kind, arity in (("instance", 2), ("ok", 3)):
         for atom in control.by_signature(kind, arity):
             if atom.is_fact:
-                name, values, *number = atom.symbol.arguments
+                name, values, *places = atom.symbol.arguments
                 key = (name.name, tuple(map(text_of, values.arguments)))
-                instances.setdefault(key, set()).update(n.number for n in number)
+                instances.setdefault(key, set()).update(p.number for p in places)
     axioms = {axiom.identifier: axiom for _, axiom, _ in candidates}
     nearest: dict[str, tuple[dict[str, str], frozenset[int]]] = {}
     ranked = sorted(instances.items(), key=lambda item: _distance(item, axioms))
