@@ -93,8 +93,8 @@ def progress_of(project: Project, proposals: Proposals) -> Progress:
         for question in questions
         for value in question.values
     )
-    said = tuple(f"{sentence[:1].upper()}{sentence[1:]}" for sentence in advice)
-    return Progress(len(there), complete, questions, said if complete else ())
+    sentences = tuple(f"{sentence[:1].upper()}{sentence[1:]}" for sentence in advice)
+    return Progress(len(there), complete, questions, sentences if complete else ())
 
 
 def _recognised(proposals: Proposals, name: str, place: int) -> Share | None:

@@ -118,7 +118,7 @@ class Proposer:
         self._rows: dict[str, npt.NDArray[np.floating]] = {}
         self._unreadable: set[str] = set()
         self._lesson: _Lesson | None = None
-        self._following: tuple[Domain, Following] | None = None
+        self._following: Following | None = None
         self._thread = Thread(target=self._run, name="proposer", daemon=True)
 
     def start(self) -> None:

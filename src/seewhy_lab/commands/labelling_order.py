@@ -124,7 +124,7 @@ def trial(lesson: Lesson, *, seed: int, step: int, most: int) -> tuple[Curve, Cu
     kept = set(generator.permutation(names)[: len(names) // KEPT_OUT].tolist())
     is_test = np.array([group in kept for group in lesson.groups])
     pool, test = np.flatnonzero(~is_test), np.flatnonzero(is_test)
-    shuffled = generator.permutation(len(pool)).tolist()
+    shuffled: list[int] = generator.permutation(len(pool)).tolist()
     # Random order is blind to what lies where: the landscape is that of the pool alone.
     lie = landscape(QuickHeads(lesson.pooled[pool]).components)
 

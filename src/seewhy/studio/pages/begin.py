@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, File, Form, Request, Response, UploadFile
 from fastapi.responses import RedirectResponse
@@ -145,7 +145,7 @@ def _shown(request: Request, *, arrived: Arrived | None = None) -> Response:
     return render(request, "begin.html", arrived=arrived, **_state(request))
 
 
-def _state(request: Request) -> dict[str, object]:
+def _state(request: Request) -> dict[str, Any]:
     project: Project = studio_of(request).project
     domain = None if project.domain_folder is None else project.domain()
     pictures = project.pictures()

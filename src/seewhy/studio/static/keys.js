@@ -49,8 +49,15 @@
     busy = true;
   });
 
+  // Nor are they shown while somebody presses a button or looks through a list.
+  let held = false;
+  document.addEventListener("pointerdown", () => { held = true; });
+  for (const kind of ["pointerup", "pointercancel"]) {
+    document.addEventListener(kind, () => setTimeout(() => { held = false; }));
+  }
   document.addEventListener("htmx:beforeSwap", (event) => {
-    if (!matters(event) && busy) event.detail.shouldSwap = false;
+    const choosing = document.activeElement?.matches("select, input:not([type=hidden])");
+    if (!matters(event) && (busy || held || choosing)) event.detail.shouldSwap = false;
   });
 
   function release() {
