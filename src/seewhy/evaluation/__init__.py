@@ -1,7 +1,7 @@
 """How well an agent does on annotated pictures: classes, answers, features, axioms, and advice."""
 
 from seewhy.evaluation.answers import EXPLANATORY, score_answer
-from seewhy.evaluation.axioms import AxiomRecord, axiom_records
+from seewhy.evaluation.axioms import AxiomRecord, axiom_outcomes, axiom_records
 from seewhy.evaluation.judging import evaluate
 from seewhy.evaluation.recognition import Recognition
 from seewhy.evaluation.result import Evaluation
@@ -14,6 +14,7 @@ __all__ = [
     "Misreading",
     "Recognition",
     "WrongPicture",
+    "axiom_outcomes",
     "axiom_records",
     "evaluate",
     "score_answer",

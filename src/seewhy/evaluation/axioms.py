@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
 
-__all__ = ["AxiomRecord", "axiom_records"]
+__all__ = ["AxiomRecord", "axiom_outcomes", "axiom_records"]
 
 
 @dataclass(frozen=True)
@@ -35,8 +34,41 @@ def axiom_records(
 
     An axiom decides a scene when it fires on the annotated features, whatever others conclude.
     """
+    found = axiom_outcomes(reasoner, vectors, labels)
+    return tuple(
+        AxiomRecord(
+            axiom.identifier,
+            str(axiom),
+            axiom.text,
+            len(found[axiom.identifier]),
+            sum(right for _, right in found[axiom.identifier]),
+        )
+        for axiom in reasoner.knowledge.axioms
+        if axiom.identifier in found
+    )
+
+
+def axiom_outcomes(
+    reasoner: Reasoner, vectors: Sequence[FeatureVector], labels: Sequence[str]
+) -> dict[str, tuple[tuple[int, bool], ...]]:
+    """Return which scenes each axiom decides that concludes a class, and whether rightly.
+
+    Returns
+    -------
+    dict of str to tuple of (int, bool)
+        Axiom's identifier → the places of the scenes; none for an axiom that decides none.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> domain = load_domain("structure_stability")
+    >>> vectors = [("2", "wide", "no", "yes"), ("2", "wide", "no", "no")]
+    >>> reasoner = Reasoner(domain.knowledge, domain.schema)
+    >>> axiom_outcomes(reasoner, vectors, ["unstable", "stable"])["a1"]
+    ((0, True),)
+    """
     schema = reasoner.schema
-    fired: dict[FeatureVector, list[tuple[Axiom, str]]] = {}
+    fired: dict[FeatureVector, list[tuple[str, str]]] = {}
     for vector in set(vectors):
         answer_set = reasoner.answer_set(vector)
         fired[vector] = []
@@ -45,21 +77,16 @@ def axiom_records(
                 head = axiom.head.substitute(dict(zip(axiom.variables, values, strict=True)))
                 label = schema.class_of(head)
                 if label is not None:
-                    fired[vector].append((axiom, label))
-    concludes = {axiom.identifier for of_vector in fired.values() for axiom, _ in of_vector}
-    records = []
-    for axiom in reasoner.knowledge.axioms:
-        if axiom.identifier not in concludes and axiom.head.predicate not in {
-            literal.predicate for literal in schema.classes.values()
-        }:
-            continue
-        outcomes = [
-            concluded == label
-            for vector, label in zip(vectors, labels, strict=True)
-            for firing, concluded in fired[vector]
-            if firing.identifier == axiom.identifier
-        ]
-        records.append(
-            AxiomRecord(axiom.identifier, str(axiom), axiom.text, len(outcomes), sum(outcomes))
+                    fired[vector].append((axiom.identifier, label))
+    concludes = {identifier for of_vector in fired.values() for identifier, _ in of_vector}
+    of_classes = {literal.predicate for literal in schema.classes.values()}
+    return {
+        axiom.identifier: tuple(
+            (place, concluded == label)
+            for place, (vector, label) in enumerate(zip(vectors, labels, strict=True))
+            for identifier, concluded in fired[vector]
+            if identifier == axiom.identifier
         )
-    return tuple(records)
+        for axiom in reasoner.knowledge.axioms
+        if axiom.identifier in concludes or axiom.head.predicate in of_classes
+    }

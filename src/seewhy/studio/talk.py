@@ -39,7 +39,6 @@ class Talk:
         """Speak of a picture."""
         if picture != self.picture:
             self.picture, self.replies, self.wanted = picture, [], None
-            self._proposals.clear()
 
     @property
     def previous(self) -> Reply | None:

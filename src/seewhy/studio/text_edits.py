@@ -1,0 +1,44 @@
+"""What somebody changed in a text, as edits that can be taken back one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import SequenceMatcher
+
+from seewhy.revision.edit import Edit, FileName, edited, newline_of
+
+__all__ = ["edits_between"]
+
+
+def edits_between(file: FileName, old: str, new: str) -> tuple[Edit, ...]:
+    r"""Return the edits that make one text of another, a passage of whole lines each.
+
+    The lines of the new text end as those of the old one.
+
+    Examples
+    --------
+    >>> edits_between("knowledge.al", "a.\nb.\nc.\n", "a.\nb.\nd.\nc.\n")
+    (Edit(file='knowledge.al', at=3, before='b.\n', after='b.\nd.\n'),)
+    """
+    new = "\n".join(new.replace("\r\n", "\n").split("\n")).replace("\n", newline_of(old))
+    if old == new:
+        return ()
+    found = tuple(_passages(file, old, new))
+    if all(edit.before for edit in found) and edited({file: old}, found)[file] == new:
+        return found
+    return (Edit(file, 0, old, new),)
+
+
+def _passages(file: FileName, old: str, new: str) -> Iterator[Edit]:
+    """A passage for each change, with the line before it, so that it is found again."""
+    lines, others = old.splitlines(keepends=True), new.splitlines(keepends=True)
+    moved = 0
+    matcher = SequenceMatcher(None, lines, others, autojunk=False)
+    for what, first, last, other_first, other_last in matcher.get_opcodes():
+        if what == "equal":
+            continue
+        with_one = 1 if first > 0 else 0
+        before = "".join(lines[first - with_one : last])
+        after = "".join(lines[first - with_one : first] + others[other_first:other_last])
+        yield Edit(file, len("".join(lines[: first - with_one])) + moved, before, after)
+        moved += len(after) - len(before)
