@@ -25,7 +25,7 @@ demo: $(INSTALLED)
 	$(VENV)/bin/seewhy demo --domain $(DOMAIN) --out $(OUT)
 
 test: $(INSTALLED)
-	$(VENV)/bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile
+	$(VENV)/bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
 lint: $(INSTALLED)
 	$(VENV)/bin/ruff check .

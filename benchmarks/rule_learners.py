@@ -27,7 +27,7 @@ from sklearn.preprocessing import KBinsDiscretizer
 from sklearn.tree import DecisionTreeClassifier
 
 from seewhy.domain.domain import load_domain
-from seewhy.induction.learning import LearningOptions, decide_by_candidates, learn_axioms
+from seewhy.induction.axiom_learning import LearningOptions, decide_by_candidates, learn_axioms
 from seewhy.induction.scene_table import scene_table
 from seewhy.knowledge.reasoner import Reasoner
 

@@ -20,6 +20,9 @@ os.environ["COLUMNS"] = "100"
 os.environ.pop("FORCE_COLOR", None)
 # Networks as small as these are several times slower on two threads than on one.
 os.environ["OMP_NUM_THREADS"] = "1"
+# The cores are pytest's. A process for a network takes longer to start than tiles to be learned;
+# what is about processes says how many.
+os.environ["LOKY_MAX_CPU_COUNT"] = "1"
 # Nothing that a test makes is found by the next one, or by who runs the tests.
 os.environ["SEEWHY_CACHE"] = ""
 

@@ -371,6 +371,21 @@ def test_check_with_data(run: Run, tiles_folder: Path, tiles_data: Path) -> None
     assert report["decided_rightly"] == pytest.approx(28 / 30)
 
 
+def test_check_says_which_rules_are_doubtful(run: Run, tiles_data: Path, tmp_path: Path) -> None:
+    folder = write_domain(tmp_path / "tiles")
+    knowledge = folder / "knowledge.al"
+    rule = "%% a green tile is good\ngood(T) if colour(T, green).\n"
+    knowledge.write_text(knowledge.read_text() + rule)
+    result = run("check", folder, "--data", tiles_data)
+    assert result.err == ""
+    doubt, last = result.out.splitlines()[-2:]
+    assert doubt.startswith('doubtful: the rule "a green tile is good" is right about ')
+    assert doubt.endswith(" scenes that it decides (good(T) if colour(T, green).)")
+    assert last == "nothing is wrong but what is doubtful"
+    report = json.loads(run("check", folder, "--data", tiles_data, "--json").out)
+    assert report["doubtful"] == [doubt.removeprefix("doubtful: ")]
+
+
 def test_check_notes_what_the_author_may_have_missed(run: Run, tmp_path: Path) -> None:
     folder = write_domain(tmp_path / "tiles")
     questions = (folder / "questions.toml").read_text()

@@ -47,6 +47,16 @@ def test_differences_that_are_the_same_but_for_rounding_are_ties() -> None:
     assert found.p_wilcoxon == stats.wilcoxon([1, 1, 1, -1]).pvalue
 
 
+@pytest.mark.parametrize("count", [2, 3, 8, 14])
+def test_ties_and_zeros_count_as_in_scipy(count: int) -> None:
+    rng = np.random.default_rng(count)
+    for most in (1, 2, 4):
+        ours = rng.integers(-most, most + 1, size=count).astype(float)
+        ours[0] = most
+        found = compare(ours.tolist(), [0.0] * count)
+        assert found.p_wilcoxon == pytest.approx(stats.wilcoxon(ours).pvalue, abs=1e-12)
+
+
 def test_holm_by_hand() -> None:
     # 0.01·4, then 0.02·3, then 0.03·2 = 0.06 at least as large as the one before, then 0.2.
     assert holm([0.02, 0.2, 0.01, 0.03]) == pytest.approx([0.06, 0.2, 0.04, 0.06])

@@ -17,7 +17,7 @@ from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DatasetError, DomainError, ModelError
-from seewhy.perception import tail_training
+from seewhy.perception import fitting_eyes, tail_training
 from seewhy.perception.backbones import efficientnet_lite, load_backbone
 from seewhy.perception.backbones.backbone import Backbone
 from seewhy.perception.course import Course
@@ -198,19 +198,25 @@ def test_an_interrupted_tuning_goes_on_with_the_same_weights(
     backbone: Backbone, lesson: Lesson, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(tail_training, "SAVED_EVERY", 0.0)
-    # Twelve pictures are one batch; each stage is to have several steps.
+    # Twelve pictures are one batch; each stage is to have several steps. Every step is saved.
     monkeypatch.setattr(tail_training, "_BATCH", 2)
+    monkeypatch.setattr(fitting_eyes, "_PASSES", (1, 1))
+    monkeypatch.setattr(fitting_eyes, "_PASSES_AGAIN", (1, 1))
     whole = fit_eyes(backbone, lesson, seed=2).eyes.tail
 
-    def until(stage: str, pictures: int) -> None:
+    def until(stage: str, pictures: int, *, seed: int = 2) -> list[EyesEvent]:
+        events: list[EyesEvent] = []
+
         def told(event: EyesEvent) -> None:
+            events.append(event)
             if (event.stage, event.done) == (stage, pictures):
                 raise KeyboardInterrupt
 
         with pytest.raises(KeyboardInterrupt):
             fit_eyes(
-                backbone, lesson, seed=2, course=Course(checkpoints=tmp_path, on_progress=told)
+                backbone, lesson, seed=seed, course=Course(checkpoints=tmp_path, on_progress=told)
             )
+        return events
 
     until("tuning layers by most", 6)
     until("tuning layers once more, by all", 8)
@@ -226,10 +232,7 @@ def test_an_interrupted_tuning_goes_on_with_the_same_weights(
     for name, weight in whole.state_dict().items():
         assert torch.equal(weights[name], weight)
     # Another seed is another training, and what lies there is not its own.
-    events: list[EyesEvent] = []
-    fit_eyes(
-        backbone, lesson, seed=3, course=Course(checkpoints=tmp_path, on_progress=events.append)
-    )
+    events = until("tuning layers by most", 6, seed=3)
     tuned = [event.done for event in events if event.stage == "tuning layers by most"]
     assert tuned[0] == 2
 

@@ -821,7 +821,7 @@ def test_the_command(tmp_path: Path, run: Run) -> None:
     [
         (["foldr", "s"], "'foldr' is no format that is imported; did you mean 'folder'?"),
         (["s"], "'s' is a source; say its format before it: folder, coco, voc, yolo, labelstudio, "
-         "cvat, table"),
+         "cvat, table, clevr"),
         (["folder"], "there is no SOURCE; name a folder, a zip archive or an exported file"),
         (["folder", "s", "t"], "there are 2 sources (s, t); give one: a folder may hold several "
          "exports"),

@@ -191,7 +191,7 @@ def test_a_sentence_belongs_to_one_axiom_only() -> None:
 STABLE = "stable(S) or -stable(S)"
 FORMS = (
     "a sort is declared as '#sort name.', '#sort name = 1..5.', '#sort name = {a, b}.', "
-    "'#sort name = sort + sort.' or, of what is found in the picture, '#sort name = things.', got "
+    "'#sort name = sort + sort.' or '#sort name = things.', got "
 )
 MEMBER = "cannot be a member of a sort; write a name that begins with a small letter, or a number"
 READS = "an axiom reads 'head if condition, condition.'"

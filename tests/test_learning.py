@@ -32,15 +32,15 @@ from seewhy.dialogue.question import Asks
 from seewhy.dialogue.reference import ReferenceAnswers, experience_of
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import DatasetError, KnowledgeError
-from seewhy.induction.axiom_text import axiom_statement, conjunctions
-from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
-from seewhy.induction.generalisation import generalised, most_general
-from seewhy.induction.learning import (
+from seewhy.induction.axiom_learning import (
     Fate,
     LearningOptions,
     decide_by_candidates,
     learn_axioms,
 )
+from seewhy.induction.axiom_text import axiom_statement, conjunctions
+from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
+from seewhy.induction.generalisation import generalised, most_general
 from seewhy.induction.scene_table import scene_table
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.axiom import Axiom, Origin

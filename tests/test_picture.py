@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 import zlib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -18,6 +19,7 @@ from PIL import Image
 
 from seewhy.errors import PictureError
 from seewhy.perception import picture, picture_bands, picture_file
+from seewhy.perception.greys import of_eight_bits
 from seewhy.perception.picture import as_picture, read_picture
 
 
@@ -301,6 +303,14 @@ def test_what_is_no_number_is_black_and_what_is_endless_white(tmp_path: Path) ->
     assert refusal(tmp_path / "a.tiff") == (
         "a.tiff has no pixel that is a number: save it as PNG or JPEG"
     )
+
+
+def test_a_signalling_nan_is_black_without_a_warning() -> None:
+    bits = np.array([[0x7F800001, 0x3F000000]], dtype=np.uint32)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        seen = of_eight_bits(bits.view(np.float32), 1.0)
+    assert np.asarray(seen).tolist() == [[0, 128]]
 
 
 def colours_of_16_bits(path: Path, value: int) -> None:

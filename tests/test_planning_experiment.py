@@ -28,7 +28,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def finished(run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr("seewhy_lab.experiments.planning_run.QUICK", (1, 7))
+    monkeypatch.setattr("seewhy_lab.experiments.planning_run.QUICK", (1, 4))
     done = run("experiment", "planning", "--out", folder, *SMALL)
     assert (done.code, done.err) == (0, "")
     assert done.out.splitlines()[-1] == f"page: {folder / 'planning' / 'index.html'}"
@@ -90,7 +90,7 @@ def test_looking_in_vain_counts_for_the_trial_and_for_no_plan(
 
 def test_a_run_adds_only_what_is_missing(run: Run, finished: Path) -> None:
     folder = finished / "planning"
-    lost, kept = folder / "runs" / "0003.al", folder / "runs" / "0004.al"
+    lost, kept = folder / "runs" / "0000.al", folder / "runs" / "0001.al"
     record, times = lost.read_bytes(), kept.stat().st_mtime_ns
     learned, rows = (folder / "learned.al").read_bytes(), (folder / "rows.csv").read_bytes()
     lost.unlink()

@@ -16,7 +16,8 @@ from seewhy.knowledge.ground import literal_of
 from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import read_knowledge
 from seewhy.planning.diagnosis.diagnosis import diagnose
-from seewhy.planning.dialogue.replying import answer
+from seewhy.planning.dialogue.run_answers import answer
+from seewhy.planning.dialogue.surface_realisation import Speech
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.execution import Run, execute
 from seewhy.planning.execution.transition_function import TransitionFunction, World
@@ -1099,3 +1100,57 @@ LAMPS = {
 def test_answers_in_any_other_domain(lamps: tuple[PlanningDomain, Run], question: str) -> None:
     domain, run = lamps
     assert asked(run, question, domain) == LAMPS[question]
+
+
+@pytest.mark.parametrize(
+    ("question", "right"),
+    [
+        ("how many actions did you do?", "I did 5 actions."),
+        ("how many actions did you do at step 2?", "I did 2 actions."),
+        ("who is in the library?", "I know of nobody in the library."),
+        (
+            "what was your plan at step 2?",
+            "At step 2 my plan was to move to the kitchen, move to the bathroom and deliver the "
+            "first message to Sally. My plan only supposed that Sally was in the bathroom, which I "
+            "did not know.",
+        ),
+        (
+            "where was Sally at step 2?",
+            "I do not know where Sally is. I only know that Sally is not in the kitchen, the "
+            "library or her office.",
+        ),
+        (
+            "why not Bob's office at step 2?",
+            "I could not move to Bob's office at step 2: \"the robot moves to places next to its "
+            "own\", and I was in Sally's office and Sally's office is not next to Bob's office.",
+        ),
+    ],
+)
+def test_a_search_tells_what_was_believed_and_what_was_supposed(
+    transitions: TransitionFunction, question: str, right: str
+) -> None:
+    searched = office_run(transitions, "loc(sally,bathroom)")
+    assert asked(searched, question) == right
+
+
+def test_what_was_believed_otherwise_is_told_beside_what_a_plan_supposes(
+    transitions: TransitionFunction,
+) -> None:
+    def late(step: int, state: World) -> World:
+        walked = [term("walk(sally,library)")]
+        return transitions.after(state, walked) or state if step == 12 else state
+
+    run = office_run(transitions, "loc(sally,bathroom)", "closed(bathroom)", script=late)
+    assert run.steps[9].doubted
+    assert asked(run, "what was your plan at step 9?") == (
+        "At step 9 my plan was to move to the library, move to the kitchen, move to Sally's office "
+        "and deliver the first message to Sally. My plan only supposed that Sally was in her "
+        "office: what I believed, that Sally was not in her office, might have changed."
+    )
+
+
+def test_what_is_mine_is_said_in_the_first_person() -> None:
+    has = OFFICE.words.fluents["has"].model_copy(update={"say": "the bucket of {0} is empty"})
+    words = replace(OFFICE.words, fluents={**OFFICE.words.fluents, "has": has})
+    assert Speech(words).said(term("has(rob1,m1)")) == "my bucket was empty"
+    assert Speech(words).say(term("has(sally,m1)")) == "the bucket of Sally is empty"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from seewhy.planning.dialogue.replying import answer
+from seewhy.planning.dialogue.run_answers import answer
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.execution import Run, execute
 from seewhy.planning.goal import read_goal

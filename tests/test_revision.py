@@ -257,6 +257,14 @@ def test_rules_that_ask_less_give_way_to_a_new_one(revisions: Revisions) -> None
     assert revisions.texts == before
 
 
+def test_rules_give_way_to_one_that_does_not_apply_to_the_scene_itself(
+    revisions: Revisions,
+) -> None:
+    rule = Candidate("fresh", (PathCondition("kind", ("russet",)), BROWN))
+    (proposal,) = new_rule(doubted(revisions, ("russet", "no", "no")), rule)
+    assert proposal.exceptions == ("a brown apple is spoilt, unless it is a russet",)
+
+
 def test_a_rule_that_can_never_be_used_is_refused(revisions: Revisions) -> None:
     with pytest.raises(RevisionError, match=r"can never be used: .* say first which rule is wrong"):
         new_rule(doubted(revisions), Candidate("fresh", (BROWN,)))

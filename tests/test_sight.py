@@ -16,7 +16,7 @@ from seewhy.data.making import make_dataset
 from seewhy.domain.domain import load_domain
 from seewhy.errors import DomainError, PlanningError
 from seewhy.planning.diagnosis.diagnosis import SurpriseKind
-from seewhy.planning.dialogue.replying import answer
+from seewhy.planning.dialogue.run_answers import answer
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.recording import record_of
 from seewhy.planning.execution.sight import Look, Sight

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from seewhy.agent.agent import Agent
     from seewhy.classification import classify_pictures
     from seewhy.data.dataset import Dataset
+    from seewhy.data.thing_scene import ThingScene, thing_scene
     from seewhy.dialogue.reply import Reply
+    from seewhy.dialogue.things.answering import ThingAnswerer, ThingReply
     from seewhy.domain.domain import Domain, load_domain
     from seewhy.errors import SeeWhyError
     from seewhy.evaluation import Evaluation, evaluate
@@ -33,10 +35,14 @@ __all__ = [
     "Node",
     "Reply",
     "SeeWhyError",
+    "ThingAnswerer",
+    "ThingReply",
+    "ThingScene",
     "__version__",
     "classify_pictures",
     "evaluate",
     "load_domain",
+    "thing_scene",
 ]
 
 _HOMES = {
@@ -47,9 +53,13 @@ _HOMES = {
     "Node": "seewhy.knowledge.justification",
     "Reply": "seewhy.dialogue.reply",
     "SeeWhyError": "seewhy.errors",
+    "ThingAnswerer": "seewhy.dialogue.things.answering",
+    "ThingReply": "seewhy.dialogue.things.answering",
+    "ThingScene": "seewhy.data.thing_scene",
     "classify_pictures": "seewhy.classification",
     "evaluate": "seewhy.evaluation",
     "load_domain": "seewhy.domain.domain",
+    "thing_scene": "seewhy.data.thing_scene",
 }
 
 

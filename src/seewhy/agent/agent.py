@@ -20,7 +20,7 @@ from seewhy.perception.course import Course
 if TYPE_CHECKING:
     from seewhy.agent.learning_from_pictures import Learning
     from seewhy.agent.pretraining import Pretrained
-    from seewhy.induction.learning import LearningOptions
+    from seewhy.induction.axiom_learning import LearningOptions
 
 __all__ = ["Agent"]
 
@@ -194,7 +194,7 @@ class Agent(Inference):
         """
         from seewhy.agent import axiom_revision
         from seewhy.agent.learning_from_pictures import Learning
-        from seewhy.induction.learning import DEFAULTS
+        from seewhy.induction.axiom_learning import DEFAULTS
 
         options = DEFAULTS if options is None else options
         counted = self.training_pictures.counted

@@ -18,7 +18,7 @@ from seewhy.agent.training_pictures import require_same_domain
 from seewhy.agent.working_knowledge import WorkingKnowledge
 from seewhy.data.dataset import Dataset
 from seewhy.data.training_needs import require_two_classes
-from seewhy.induction.learning import Learned, LearningOptions
+from seewhy.induction.axiom_learning import Learned, LearningOptions
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import Withdrawn
 

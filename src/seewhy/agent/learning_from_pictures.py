@@ -12,15 +12,15 @@ import numpy as np
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue.reference import Experience
 from seewhy.domain.domain import Domain
-from seewhy.induction.axiom_text import axiom_statement, conjunctions
-from seewhy.induction.candidate import Candidate, tally
-from seewhy.induction.learning import (
+from seewhy.induction.axiom_learning import (
     DEFAULTS,
     Judgement,
     Learned,
     LearningOptions,
     learn_axioms,
 )
+from seewhy.induction.axiom_text import axiom_statement, conjunctions
+from seewhy.induction.candidate import Candidate, tally
 from seewhy.induction.scene_table import Reasons, scene_table
 from seewhy.induction.sentence import say_rule, things
 from seewhy.induction.tree import DecisionTree

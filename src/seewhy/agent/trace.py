@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from seewhy.dialogue.certainty import Certainty, Ground
-from seewhy.dialogue.only_shown import say_only_shown
+from seewhy.dialogue.constant_features import say_only_shown
 from seewhy.dialogue.question import Asks
 from seewhy.dialogue.reply import UNCERTAIN, UNKNOWN, Classification, FeatureReading, Reply
 from seewhy.domain.tables import CLASS

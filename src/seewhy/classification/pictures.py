@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from seewhy.data.reading_ahead import read_ahead
-from seewhy.dialogue.only_shown import say_only_shown
+from seewhy.dialogue.constant_features import say_only_shown
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reply import Classification
 from seewhy.domain.wording import sentence

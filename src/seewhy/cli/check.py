@@ -43,8 +43,12 @@ def check(
         return
     say(f"{loaded.title} ({loaded.name}) in {loaded.folder}")
     counts = (f"{key} ({len(feature.values)})" for key, feature in loaded.features.items())
-    say(f"  features: {', '.join(counts)}")
-    say(f"  classes: {', '.join(loaded.classes)}")
+    if loaded.features:
+        say(f"  features: {', '.join(counts)}")
+        say(f"  classes: {', '.join(loaded.classes)}")
+    if loaded.things is not None:
+        say(f"  features of things: {', '.join(loaded.things.features)}")
+        say(f"  relations: {', '.join(loaded.things.relations) or 'none'}")
     say(f"  axioms: {len(loaded.knowledge.axioms)}")
     say(f"  questions: {report.questions} in {report.wordings} wordings")
     verdicts = ", ".join(f"{name} {percent(share)}" for name, share in report.verdicts.items())
@@ -62,7 +66,9 @@ def check(
         )
     if planning is not None:
         _print_planning(planning)
-    say("nothing is wrong")
+    for doubt in report.doubtful:
+        say(f"doubtful: {doubt}")
+    say(f"nothing is wrong{' but what is doubtful' if report.doubtful else ''}")
 
 
 def _checked_planning(domain: str) -> dict[str, Any]:

@@ -25,6 +25,7 @@ from seewhy.cli.import_options import (
 from seewhy.cli.options import Json
 from seewhy.cli.screen import print_json, progress, remark, say
 from seewhy.data.annotation_formats import FORMATS, format_called
+from seewhy.errors import SeeWhyError
 from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
     from seewhy.data.importers import ImportedDataset, ImportRequest, Note
 
+CLEVR = "clevr"
+IMPORTED = (*FORMATS, CLEVR)
 _MOST_NAMED = 5
 _MOST_CLASSES = 12
 
@@ -41,7 +44,7 @@ Out = Annotated[Path, typer.Option("--out", metavar="DIR", help="The folder to w
 def import_(
     format: Annotated[
         str,
-        typer.Argument(metavar="FORMAT", help=f"{', '.join(FORMATS[:-1])} or {FORMATS[-1]}."),
+        typer.Argument(metavar="FORMAT", help=f"{', '.join(IMPORTED[:-1])} or {IMPORTED[-1]}."),
     ],
     out: Out,
     source: Annotated[
@@ -67,12 +70,31 @@ def import_(
     test_share: TestShare = 0.0,
     copy: Copy = False,
     outside: LinksOutside = False,
+    scenes: Annotated[
+        Path | None,
+        typer.Option("--scenes", metavar="FILE", help="With clevr: the file of scenes."),
+    ] = None,
+    questions: Annotated[
+        Path | None,
+        typer.Option("--questions", metavar="FILE", help="With clevr: questions about them."),
+    ] = None,
+    domain: Annotated[
+        str, typer.Option("--domain", help="With clevr: the domain whose things they are.")
+    ] = "tabletop",
     json: Json = False,
 ) -> None:
     """Make a dataset of pictures that are labelled already: class folders, exports, tables.
 
     Boxes are kept in things.csv. An interrupted import goes on where it was.
     """
+    if format == CLEVR:
+        named = [*(source or ()), *(more or ()), *([scenes] if scenes else ())]
+        import_clevr(
+            _one_source(named), out, questions, pictures, domain=domain, copy=copy, json=json
+        )
+        return
+    if scenes is not None or questions is not None:
+        raise SeeWhyError("--scenes and --questions go with 'seewhy data import clevr'")
     _check_format(format)
     chosen = _one_source([*(source or ()), *(more or ())])
     request = request_of(
@@ -97,6 +119,44 @@ def import_(
     else:
         say_dataset(dataset)
         say(f"  seewhy new NAME --from {shlex.quote(str(out))} writes a domain to go with it")
+
+
+def import_clevr(
+    scenes: Path,
+    out: Path,
+    questions: Path | None,
+    pictures: Path | None,
+    *,
+    domain: str,
+    copy: bool,
+    json: bool,
+) -> None:
+    """Make a dataset of scenes of things, with the questions about them and their pictures."""
+    from seewhy.data.importers.clevr_dataset import import_scenes
+    from seewhy.domain.domain import load_domain
+
+    loaded = load_domain(domain)
+    if loaded.things is None:
+        raise SeeWhyError(f"{loaded.folder}: the domain has no [things] that scenes could show")
+    with progress() as bars:
+        task = bars.add_task("importing scenes", total=None)
+        imported = import_scenes(
+            scenes,
+            out,
+            loaded.things,
+            questions=questions,
+            pictures=pictures,
+            copy=copy,
+            on_progress=lambda done, total: bars.update(task, completed=done, total=total),
+        )
+    if json:
+        print_json(imported.as_json())
+        return
+    say(
+        f"dataset: {imported.folder} ({imported.scenes:,} scenes of {imported.things:,} things, "
+        f"{imported.relations:,} relations, {imported.questions:,} questions, "
+        f"{imported.pictures:,} pictures)"
+    )
 
 
 def run_import(request: ImportRequest, out: Path) -> ImportedDataset:
@@ -154,16 +214,12 @@ def _counted(counts: dict[str, int], total: int) -> str:
 
 
 def _check_format(name: str) -> None:
-    from seewhy.errors import SeeWhyError
-
-    if name not in FORMATS and Path(name).exists():
-        raise SeeWhyError(f"'{name}' is a source; say its format before it: {', '.join(FORMATS)}")
-    format_called(name)
+    if name not in IMPORTED and Path(name).exists():
+        raise SeeWhyError(f"'{name}' is a source; say its format before it: {', '.join(IMPORTED)}")
+    format_called(name, beside=(CLEVR,))
 
 
 def _one_source(sources: Sequence[Path]) -> Path:
-    from seewhy.errors import SeeWhyError
-
     if not sources:
         raise SeeWhyError("there is no SOURCE; name a folder, a zip archive or an exported file")
     if len(sources) > 1:

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from seewhy.cli.evaluate_clevr import NAME as CLEVR
+from seewhy.cli.evaluate_clevr import evaluate_clevr
 from seewhy.cli.options import (
-    DataFolder,
     Device,
     Gate,
     Json,
     KnownShare,
-    ModelFolder,
     Outside,
     Reading,
     Seed,
@@ -27,13 +27,41 @@ if TYPE_CHECKING:
     from seewhy.evaluation import Evaluation
     from seewhy.evaluation.curve import LearningCurve
 
+_QUESTIONS = 8
+"""Drawn for each picture, where nothing else is said."""
+
 
 def evaluate(
-    model: ModelFolder,
-    data: DataFolder,
+    model: Annotated[
+        Path,
+        typer.Argument(
+            metavar="MODEL",
+            help="A model folder, made by 'seewhy train'; or clevr: questions about annotated "
+            "scenes of things.",
+        ),
+    ],
+    data: Annotated[
+        Path | None, typer.Option("--data", help="A dataset folder: pictures and scenes.csv.")
+    ] = None,
     questions: Annotated[
-        int, typer.Option("--questions", min=1, help="Questions drawn for each picture.")
-    ] = 8,
+        str | None,
+        typer.Option(
+            "--questions",
+            metavar="N|FILE",
+            help="Questions drawn for each picture (8); with clevr, the file of questions.",
+        ),
+    ] = None,
+    scenes: Annotated[
+        Path | None,
+        typer.Option("--scenes", metavar="FILE", help="With clevr: the file of scenes."),
+    ] = None,
+    domain: Annotated[
+        str, typer.Option("--domain", help="With clevr: the domain whose words are understood.")
+    ] = "tabletop",
+    wrong: Annotated[
+        Path | None,
+        typer.Option("--wrong", metavar="FILE", help="With clevr: write the wrong answers here."),
+    ] = None,
     page: Annotated[
         Path | None,
         typer.Option(
@@ -63,7 +91,13 @@ def evaluate(
     outside: Outside = False,
     json: Json = False,
 ) -> None:
-    """Evaluate a model on a dataset (on the rows with split = test, where there are splits)."""
+    """Evaluate a model on a dataset (on the rows with split = test, where there are splits).
+
+    `seewhy evaluate clevr --scenes FILE --questions FILE` answers questions about annotated scenes.
+    """
+    if str(model) == CLEVR:
+        evaluate_clevr(scenes, questions, domain=domain, wrong=wrong, json=json)
+        return
     from dataclasses import replace
 
     from seewhy.agent.agent import Agent
@@ -71,6 +105,11 @@ def evaluate(
     from seewhy.cli.read_data import read_data
     from seewhy.errors import SeeWhyError
 
+    if scenes is not None or wrong is not None:
+        raise SeeWhyError("--scenes and --wrong go with 'seewhy evaluate clevr'")
+    if data is None:
+        raise SeeWhyError("there is no dataset; name its folder with --data")
+    drawn = _questions_drawn(questions)
     if most is not None and page is None:
         raise SeeWhyError("--most goes with --page; --json lists all wrong pictures")
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
@@ -85,7 +124,7 @@ def evaluate(
         from seewhy.evaluation.curve import require_splits
 
         require_splits(dataset)
-    result = _evaluated(agent, dataset, questions=questions, seed=seed)
+    result = _evaluated(agent, dataset, questions=drawn, seed=seed)
     if result.without_class:
         remark(
             f"{result.without_class} more pictures have no class: they count for the features "
@@ -103,6 +142,19 @@ def evaluate(
         print_curve(result.curve)
     if page is not None:
         say(f"page: {page}")
+
+
+def _questions_drawn(said: str | None) -> int:
+    from seewhy.errors import SeeWhyError
+
+    if said is None:
+        return _QUESTIONS
+    if not said.isdecimal() or len(said) > 6 or int(said) < 1:
+        raise SeeWhyError(
+            f"--questions must be a whole number of at least 1, got '{said}'; a file of questions "
+            "goes with 'seewhy evaluate clevr'"
+        )
+    return int(said)
 
 
 def _warn_of_training(agent: Agent, dataset: Dataset) -> None:

@@ -19,7 +19,7 @@ from seewhy.text.percentage import percent
 if TYPE_CHECKING:
     from seewhy.data.dataset import Dataset
     from seewhy.evaluation.held_back import Judged, JudgedLearning, Proposal
-    from seewhy.induction.learning import LearningOptions
+    from seewhy.induction.axiom_learning import LearningOptions
     from seewhy.knowledge.axiom import Axiom
 
 
@@ -120,7 +120,7 @@ def learn(
     if even_if_worse and not yes:
         raise SeeWhyError("--even-if-worse goes with --yes; without it you are asked")
     from seewhy.evaluation.held_back import not_worse
-    from seewhy.induction.learning import DEFAULTS, LearningOptions
+    from seewhy.induction.axiom_learning import DEFAULTS, LearningOptions
 
     options = LearningOptions(
         support=DEFAULTS.support if support is None else support,
@@ -352,7 +352,7 @@ def _shares(judged: Judged | None) -> dict[str, float] | None:
 
 def print_learning(found: JudgedLearning) -> None:
     """Print every candidate with its verdict, what was added and withdrawn, and what it did."""
-    from seewhy.induction.learning import Fate
+    from seewhy.induction.axiom_learning import Fate
     from seewhy.induction.sentence import say_rule, things
 
     agent, learning = found.agent, found.learning

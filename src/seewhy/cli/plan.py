@@ -68,7 +68,7 @@ def plan(
     from seewhy.knowledge.ground_literal import read_ground_literal
     from seewhy.knowledge.history import read_history_file
     from seewhy.planning.diagnosis.diagnosis import diagnose
-    from seewhy.planning.dialogue.replying import RunAnswers
+    from seewhy.planning.dialogue.run_answers import RunAnswers
     from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.execution.execution import Run
     from seewhy.planning.execution.plan_monitoring import suppositions

@@ -13,7 +13,7 @@ from seewhy.cli.screen import complain, say
 
 if TYPE_CHECKING:
     from seewhy.errors import QuestionError
-    from seewhy.planning.dialogue.replying import PlanningReply, RunAnswers
+    from seewhy.planning.dialogue.run_answers import PlanningReply, RunAnswers
 
 Ask = Annotated[
     list[str] | None,

@@ -27,6 +27,7 @@ from rich.segment import Segment
 from rich.table import Table
 from rich.text import Text
 
+from seewhy.cli.plain_progress import telling_plainly
 from seewhy.text.percentage import percent
 
 _OBEYED = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
@@ -140,7 +141,7 @@ def table(*columns: str, title: str | None = None) -> Table:
 
 @contextmanager
 def progress() -> Iterator[Progress]:
-    """A bar for long work, on standard error; silent where that is no terminal."""
+    """A bar for long work, on standard error; where that is no terminal, a line now and then."""
     console = notes()
     with Progress(
         TextColumn("{task.description}"),
@@ -152,4 +153,8 @@ def progress() -> Iterator[Progress]:
         disable=not console.is_terminal,
         transient=True,
     ) as bars:
-        yield bars
+        if console.is_terminal:
+            yield bars
+        else:
+            with telling_plainly(bars, remark):
+                yield bars

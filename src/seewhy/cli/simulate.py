@@ -56,7 +56,7 @@ def simulate(
     With --chat and --json the run is one line of JSON, and so is every answer. The world follows
     knowledge.al, whatever the robot knows of it.
     """
-    from seewhy.planning.dialogue.replying import RunAnswers
+    from seewhy.planning.dialogue.run_answers import RunAnswers
     from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.execution.run_narration import narrate_end, narrate_step
     from seewhy.planning.execution.simulation import simulate as run_simulation

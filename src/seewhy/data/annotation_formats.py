@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, get_args
 
 from seewhy.errors import DatasetError
@@ -25,8 +26,14 @@ SAID = {
 """Format → how it is called in a sentence."""
 
 
-def format_called(name: str) -> Format:
+def format_called(name: str, *, beside: Sequence[str] = ()) -> Format:
     """Return the format of a name.
+
+    Parameters
+    ----------
+    name : str
+    beside : sequence of str, optional
+        Other names that may have been meant.
 
     Raises
     ------
@@ -43,4 +50,5 @@ def format_called(name: str) -> Format:
             return known
     from seewhy.text.nearest import did_you_mean  # slow to import, and most names are right
 
-    raise DatasetError(f"'{name}' is no format that is imported; {did_you_mean(name, FORMATS)}")
+    nearest = did_you_mean(name, (*FORMATS, *beside))
+    raise DatasetError(f"'{name}' is no format that is imported; {nearest}")

@@ -18,7 +18,9 @@ from seewhy.data.picture_path import require_own_table
 from seewhy.data.reading_ahead import read_ahead
 from seewhy.data.scene import Scene, TablePlace
 from seewhy.data.scene_rows import OPTIONAL, cells_of_scenes, columns_of, scenes_of_rows
+from seewhy.data.scene_vector import vector_with_things
 from seewhy.data.table import read_table
+from seewhy.data.thing_tables import with_things
 from seewhy.domain.domain import Domain
 from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
@@ -47,8 +49,9 @@ class Dataset:
     path from the folder) and optionally ``class``, one column per feature of the domain,
     ``split`` ("train" or "test"), ``group`` and ``reasons`` (the features that are why the picture
     is of its class, with blanks between). An empty cell, or a column that is left out, is what
-    nobody knows: a table that only names pictures is one of pictures to classify. docs/data.md
-    says what such a table may look like.
+    nobody knows: a table that only names pictures is one of pictures to classify. Where the domain
+    has things, ``things.csv`` and ``relations.csv`` may lie beside it. docs/data.md says what such
+    tables may look like.
 
     Examples
     --------
@@ -95,22 +98,18 @@ class Dataset:
             )
         require_own_table(file, outside=outside)
         table = read_table(file, known=columns_of(domain), optional=OPTIONAL)
-        dataset = Dataset(
-            scenes=tuple(
-                scenes_of_rows(
-                    table.columns,
-                    ((row.line, row.cells) for row in table.rows),
-                    domain,
-                    folder=folder,
-                    place=TablePlace(str(file)),
-                    header=table.line,
-                    outside=outside,
-                )
-            ),
-            domain=domain,
+        scenes = scenes_of_rows(
+            table.columns,
+            ((row.line, row.cells) for row in table.rows),
+            domain,
             folder=folder,
+            place=TablePlace(str(file)),
+            header=table.line,
+            outside=outside,
         )
-        return dataset._checked()
+        dataset = Dataset(scenes=tuple(scenes), domain=domain, folder=folder)._checked()
+        names = [dataset.name_of(scene) for scene in dataset.scenes]
+        return replace(dataset, scenes=with_things(dataset.scenes, names, domain, folder))
 
     @staticmethod
     def from_frame(
@@ -195,8 +194,13 @@ class Dataset:
 
     @property
     def vectors(self) -> list[FeatureVector]:
-        """The annotated feature vectors, one per scene."""
-        return [scene.vector for scene in self.scenes]
+        """The annotated feature vectors, one per scene; things and relations stand behind."""
+        if self.domain.things is None:
+            return [scene.vector for scene in self.scenes]
+        return [
+            vector_with_things(self.domain, scene.vector, scene.things, scene.related)
+            for scene in self.scenes
+        ]
 
     @property
     def labels(self) -> list[str | None]:

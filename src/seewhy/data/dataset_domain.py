@@ -27,7 +27,7 @@ def domain_of(folder: Path) -> Domain:
     known = dict.fromkeys(column for domain in domains for column in columns_of(domain))
     columns = set(read_table(file, known=known, optional=OPTIONAL).columns)
     for domain in domains:
-        if set(domain.features) <= columns:
+        if domain.features and set(domain.features) <= columns:
             return domain
     raise DatasetError(
         f"{file}: the columns fit none of the bundled domains ({', '.join(bundled_domains())}); "

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from seewhy.data.thing import Related, Thing
 from seewhy.knowledge.scene import FeatureVector
 
 __all__ = ["Scene", "TablePlace"]
@@ -18,7 +19,8 @@ class Scene:
     ``label`` is its class, None where nobody said it: such a picture is to be labelled, or
     classified. ``split`` is "train", "test" or empty; pictures of one ``group`` show one physical
     thing and are never split apart for validation. ``reasons`` are the features that somebody
-    named as why it is of its class. ``line`` is where its row stands, 0 where it has none.
+    named as why it is of its class. ``things`` are those in the picture, ``related`` what is said
+    of two of them. ``line`` is where its row stands, 0 where it has none.
     """
 
     picture: Path
@@ -27,6 +29,8 @@ class Scene:
     split: str = ""
     group: str = ""
     reasons: tuple[str, ...] = ()
+    things: tuple[Thing, ...] = ()
+    related: tuple[Related, ...] = ()
     line: int = field(default=0, compare=False)
 
 

@@ -8,17 +8,18 @@ from typing import TYPE_CHECKING
 
 from seewhy.dialogue.answer import AnswerType, word_answer, word_supposed
 from seewhy.dialogue.certainty import certainty_of, least_sure, least_sure_told
+from seewhy.dialogue.class_differences import shared_by_pictures
+from seewhy.dialogue.constant_features import with_only_shown
+from seewhy.dialogue.default_reason import say_usual
 from seewhy.dialogue.narration import narrate
-from seewhy.dialogue.only_shown import with_only_shown
 from seewhy.dialogue.question import Asks, Question
+from seewhy.dialogue.reason_answers import OF_REASONS, tell_of_reasons
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reference import Experience
 from seewhy.dialogue.reply import UNCERTAIN, UNKNOWN, Classification, Reply
-from seewhy.dialogue.shared_by_pictures import shared_by_pictures
 from seewhy.dialogue.telling import Look, tell
 from seewhy.dialogue.told import Told
-from seewhy.dialogue.tree_says import tree_says
-from seewhy.dialogue.usual import say_usual
+from seewhy.dialogue.tree_reason import tree_says
 from seewhy.dialogue.weighing import Weighing
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
@@ -187,8 +188,13 @@ class Answering:
             kind = AnswerType("unknown")
             words = word_answer(self.domain, question, kind, vector=scene.vector, label=None)
             return Told(kind, words, why)
+        weighing = Weighing(self.domain, self.reasoned, self.tree, self._tree_why)
+        if question.asks in OF_REASONS:
+            return tell_of_reasons(
+                self.reasoned, self.tree, weighing.decided, scene, question,
+                why=why, previous=previous,
+            )  # fmt: skip
         if question.asks in _WEIGHED:
-            weighing = Weighing(self.domain, self.reasoned, self.tree, self._tree_why)
             return weighing.weigh(scene, question, why=why, previous=previous)
         return tell(self.domain, self.reasoned, scene, question, why=why, look=look)
 

@@ -38,6 +38,10 @@ class Asks(StrEnum):
     BELIEF_IS = "belief_is"
     WHY_BELIEF = "why_belief"
     WHY_NOT_BELIEF = "why_not_belief"
+    WHEN_CLASS = "when_class"
+    MATTERS = "matters"
+    BECAUSE = "because"
+    MORE = "more"
 
 
 Query = tuple[str | None, ...]
@@ -47,7 +51,7 @@ else the question states, and the features that it is about together."""
 
 @dataclass(frozen=True)
 class Statement:
-    """That the picture is of a class, or that a feature has a value.
+    """That the picture is of a class, or that a feature has a value; or not, where it is denied.
 
     Examples
     --------
@@ -58,9 +62,11 @@ class Statement:
     label: str | None = None
     feature: str | None = None
     value: str | None = None
+    denied: bool = False
 
     def __str__(self) -> str:
-        return f"class={self.label}" if self.label else f"{self.feature}={self.value}"
+        equals = "!=" if self.denied else "="
+        return f"class={self.label}" if self.label else f"{self.feature}{equals}{self.value}"
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ _AS_THEY_ARE = {
     "had", "having", "will", "would", "can", "could", "may", "might", "must", "shall", "should",
     "this", "these", "that", "those", "it", "its", "his", "her", "i", "you", "we", "one", "ones",
     "no", "not", "nor", "none", "nothing", "as", "us", "left", "people", "sure", "mostly",
+    "leaving",
 }  # fmt: skip
 _IRREGULAR = {
     "leant": "lean", "stood": "stand", "fell": "fall", "fallen": "fall", "gave": "give",
@@ -28,7 +29,8 @@ _IRREGULAR = {
     "broke": "break", "broken": "break", "meant": "mean", "kept": "keep", "held": "hold",
     "grew": "grow", "grown": "grow", "hid": "hide", "hidden": "hide", "began": "begin",
     "became": "become", "came": "come", "went": "go", "gone": "go", "goes": "go", "does": "do",
-    "has": "have", "led": "lead", "brought": "bring", "felt": "feel", "lost": "lose", "chose": "choose",
+    "has": "have", "led": "lead", "brought": "bring", "felt": "feel", "lost": "lose",
+    "chose": "choose",
     "chosen": "choose", "drew": "draw", "drawn": "draw", "written": "write", "wrote": "write",
     "worn": "wear", "wore": "wear", "sat": "sit", "lay": "lie", "lain": "lie", "lying": "lie",
     "torn": "tear", "persons": "person", "children": "child", "feet": "foot", "men": "man",

@@ -113,6 +113,8 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
                 modifier, noun = rest or words
                 found["class_noun"].add((noun,), Binding("label", key))
                 found["class_modifier"].add((modifier,), Binding("label", key))
+            if not scene_class.verbs and len(words) == 1 and subject[-1] not in words:
+                found["does_class"].add(words, Binding("label", key))  # "why does it win?"
         for verb in scene_class.verbs:
             found["does_class"].add(normalise(verb), Binding("label", key))
     for feature in domain.features.values():

@@ -14,6 +14,7 @@ from seewhy.domain.domain import Domain
 
 __all__ = [
     "anybody",
+    "because",
     "change",
     "choice",
     "contrast",
@@ -21,6 +22,7 @@ __all__ = [
     "difference",
     "grouped",
     "joined",
+    "matters",
     "neither",
     "of_static",
     "persons",
@@ -31,6 +33,7 @@ __all__ = [
     "sure",
     "told",
     "value",
+    "when",
     "where",
     "whether_or_not",
     "why",
@@ -133,9 +136,7 @@ def supposing(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questio
             continue  # "worn instead of stripped" says which value
         if clause.denied or clause.forward:
             opposite = _turned(domain, clause)
-            if opposite == statement:
-                return
-            statement = opposite
+            statement = replace(statement, denied=True) if opposite == statement else opposite
         parts.append(statement)
     if parts and len({part.feature for part in parts}) == len(parts):
         yield _question(Asks.WHAT_IF, statements=tuple(parts))
@@ -159,6 +160,38 @@ def change(
             return
         label = others[0]
     yield _question(Asks.CHANGE_TO_CLASS, label=label)
+
+
+def when(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
+    """By which rules something is of a class."""
+    for spoken in all_said(bindings)[:1]:
+        if spoken.statement.label is not None and not spoken.denied:
+            yield _question(Asks.WHEN_CLASS, label=spoken.statement.label)
+
+
+def matters(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
+    """Whether a feature has to do with the class."""
+    said = [spoken.statement.feature for spoken in all_said(bindings)]
+    features = set(filter(None, (*said, *roles(bindings, "feature"))))
+    if len(features) == 1 and None not in said:
+        yield _question(Asks.MATTERS, feature=features.pop())
+
+
+def because(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
+    """Whether it is of its class because of something."""
+    said = all_said(bindings)
+    labels = [spoken for spoken in said if spoken.statement.label is not None]
+    causes = [spoken for spoken in said if spoken.statement.feature is not None]
+    features = roles(bindings, "feature") if not causes else []
+    if len(labels) > 1 or any(label.denied for label in labels) or len(causes) + len(features) != 1:
+        return
+    cause = Statement(feature=features[0]) if features else causes[0].statement
+    if causes and causes[0].denied:
+        cause = _turned(domain, causes[0])
+        if cause == causes[0].statement:
+            return
+    label = labels[0].statement.label if labels else None
+    yield _question(Asks.BECAUSE, label=label, feature=cause.feature, value=cause.value)
 
 
 def difference(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from seewhy.dialogue.answer import SLOTS, answer_templates
+from seewhy.dialogue.antecedent import say_values, supposed_values
 from seewhy.dialogue.certainty import (
     Certainty,
     Ground,
@@ -14,7 +15,6 @@ from seewhy.dialogue.certainty import (
     weakest,
 )
 from seewhy.dialogue.reply import Reply
-from seewhy.dialogue.supposition import say_values, supposed_values
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.domain.wording import join_words, say_features, sentence

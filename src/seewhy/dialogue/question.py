@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from seewhy.dialogue.asked import Asks, Query, Question
-from seewhy.dialogue.asking_back import Suggestions
-from seewhy.dialogue.following_up import completed
+from seewhy.dialogue.clarification import Suggestions
+from seewhy.dialogue.ellipsis import completed
 from seewhy.dialogue.grammar_file import around_phrases, aside_phrases, grammar_words
 from seewhy.dialogue.inflection import ARTICLES, forbidden
 from seewhy.dialogue.lexicon import NUMBERS
@@ -220,6 +220,7 @@ class Questions:
             problem = f"'{' '.join(text.split())}' has no word in the vocabulary's alphabet"
         if problem is not None:
             examples = tuple(f"{question.text}?" for question in self.one_of_each()[:3])
+            examples = examples or self._suggestions.nearest("what")
             raise QuestionError(f"{problem}; {_suggest(examples)}", nearest=examples)
 
 

@@ -142,6 +142,7 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
         ("which_rule", _plain(Asks.WHICH_RULE)),
         ("to_check", _plain(Asks.WHAT_TO_CHECK)),
         ("similar", _plain(Asks.SIMILAR)),
+        ("more", _plain(Asks.MORE)),
     ),
     (
         ("what_told", meaning.told),
@@ -152,8 +153,11 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
         ("how_many_of_them", _grouped(Asks.HOW_MANY)),
         ("which_of_them", _grouped(Asks.WHICH)),
         ("how_many_there", meaning.value),
+        ("matters", meaning.matters),
+        ("because_of", meaning.because),
     ),
     (
+        ("when_class", meaning.when),
         ("what_change", meaning.change),
         ("what_change_away", lambda domain, bindings: meaning.change(domain, bindings, away=True)),
         ("difference", meaning.difference),

@@ -7,8 +7,8 @@ from functools import lru_cache
 
 from seewhy.dialogue.answer import AnswerType
 from seewhy.dialogue.belief import ToldClass, believed_values, with_basis
+from seewhy.dialogue.class_changes import Ways
 from seewhy.dialogue.question import Asks, Question
-from seewhy.dialogue.ways import Ways
 from seewhy.domain.domain import Domain
 from seewhy.domain.wording import join_words, say_literal, say_open
 from seewhy.knowledge.axiom import Literal

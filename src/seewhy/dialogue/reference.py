@@ -15,9 +15,9 @@ from itertools import combinations
 import numpy as np
 
 from seewhy.dialogue.answer import AnswerType
+from seewhy.dialogue.class_changes import difference
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reasoned import ReasonedAnswers
-from seewhy.dialogue.ways import difference
 from seewhy.domain.domain import Domain
 from seewhy.knowledge.scene import FeatureVector
 

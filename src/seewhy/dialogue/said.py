@@ -31,8 +31,8 @@ _STATEMENTS = (
     "goal", "avoided", "one_value", "first_existing", "existing_too", "deny_one", "deny_other",
     "pair_rest", "lacking", "pair_two", "fragment_named", "possessed", "dispossessed",
     "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class", "supposed_object",
-    "no_object", "half", "inverted",
-    "footing", "existing_absent", "avoided_form", "because_told", "goal_verb",
+    "no_object", "half", "inverted", "footing", "existing_absent", "avoided_form", "because_told",
+    "goal_verb", "cause", "concluded", "matter_of", "matter_clause", "because_so",
 )  # fmt: skip
 
 

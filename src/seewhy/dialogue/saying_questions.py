@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from seewhy.dialogue.antecedent import say_denied
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.domain.domain import Domain
 from seewhy.domain.wording import join_words, say_literal
@@ -16,6 +19,7 @@ PLAIN_WORDINGS = {
     Asks.SIMILAR: "are there similar pictures",
     Asks.HOW_SURE: "how sure are you",
     Asks.DESCRIBE: "what do you see",
+    Asks.MORE: "what else",
 }
 """How questions are worded that name nothing."""
 
@@ -52,6 +56,19 @@ def say_question(domain: Domain, question: Question) -> str:
             return f"why do you not say that {_clause(domain, about)}"
         case Asks.CHANGE_TO_CLASS:
             return f"what would make {domain.subject} {domain.classes[question.label or ''].say}"
+        case Asks.WHEN_CLASS:
+            return f"when is {domain.subject} {domain.classes[question.label or ''].say}"
+        case Asks.MATTERS:
+            return f"does the {domain.features[question.feature or ''].name} matter"
+        case Asks.BECAUSE:
+            label, feature = question.label, domain.features[question.feature or ""]
+            is_it = f"{domain.subject} {domain.classes[label].say}" if label else "it"
+            cause = (
+                f"of the {feature.name}"
+                if question.value is None
+                else _clause(domain, replace(about, label=None))
+            )
+            return f"is {is_it} because {cause}"
         case Asks.DIFFERENCE_TO_CLASS:
             other = domain.classes[question.label or ""].say
             return f"how does {domain.subject} differ from one that is {other}"
@@ -94,6 +111,8 @@ def _clause(domain: Domain, statement: Statement) -> str:
     if statement.label is not None:
         return f"{domain.subject} is {domain.classes[statement.label].say}"
     feature = domain.features[statement.feature or ""]
+    if statement.denied:
+        return say_denied(domain, feature.key, statement.value or "")
     return feature.say[statement.value or ""].replace("{it}", domain.subject)
 
 

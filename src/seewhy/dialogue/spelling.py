@@ -58,6 +58,10 @@ class Spelling:
         for chosen in islice(product(*spellings), _MOST_READINGS):
             yield " ".join(chosen)
 
+    def knows(self, word: str) -> bool:
+        """Whether a word, or an inflection of it, is in the vocabulary."""
+        return word in self._known or lemma(word) in self._lemmas
+
     def _spellings(self, word: str) -> list[str]:
         if len(word) < 3 or word in self._known or lemma(word) in self._lemmas:
             return [word]

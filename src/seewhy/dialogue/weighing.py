@@ -4,25 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import islice, product
 
 from seewhy.dialogue.answer import AnswerType
+from seewhy.dialogue.antecedent import say_denied, say_values, supposed_values
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.certainty import SURE_FROM, Ground, least_sure
+from seewhy.dialogue.reason_answers import say_axiom
 from seewhy.dialogue.reasoned import ReasonedAnswers
 from seewhy.dialogue.reply import Classification, Reply
-from seewhy.dialogue.supposition import say_values, supposed_values
 from seewhy.dialogue.told import Told
-from seewhy.dialogue.tree_says import tree_says
+from seewhy.dialogue.tree_reason import tree_says
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.domain.wording import join_words, say_features, sentence
 from seewhy.induction.sentence import say_path
 from seewhy.induction.tree import DecisionTree
-from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.scene import FeatureVector
 
 __all__ = ["Weighing"]
+
+_MOST_SUPPOSED = 256
+_MOST_OUTCOMES = 3
 
 
 @dataclass(frozen=True)
@@ -49,7 +53,9 @@ class Weighing:
         """Answer a question that weighs; ``why`` is the justification of the scene's class."""
         match question.asks:
             case Asks.WHAT_IF:
-                return self._what_if(scene, question.statements)
+                denied = any(statement.denied for statement in question.statements)
+                what_if = self._what_if_not if denied else self._what_if
+                return what_if(scene, question.statements)
             case Asks.CONTRAST:
                 return self._contrast(scene, *question.statements, why=why)
             case Asks.WHICH_RULE:
@@ -59,7 +65,7 @@ class Weighing:
             case _:
                 return self._to_check(scene, why=why)
 
-    def _decided(self, vector: FeatureVector) -> tuple[str | None, Node]:
+    def decided(self, vector: FeatureVector) -> tuple[str | None, Node]:
         """The class of a scene, and why."""
         label = self.reasoned.reasoner.decide(vector).label
         if label is not None:
@@ -76,7 +82,7 @@ class Weighing:
         changes = {other.feature or "": other.value or "" for other in supposed}
         already = all(values[key] == value for key, value in changes.items())
         vector = domain.vector({**values, **changes})
-        label, node = self._decided(vector)
+        label, node = self.decided(vector)
         ordered = [key for key in domain.features if key in changes]
         condition = say_values(domain, changes)
         kind = AnswerType("what_if", tuple(ordered), (tuple(changes.items()),))
@@ -95,6 +101,44 @@ class Weighing:
         if because:
             text += f", since {because}"
         return Told(kind, sentence(text), node, _least_of(scene, [*reasons], but=changes))
+
+    def _what_if_not(self, scene: Classification, supposed: Sequence[Statement]) -> Told:
+        """The class if a feature had any value but one: what all others come to, or each."""
+        domain = self.domain
+        values = domain.named(scene.vector)
+        given = {other.feature or "": other.value or "" for other in supposed if not other.denied}
+        denied = {other.feature or "": other.value or "" for other in supposed if other.denied}
+        choices = [
+            [(key, value) for value in domain.features[key].values if value != but]
+            for key, but in denied.items()
+        ]
+        found: dict[str | None, list[tuple[dict[str, str], Node]]] = {}
+        for chosen in islice(product(*choices), _MOST_SUPPOSED):
+            label, node = self.decided(domain.vector({**values, **given, **dict(chosen)}))
+            found.setdefault(label, []).append((dict(chosen), node))
+        label, ((instead, node), *_) = next(iter(found.items()))
+        changes = {**given, **instead}
+        kind = AnswerType("what_if", tuple(changes), (tuple(changes.items()),))
+        clauses = [say_values(domain, given)] if given else []
+        clauses += [
+            say_denied(domain, key, value, given=bool(given)) for key, value in denied.items()
+        ]
+        begun = f"if {join_words(clauses)}"
+        if len(found) == 1:
+            still = "still " if label == scene.label else ""
+            is_it = (
+                "I cannot tell what it is"
+                if label is None
+                else (f"it is {still}{domain.classes[label].say}")
+            )
+            return Told(kind, sentence(f"{begun}, {is_it}"), node)
+        told = []
+        for other, ((chosen_values, _), *_) in found.items():
+            then = "I cannot tell" if other is None else f"it is {domain.classes[other].say}"
+            told.append(f"{then}, for instance, if {say_values(domain, chosen_values)}")
+        more = "; it may be others" if len(told) > _MOST_OUTCOMES else ""
+        text = f"{begun}, it depends: {'; '.join(told[:_MOST_OUTCOMES])}{more}"
+        return Told(kind, sentence(text), node)
 
     def _contrast(
         self, scene: Classification, first: Statement, other: Statement, *, why: Node
@@ -170,7 +214,7 @@ class Weighing:
         axioms = dict.fromkeys(
             node.axiom for node in why.walk() if node.axiom is not None and node.holds
         )
-        said = [_say_axiom(axiom) for axiom in axioms if axiom.body]
+        said = [say_axiom(axiom) for axiom in axioms if axiom.body]
         if not said:
             return Told(kind, sentence(f"none: {why.text}"), why)
         return Told(kind, sentence(f"by {join_words(said)}"), why)
@@ -200,7 +244,10 @@ class Weighing:
                 return Told(told, sentence(f"{begun}; {beside}"), node, ground)
         else:
             ground, node = least_sure(AnswerType("class"), scene, why), why
-        return Told(AnswerType("how_sure"), sentence(self._say_sure(scene, ground)), node, ground)
+        said = self._say_sure(scene, ground)
+        if scene.told and scene.label is not None:
+            said = "; ".join([said, *_unsaid(node)])
+        return Told(AnswerType("how_sure"), sentence(said), node, ground)
 
     def _say_sure(self, scene: Classification, ground: Ground | None) -> str:
         if scene.label is None:
@@ -241,7 +288,7 @@ class Weighing:
             for value in domain.features[key].values:
                 if value == values[key]:
                     continue
-                label, _ = self._decided(domain.vector({**values, key: value}))
+                label, _ = self.decided(domain.vector({**values, key: value}))
                 if label is None or label == scene.label:
                     continue
                 text = f"check the {domain.features[key].name} first"
@@ -262,9 +309,10 @@ class Weighing:
         return Told(kind, sentence(text), why)
 
 
-def _say_axiom(axiom: Axiom) -> str:
-    file = axiom.location.file.replace("\\", "/").rsplit("/", 1)[-1]
-    return f'the rule "{axiom.text}" ({file}:{axiom.location.line})'
+def _unsaid(node: Node) -> list[str]:
+    """What a conclusion from told values rests on as well: that nothing says something."""
+    absent = (step.text.removeprefix("supposing that ") for step in node.walk() if step.holds)
+    return list(dict.fromkeys(text for text in absent if text.startswith("nothing says that ")))
 
 
 def _least_of(

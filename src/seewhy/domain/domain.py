@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
@@ -16,11 +17,13 @@ from seewhy.domain.question_tables import QuestionsFile
 from seewhy.domain.reading_rule import ReadingRule
 from seewhy.domain.scene_class import SceneClass, check_literals, class_of_table
 from seewhy.domain.tables import EMBEDDED, NONE, DomainFile, NetworkTable, PictureTable
+from seewhy.domain.things import Things, read_things
 from seewhy.errors import DomainError
 from seewhy.files.toml_file import read_toml
 from seewhy.knowledge.consistency import check_consistency
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
+from seewhy.knowledge.things import schema_with_things
 from seewhy.text.nearest import did_you_mean
 
 __all__ = ["Domain", "load_domain"]
@@ -57,6 +60,9 @@ class Domain:
         The share of pictures like those of training that is answered, see
         :mod:`seewhy.perception.conformal_threshold`; 1 answers every picture, None leaves it to
         what sees.
+    things : Things or None
+        The things of which a picture may show several. A domain with things may be without
+        features and classes of the whole picture.
 
     Examples
     --------
@@ -83,16 +89,23 @@ class Domain:
     eyes: str | None = None
     reading: ReadingRule | None = None
     known_share: float | None = None
+    things: Things | None = None
 
-    @property
+    @cached_property
     def schema(self) -> SceneSchema:
-        """How feature vectors and classes stand in the knowledge."""
-        return SceneSchema(
+        """How feature vectors and classes stand in the knowledge.
+
+        Where there are things, what is seen of each stands behind the features of the picture.
+        """
+        schema = SceneSchema(
             scene=self.scene,
             features={key: feature.literals for key, feature in self.features.items()},
             classes={key: scene_class.literal for key, scene_class in self.classes.items()},
             change_costs={key: feature.change_cost for key, feature in self.features.items()},
         )
+        if self.things is None:
+            return schema
+        return schema_with_things(schema, self.knowledge.signature, self.things.seen)
 
     def eyes_after(self, drawn: int) -> str:
         """Return what sees, where training begins with so many drawings.
@@ -111,12 +124,16 @@ class Domain:
         return NONE if drawn else EMBEDDED
 
     def vector(self, values: Mapping[str, str | None]) -> FeatureVector:
-        """Return the feature vector of named values; features left out are unknown."""
-        return tuple(values.get(key) for key in self.features)
+        """Return the feature vector of named values; features left out are unknown.
+
+        Things are named as in the schema: ``thing(thing1)`` is "yes" where there is one, and
+        those left out are not there.
+        """
+        return self.schema.vector(values)
 
     def named(self, vector: FeatureVector) -> dict[str, str | None]:
-        """Return feature name → value for a feature vector."""
-        return dict(zip(self.features, vector, strict=True))
+        """Return feature name → value for a feature vector, as far as the picture as a whole."""
+        return dict(zip(self.features, vector[: len(self.features)], strict=True))
 
 
 def load_domain(name: str | Path) -> Domain:
@@ -145,7 +162,11 @@ def load_domain(name: str | Path) -> Domain:
     questions = read_toml(folder / "questions.toml", QuestionsFile)
     place = KeyPlace(path)
     _check_source(table, place)
+    _check_parts(table, place)
     _check_scene(table, knowledge, place)
+    things = None if table.things is None else read_things(table.things, knowledge, place)
+    if things is not None:
+        knowledge = knowledge.with_things(things.most)
     features = {
         key: feature_of_table(key, feature_table, table, knowledge, place)
         for key, feature_table in table.features.items()
@@ -174,6 +195,7 @@ def load_domain(name: str | Path) -> Domain:
         eyes=table.domain.eyes,
         reading=table.domain.reading,
         known_share=table.domain.known_share,
+        things=things,
     )
     check_consistency(knowledge, domain.schema)
     return domain
@@ -190,6 +212,13 @@ def _check_source(table: DomainFile, place: KeyPlace) -> None:
             f"{place.at('domain', 'source')}: source = '{source}' must be a file of this folder, "
             'such as "pictures.py": what lies elsewhere is not run'
         )
+
+
+def _check_parts(table: DomainFile, place: KeyPlace) -> None:
+    """Refuse a domain without features or classes, where there are no things."""
+    for name, part in (("features", table.features), ("classes", table.classes)):
+        if not part and table.things is None:
+            raise DomainError(f"{place.at(name)}: '{name}' is missing; add it")
 
 
 def _check_shared_words(
@@ -229,7 +258,12 @@ def _check_scene(table: DomainFile, knowledge: Knowledge, place: KeyPlace) -> No
             f"members ('#sort {scene}.'), see {sorts[scene].location}"
         )
     for sort in sorts.values():
-        if sort.members is None and sort.name != scene:
+        if sort.of_things and table.things is None:
+            raise DomainError(
+                f"{sort.location}: the sort '{sort.name}' stands for things, of which domain.toml "
+                f'says nothing; add [things] with sort = "{sort.name}"'
+            )
+        if sort.members is None and sort.name != scene and not sort.of_things:
             raise DomainError(
                 f"{sort.location}: sort '{sort.name}' has no members; only '{scene}', which "
                 "stands for the picture, may be without"

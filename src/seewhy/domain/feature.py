@@ -12,6 +12,7 @@ from seewhy.errors import DomainError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Predicate
+from seewhy.knowledge.things import literals_about
 from seewhy.text.nearest import did_you_mean
 
 
@@ -46,7 +47,7 @@ def feature_of_table(
         If its name is taken, or knowledge.al declares it or its values otherwise.
     """
     predicate = _declared(key, file, knowledge, place)
-    literals = _literals(predicate, file.domain.scene, knowledge)
+    literals = literals_about(predicate, (file.domain.scene,), knowledge.signature)
     _check_values(key, table, literals, place)
     tables = {value: table.values[value] for value in literals}
     return Feature(
@@ -109,20 +110,6 @@ def _declared(key: str, file: DomainFile, knowledge: Knowledge, place: KeyPlace)
             f"({predicate.location})"
         )
     return predicate
-
-
-def _literals(predicate: Predicate, scene: str, knowledge: Knowledge) -> dict[str, Literal]:
-    """The literal of every value of a feature."""
-    key = predicate.name
-    if len(predicate.sorts) == 1:
-        return {
-            "yes": Literal(predicate=key, arguments=(scene,)),
-            "no": Literal(predicate=key, arguments=(scene,), positive=False),
-        }
-    return {
-        value: Literal(predicate=key, arguments=(scene, value))
-        for value in knowledge.signature.members(predicate.sorts[1])
-    }
 
 
 def _check_values(

@@ -52,7 +52,7 @@ class QuestionsFile(StrictTable):
         "lists the forms.",
     )
     question: tuple[QuestionTable, ...] = Field(
-        min_length=1,
+        default=(),
         max_length=2000,
-        description="One table a thing that can be asked.",
+        description="One table a thing that can be asked; none where the grammar says it all.",
     )

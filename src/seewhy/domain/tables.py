@@ -9,6 +9,7 @@ from pydantic import Field
 
 from seewhy.domain.reading_rule import ReadingRule
 from seewhy.domain.table_texts import BeliefClause, Clause, Key, Label, StrictTable, Word
+from seewhy.domain.thing_tables import ThingsTable
 
 EMBEDDED = "efficientnet-lite0"
 """The backbone that comes with SeeWhy."""
@@ -343,14 +344,23 @@ class DomainFile(StrictTable):
         '(`eyes = "none"`), and how they are trained.',
     )
     features: dict[Key, FeatureTable] = Field(
+        default={},
         min_length=1,
         max_length=500,
-        description="One table a feature, which knowledge.al declares as a static of the picture.",
+        description="One table a feature, which knowledge.al declares as a static of the picture; "
+        "only a domain with [things] may be without.",
     )
     classes: dict[Key, ClassTable] = Field(
+        default={},
         min_length=2,
         max_length=2000,
-        description="One table a class, of which every picture shows one.",
+        description="One table a class, of which every picture shows one; only a domain with "
+        "[things] may be without.",
+    )
+    things: ThingsTable | None = Field(
+        default=None,
+        description="The things of which a picture may show several: how they are called, what "
+        "is seen of each, what may hold between two.",
     )
     beliefs: dict[str, BeliefTable] = Field(
         default={},

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from seewhy.domain.belief import Belief
 from seewhy.domain.domain import Domain
+from seewhy.domain.thing_wording import say_of_things, say_thing
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.text.predicate_words import named_clause
@@ -19,8 +21,12 @@ _VERB_AND_VALUE = re.compile(r"\{it\} ([\w ]+) \{value\}")
 _PART_OF_IT = re.compile(r"^the ([^{}]+) of \{it\} ")
 
 
-def say_literal(domain: Domain, literal: Literal) -> str:
+def say_literal(
+    domain: Domain, literal: Literal, *, names: Mapping[str, str] = MappingProxyType({})
+) -> str:
     """Return a literal as a clause.
+
+    ``names`` says how things are called; those left out are called by their numbers.
 
     Examples
     --------
@@ -45,14 +51,21 @@ def say_literal(domain: Domain, literal: Literal) -> str:
     belief = domain.beliefs.get(literal.predicate)
     if belief is not None and literal.arguments[0] == domain.scene:
         return _say_belief(domain, belief, literal)
-    about = [
-        domain.subject if argument == domain.scene else argument.strip('"').replace("_", " ")
-        for argument in literal.arguments
-    ]
+    if (of_things := say_of_things(domain, literal, names)) is not None:
+        return of_things
+    about = [_say_argument(domain, argument, names) for argument in literal.arguments]
     if len(about) < _FROM_SO_MANY_LISTED:
         return named_clause(literal.predicate, len(about))[not literal.positive].format(*about)
     said = f"{literal.predicate.replace('_', ' ')} ({', '.join(about)})"
     return said if literal.positive else f"not: {said}"
+
+
+def _say_argument(domain: Domain, argument: str, names: Mapping[str, str]) -> str:
+    if argument == domain.scene:
+        return domain.subject
+    if domain.things is not None:
+        return say_thing(domain, argument, names)
+    return argument.strip('"').replace("_", " ")
 
 
 def say_open(domain: Domain, belief: Belief) -> str:

@@ -16,7 +16,7 @@ from seewhy.agent.training_pictures import require_same_domain
 from seewhy.evaluation.other_knowledge import with_axioms
 from seewhy.evaluation.redeciding import classes_of
 from seewhy.evaluation.share import Share
-from seewhy.induction.learning import DEFAULTS, LearningOptions
+from seewhy.induction.axiom_learning import DEFAULTS, LearningOptions
 from seewhy.knowledge.learned_file import Withdrawn
 
 if TYPE_CHECKING:

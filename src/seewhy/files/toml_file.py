@@ -6,6 +6,7 @@ import re
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
+from types import NoneType
 from typing import TypeVar
 
 from pydantic import BaseModel, ValidationError
@@ -154,6 +155,13 @@ def _explain(kind: str, message: str, got: object, keys: list[str], schema: type
     return f"'{where}': {message[0].lower()}{message[1:]}"
 
 
+def _of_given(annotation: object) -> object:
+    """The type of a field where it is given: that of one which may be None without it."""
+    choices = getattr(annotation, "__args__", ())
+    given = [choice for choice in choices if choice is not NoneType]
+    return given[0] if len(given) == 1 < len(choices) else annotation
+
+
 def _fields_beside(schema: type[BaseModel], keys: Sequence[str]) -> list[str]:
     """The names that the schema knows in the table that ``keys`` leads to."""
     current: object = schema
@@ -163,7 +171,7 @@ def _fields_beside(schema: type[BaseModel], keys: Sequence[str]) -> list[str]:
                 (field for n, field in current.model_fields.items() if key in (n, field.alias)),
                 None,
             )
-            current = field.annotation if field else None
+            current = _of_given(field.annotation) if field else None
         else:
             arguments = getattr(current, "__args__", ())
             current = arguments[-1] if arguments and arguments[-1] is not Ellipsis else None

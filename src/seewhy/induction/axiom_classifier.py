@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 from sklearn.utils.validation import check_is_fitted
 
-from seewhy.induction.feature_classifier import FeatureClassifier
-from seewhy.induction.learning import (
+from seewhy.induction.axiom_learning import (
     Judgement,
     LearningOptions,
     decide_by_candidates,
     learn_axioms,
 )
+from seewhy.induction.feature_classifier import FeatureClassifier
 from seewhy.induction.rule_table import rules_of_judgements
 from seewhy.induction.tree import DecisionTree
 from seewhy.knowledge.scene import FeatureVector
@@ -53,7 +53,7 @@ class AxiomClassifier(FeatureClassifier):
 
     See Also
     --------
-    seewhy.induction.learning.learn_axioms : how they are learned.
+    seewhy.induction.axiom_learning.learn_axioms : how they are learned.
 
     Examples
     --------

@@ -29,7 +29,7 @@ def explained_candidates(
     left : ndarray of int, shape (rows, classes)
         The scenes that the knowledge left open or got wrong.
     tolerance : float
-        See :class:`~seewhy.induction.learning.LearningOptions`.
+        See :class:`~seewhy.induction.axiom_learning.LearningOptions`.
 
     Returns
     -------

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from seewhy.domain.domain import Domain
-    from seewhy.induction.learning import Judgement
+    from seewhy.induction.axiom_learning import Judgement
 
 __all__ = ["COLUMNS", "rules_of_axioms", "rules_of_judgements", "rules_of_tree"]
 
@@ -56,15 +56,7 @@ def rules_of_tree(tree: DecisionTree, domain: Domain | None = None) -> pd.DataFr
     """
     paths = tree.paths()
     return _table(
-        {
-            "rule": _rule(path),
-            "sentence": say_path(domain, path) if domain else _plain(path),
-            "kind": _TREE,
-            "concludes": path.label,
-            "origin": "tree",
-            "support": path.support,
-            "precision": path.precision,
-        }
+        _row(path, kind=_TREE, origin="tree", said=say_path(domain, path) if domain else None)
         for path in paths
     )
 
@@ -115,18 +107,19 @@ def rules_of_judgements(judgements: Iterable[Judgement]) -> pd.DataFrame:
         )
         for judgement in judgements
     ]
-    return _table(
-        {
-            "rule": _rule(path),
-            "sentence": _plain(path),
-            "kind": _AXIOM,
-            "concludes": path.label,
-            "origin": "learned",
-            "support": path.support,
-            "precision": path.precision,
-        }
-        for path in paths
-    )
+    return _table(_row(path, kind=_AXIOM, origin="learned") for path in paths)
+
+
+def _row(path: TreePath, *, kind: str, origin: str, said: str | None = None) -> dict[str, object]:
+    return {
+        "rule": _rule(path),
+        "sentence": _plain(path) if said is None else said,
+        "kind": kind,
+        "concludes": path.label,
+        "origin": origin,
+        "support": path.support,
+        "precision": path.precision,
+    }
 
 
 def _table(rows: Iterable[dict[str, object]]) -> pd.DataFrame:

@@ -12,6 +12,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import clingo
+import numpy as np
+from numpy.typing import NDArray
 
 from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.ground import key_of
@@ -92,27 +94,34 @@ class Batch:
         true = dict.fromkeys(self._never | self._given, 0)
         true[0] = all_scenes
         for table, values in zip(self._observed, zip(*vectors, strict=True), strict=True):
-            shown: dict[str | None, list[int]] = {}
-            for scene, value in enumerate(values):
-                shown.setdefault(value, []).append(scene)
-            for value, scenes in shown.items():
-                true[table[value]] = sum(1 << scene for scene in scenes)
+            atoms = np.array([table[value] for value in values])
+            for atom in table.values():
+                true[atom] = _number(atoms == atom)
         unsettled = 0
         for layer in self._layers:
             unsettled |= layer.settle(true, all_scenes)
         conflict = 0 if self._conflict is None else true[self._conflict]
-        believed: list[list[str]] = [[] for _ in vectors]
-        for name, atom in self._classes:
-            for scene in _bits(true[atom]):
-                believed[scene].append(name)
-        return [
-            None
-            if unsettled >> scene & 1
-            else Outcome(tuple(believed[scene]), contradictory=bool(conflict >> scene & 1))
-            for scene in range(len(vectors))
-        ]
+        told = [unsettled, conflict, *(true[atom] for _, atom in self._classes)]
+        digits = np.stack([_digits(number, len(vectors)) for number in told], axis=1)
+        # Few outcomes differ, of however many scenes.
+        different, which = np.unique(digits, axis=0, return_inverse=True)
+        outcomes = [self._outcome(row) for row in different.tolist()]
+        return [outcomes[place] for place in which.ravel().tolist()]
+
+    def _outcome(self, told: Sequence[int]) -> Outcome | None:
+        unsettled, conflict, *believed = told
+        if unsettled:
+            return None
+        classes = (name for (name, _), holds in zip(self._classes, believed, strict=True) if holds)
+        return Outcome(tuple(classes), contradictory=bool(conflict))
 
 
-def _bits(number: int) -> list[int]:
-    """The places of the digits of a number that are 1."""
-    return [place for place, digit in enumerate(reversed(bin(number)[2:])) if digit == "1"]
+def _number(digits: NDArray[np.bool_]) -> int:
+    """The whole number of some binary digits, the least first."""
+    return int.from_bytes(np.packbits(digits, bitorder="little").tobytes(), "little")
+
+
+def _digits(number: int, count: int) -> NDArray[np.uint8]:
+    """The binary digits of a whole number, the least first."""
+    data = np.frombuffer(number.to_bytes((count + 7) // 8, "little"), dtype=np.uint8)
+    return np.unpackbits(data, count=count, bitorder="little")

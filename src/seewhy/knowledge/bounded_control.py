@@ -158,9 +158,13 @@ class BoundedControl:
         assumptions: Iterable[tuple[clingo.Symbol, bool] | int] = (),
         *,
         on_model: Callable[[clingo.Model], _Read],
+        last_only: bool = False,
         seconds: float | None = None,
     ) -> list[_Read]:
         """Return what ``on_model`` returns of each model, in the order in which they are found.
+
+        With ``last_only`` it is asked of the last one alone: reading a model takes longer than
+        finding the next, of a hundred on the way to the best one.
 
         Raises
         ------
@@ -172,13 +176,15 @@ class BoundedControl:
             if self.size.instances <= SMALL:
                 self._limit(str(_CONFLICTS))
                 with DeferredInterrupt():
-                    search = self._checked(lambda: self._search(given, on_model, seconds=_SOON))
+                    search = self._checked(
+                        lambda: self._search(given, on_model, last_only=last_only, seconds=_SOON)
+                    )
                 if search.ended or not self._limited(search):
                     return search.found
             self._limit("umax")
             for _ in range(2):
                 search = self._watched(
-                    lambda: self._search(given, on_model),
+                    lambda: self._search(given, on_model, last_only=last_only),
                     seconds=SOLVING_SECONDS if seconds is None else seconds,
                     what="the search for answer sets",
                 )
@@ -193,7 +199,7 @@ class BoundedControl:
 
     def models(self) -> list[list[clingo.Symbol]]:
         """Return what each answer set shows."""
-        return self.solve(on_model=lambda model: list(model.symbols(shown=True)))
+        return self.solve(on_model=_shown)
 
     def last_model(self) -> list[clingo.Symbol] | None:
         """Return what the last model shows: the best one, or what all have in common.
@@ -206,7 +212,7 @@ class BoundedControl:
         >>> [str(symbol) for symbol in control.last_model()]
         ['b']
         """
-        found = self.models()
+        found = self.solve(on_model=_shown, last_only=True)
         return found[-1] if found else None
 
     def _search(
@@ -214,6 +220,7 @@ class BoundedControl:
         assumptions: Sequence[tuple[clingo.Symbol, bool] | int],
         on_model: Callable[[clingo.Model], _Read],
         *,
+        last_only: bool = False,
         seconds: float = math.inf,
     ) -> _Search[_Read]:
         """Search, for a time that is looked at between two models."""
@@ -221,10 +228,13 @@ class BoundedControl:
         found: list[_Read] = []
         with self._control.solve(assumptions, yield_=True) as solving:
             for model in solving:
-                found.append(on_model(model))
+                if not last_only:
+                    found.append(on_model(model))
                 if time.perf_counter() - begun >= seconds:
                     return _Search(found, ended=False, interrupted=False, seconds=seconds)
             result = solving.get()
+            if last_only and (last := solving.last()) is not None:
+                found.append(on_model(last))
         return _Search(
             found,
             ended=bool(result.exhausted),
@@ -334,6 +344,10 @@ def _try_out(
     else:
         return  # done; or no process can be started here, and the clock alone bounds it
     raise ReasoningError(f"{size.largest}; {took}; {_REMEDY}")
+
+
+def _shown(model: clingo.Model) -> list[clingo.Symbol]:
+    return list(model.symbols(shown=True))
 
 
 def _resident() -> int:

@@ -1,19 +1,21 @@
-"""The smallest change of features under which a class is believed."""
+"""The smallest change under which a class, or anything else, is believed."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import clingo
 
+from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.bounded_control import BoundedControl
+from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.occurrence import Occurrence
 from seewhy.knowledge.program import UNKNOWN, program_text
 from seewhy.knowledge.reasoner import Reasoner
-from seewhy.knowledge.scene import FeatureVector
+from seewhy.knowledge.scene import FeatureVector, SceneSchema
 from seewhy.knowledge.vector_index import Part
 
 _CAN_OCCUR = "can_occur"
@@ -22,7 +24,10 @@ _EQUALLY_NEAR = 64  # so many are looked at
 
 @dataclass(frozen=True)
 class FeatureChange:
-    """One feature that would have to be different; ``before`` is None where it is unknown."""
+    """One feature that would have to be different; ``before`` is None where it is unknown.
+
+    A thing that would have to be there, or not, is a change of the feature that says so.
+    """
 
     feature: str
     before: str | None
@@ -33,7 +38,8 @@ class FeatureChange:
 class Change:
     """A set of feature changes and the feature vector that results.
 
-    ``cost`` adds up the domain's cost of every changed feature.
+    ``cost`` adds up the domain's cost of every changed feature. What a thing is like that comes
+    in costs nothing beyond that it comes in; it is named as far as it matters.
     """
 
     changes: tuple[FeatureChange, ...]
@@ -72,20 +78,26 @@ class ChangeFinder:
         self.schema = reasoner.schema
         self.occurrence = occurrence
         self._constraints = 0
+        self._literals: dict[str, int] = {}
+        self._goals: dict[str, str] = {}
 
     @cached_property
     def _control(self) -> BoundedControl:
         control = BoundedControl(
             self._program(),
             size=grounding_size(self.reasoner.knowledge),
-            arguments=["--opt-mode=optN", "--project=show"],
+            arguments=["--opt-mode=optN", "--project=show", *_strategy(self.schema)],
         )
         control.configuration.models = _EQUALLY_NEAR
         return control
 
-    @cached_property
-    def _literals(self) -> dict[str, int]:
-        return {str(atom.symbol): atom.literal for atom in self._control.atoms}
+    def _literal(self, atom: str) -> int:
+        """The solver literal of an atom; those that were found once are not looked for again."""
+        if atom not in self._literals:
+            found = self._control.atoms[clingo.parse_term(atom)]
+            assert found is not None, f"the program has no {atom}"
+            self._literals[atom] = found.literal
+        return self._literals[atom]
 
     def _program(self) -> str:
         schema = self.schema
@@ -93,30 +105,36 @@ class ChangeFinder:
         for feature, values in schema.features.items():
             choices = "; ".join(f"current({feature}, {value})" for value in (*values, UNKNOWN))
             cost = schema.change_costs.get(feature, 1)
+            presences = schema.requires.get(feature, ())
+            stays = "".join(f", not moves({presence})" for presence in presences)
             lines += [
                 f"1 {{ {choices} }} 1.",
-                f"changed({feature}, {cost}) :- current({feature}, V), not observed({feature}, V).",
-                f":- observed({feature}, {UNKNOWN}), not current({feature}, {UNKNOWN}).",
+                f"changed({feature}, {cost}) :- current({feature}, V), not observed({feature}, V)"
+                f"{stays}.",
+                f":- observed({feature}, {UNKNOWN}), not current({feature}, {UNKNOWN}){stays}.",
+            ]
+            lines += [
+                f"named({feature}) :- moves({presence}), not observed({feature}, {UNKNOWN})."
+                for presence in presences
             ]
             if all(value.lstrip("-").isdecimal() for value in values):
                 lines.append(
                     f"moved({feature}, |V - W|) :- observed({feature}, V), current({feature}, W), "
                     f"V != {UNKNOWN}, W != {UNKNOWN}."
                 )
+        lines += _coming_and_going(tuple(schema.presence.values()))
         lines.append(f"{{ {_CAN_OCCUR} }}.")
-        goals = "; ".join(f"goal({name})" for name in map(self._goal, schema.classes))
-        lines.append(f"1 {{ {goals} }} 1.")
-        for name, literal in schema.classes.items():
-            lines.append(f":- goal({self._goal(name)}), not holds({literal}).")
         lines += [
             "#minimize { C@2, F : changed(F, C) }.",
             "#minimize { D@1, F : moved(F, D) }.",
+            "#minimize { 1@0, F : named(F) }.",
             "#show observed/2.",
         ]
         return "\n".join(lines)
 
-    def _goal(self, label: str) -> str:
-        return f"c{list(self.schema.classes).index(label)}"
+    @cached_property
+    def _presences(self) -> frozenset[str]:
+        return frozenset(self.schema.presence.values())
 
     def smallest(self, vector: FeatureVector, label: str, *, limit: int = 3) -> tuple[Change, ...]:
         """Return the cheapest changes that make ``label`` believed, at most ``limit`` of them.
@@ -129,40 +147,97 @@ class ChangeFinder:
         KeyError
             If there is no such class.
         """
-        if label not in self.schema.classes:
-            raise KeyError(label)
-        if self.reasoner.decide(vector).label == label:
+        literal = self.schema.classes[label]
+        return self._smallest(
+            vector, literal, lambda reached: self.reasoner.decide(reached).label == label, limit
+        )
+
+    def smallest_for(
+        self, vector: FeatureVector, literal: Literal, *, limit: int = 3
+    ) -> tuple[Change, ...]:
+        """Return the cheapest changes that make any literal believed, as :meth:`smallest` does.
+
+        Examples
+        --------
+        >>> from seewhy.domain.domain import load_domain
+        >>> domain = load_domain("structure_stability")
+        >>> finder = ChangeFinder(Reasoner(domain.knowledge, domain.schema))
+        >>> unstable = domain.classes["stable"].literal.complement
+        >>> [c.changes[0].feature for c in finder.smallest_for(domain.vector({}), unstable)]
+        ['block_displaced']
+        """
+        believed = clingo.parse_term(key_of(literal))
+        return self._smallest(
+            vector, literal, lambda reached: believed in self.reasoner.believed(reached), limit
+        )
+
+    def _smallest(
+        self,
+        vector: FeatureVector,
+        literal: Literal,
+        is_reached: Callable[[FeatureVector], bool],
+        limit: int,
+    ) -> tuple[Change, ...]:
+        if is_reached(vector):
             return (Change((), vector, 0),)
+        goal = self._goal(literal)
+        if goal is None:
+            return ()
         found: list[FeatureVector] = []
         if self.occurrence is not None:
-            found = self._nearest(vector, label, self.occurrence)
-        found = found or self._nearest(vector, label, None)
+            found = self._nearest(vector, goal, is_reached, self.occurrence)
+        found = found or self._nearest(vector, goal, is_reached, None)
         changes = (self._change(vector, after) for after in found)
         return tuple(sorted(changes, key=_order)[:limit])
 
+    def _goal(self, literal: Literal) -> str | None:
+        """The atom that stands for that a literal is believed, added to the program once.
+
+        None where no scene has the belief.
+        """
+        key = key_of(literal)
+        if self._control.atoms[clingo.parse_term(f"holds({key})")] is None:
+            return None
+        if key not in self._goals:
+            goal = f"goal({len(self._goals)})"
+            self._control.add(
+                f"goal_{len(self._goals)}", f"{{ {goal} }}. :- {goal}, not holds({key})."
+            )
+            if self._control.atoms[clingo.parse_term(goal)] is None:
+                return None  # no scene has an answer set at all
+            self._goals[key] = goal
+        return self._goals[key]
+
     def _nearest(
-        self, vector: FeatureVector, label: str, occurrence: Occurrence | None
+        self,
+        vector: FeatureVector,
+        goal: str,
+        is_reached: Callable[[FeatureVector], bool],
+        occurrence: Occurrence | None,
     ) -> list[FeatureVector]:
-        """The vectors of least cost that are of a class and, with ``occurrence``, can occur."""
-        can_occur = self._literals[_CAN_OCCUR]
+        """The vectors of least cost that reach a goal and, with ``occurrence``, can occur."""
+        can_occur = self._literal(_CAN_OCCUR)
         current = [
-            self._literals[f"current({feature},{UNKNOWN if value is None else value})"]
+            self._literal(f"current({feature},{UNKNOWN if value is None else value})")
             for feature, value in zip(self.schema.features, vector, strict=True)
         ]
         assumptions = [
             *current,
-            self._literals["strict"],
-            self._literals[f"goal({self._goal(label)})"],
+            self._literal("strict"),
+            *(
+                self._literal(other) if other == goal else -self._literal(other)
+                for other in self._goals.values()
+            ),
             can_occur if occurrence is not None else -can_occur,
         ]
         while candidates := self._cheapest(assumptions):
-            confirmed = [c for c in candidates if self.reasoner.decide(c).label == label]
+            confirmed = [candidate for candidate in candidates if is_reached(candidate)]
             never = {c: occurrence.never_together(c) if occurrence else None for c in confirmed}
             if possible := [reached for reached, parts in never.items() if parts is None]:
                 return possible
             for candidate in candidates:
                 if candidate not in never:
-                    self._rule_out(candidate, label)
+                    self._rule_out(candidate, goal)
             for parts in {parts for parts in never.values() if parts is not None}:
                 self._keep_apart(parts)
         return []
@@ -184,10 +259,10 @@ class ChangeFinder:
         found = self._control.solve(assumptions, on_model=vector)
         return [candidate for candidate in dict.fromkeys(found) if candidate is not None]
 
-    def _rule_out(self, vector: FeatureVector, label: str) -> None:
-        """Forbid a vector that was tried in vain as a way to ``label``, now and later."""
+    def _rule_out(self, vector: FeatureVector, goal: str) -> None:
+        """Forbid a vector that was tried in vain as a way to a goal, now and later."""
         values = [UNKNOWN if value is None else value for value in vector]
-        self._forbid(f"goal({self._goal(label)})", enumerate(values))
+        self._forbid(goal, enumerate(values))
 
     def _keep_apart(self, parts: tuple[Part, ...]) -> None:
         """Forbid values together in what can occur, now and later."""
@@ -207,8 +282,35 @@ class ChangeFinder:
             for feature, old, new in zip(self.schema.features, before, after, strict=True)
             if old != new and new is not None
         )
-        cost = sum(self.schema.change_costs.get(change.feature, 1) for change in changes)
+        moved = {change.feature for change in changes if change.feature in self._presences}
+        cost = sum(
+            self.schema.change_costs.get(change.feature, 1)
+            for change in changes
+            if moved.isdisjoint(self.schema.requires.get(change.feature, ()))
+        )
         return Change(changes=changes, vector=after, cost=cost)
+
+
+def _strategy(schema: SceneSchema) -> tuple[str, ...]:
+    """How clingo minimises: of hundreds of features of things, from below, by what cannot be kept.
+
+    Of a few features of a picture, it is faster from above.
+    """
+    return ("--opt-strategy=usc",) if schema.presence else ()
+
+
+def _coming_and_going(presences: Sequence[str]) -> Iterator[str]:
+    """Yield what tells which things come in or are taken away.
+
+    Of things that are not there, the first comes in first: any other would be another name for it.
+    """
+    for number, presence in enumerate(presences):
+        yield f"moves({presence}) :- current({presence}, V), not observed({presence}, V)."
+        for before in presences[:number]:
+            yield (
+                f":- observed({presence}, yes), not current({presence}, yes), "
+                f"not observed({before}, yes), not current({before}, yes)."
+            )
 
 
 def _order(change: Change) -> tuple[str, ...]:

@@ -14,6 +14,9 @@ from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.possible import Belief
 from seewhy.knowledge.settling import JointCondition
 
+_NOT_THERE = "things that are not there"
+"""What decides all needs that fail because some thing is not there."""
+
 
 def plain_node(condition: Condition, binding: Mapping[str, str]) -> Node | None:
     """Return the node of a comparison that holds; None for a sort, which needs no reason."""
@@ -98,6 +101,8 @@ def failed(evidence: Evidence, need: Belief, node: Node) -> Node:
     if need.holds:
         return replace(node, literal=f"not {node.literal}", holds=False)
     literal = literal_of(need.key)
+    if (nothing := evidence.ruled_out(need.key)) is not None:
+        return replace(nothing, literal=str(literal), holds=False)
     feature = evidence.schema.feature_of(literal)
     if feature is not None and evidence.vector[feature] is None:
         return replace(
@@ -155,6 +160,8 @@ def decided_by(evidence: Evidence, need: Need) -> object:
     """What decides a need: the feature where it is what a picture shows, else the need itself."""
     if not isinstance(need, Belief):
         return need[0].text
+    if not need.holds and evidence.is_ruled_out(need.key):
+        return _NOT_THERE
     literal = literal_of(need.key)
     feature = evidence.schema.feature_of(literal)
     if feature is not None and evidence.seen(literal if need.holds else literal.complement):

@@ -26,11 +26,10 @@ _KINDS = {
     "#action exogenous": PredicateKind.EXOGENOUS_ACTION,
     "#action": PredicateKind.ACTION,
 }
-_THINGS = "things"
-"""What a sort is made of whose members are found in the picture."""
-
 _DIRECTIVES = ("#sort", "#static", "#fluent", "#action")
 _MOST_MEMBERS = 10_000
+_THINGS = "things"
+"""What the members of a sort are that stands for whatever is found in the picture."""
 _WORDS = ("not", "if", "causes")
 _FIRST_WORDS = ("default", "impossible")
 
@@ -104,8 +103,8 @@ def _read_sort(statement: Statement, sorts: Mapping[str, Sort]) -> Sort:
     if match is None:
         raise KnowledgeError(
             f"{statement.location}: a sort is declared as '#sort name.', '#sort name = 1..5.', "
-            f"'#sort name = {{a, b}}.', '#sort name = sort + sort.' or, of what is found in the "
-            f"picture, '#sort name = things.', got '{statement.line}'"
+            f"'#sort name = {{a, b}}.', '#sort name = sort + sort.' or '#sort name = things.', got "
+            f"'{statement.line}'"
         )
     name, definition = match.group(1), (match.group(2) or "").strip()
     members: tuple[str, ...] | None = None

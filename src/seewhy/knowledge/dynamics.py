@@ -9,6 +9,7 @@ once: ``at(T, T)`` and ``at(T, always)`` join the two.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 from clingo import ast
 
@@ -67,7 +68,7 @@ def at_step(
     """
     literal = condition.literal
     if literal is None or not signature.kind(literal.predicate).is_fluent:
-        return [_timed(condition.text, signature, step)]
+        return [_timed(condition.text, step, frozenset(signature.sorts), signature.fluents)]
     if condition.absent:
         return [f"not holds({literal}, {step})", f"not holds({literal}, always)"]
     if not always:
@@ -101,12 +102,7 @@ def untimed_predicates(knowledge: Knowledge) -> frozenset[str]:
         for condition in axiom.body:
             if condition.literal is None:
                 asked |= predicates_in(condition.text)
-    return (
-        frozenset(
-            name for name, predicate in signature.predicates.items() if predicate.kind.is_fluent
-        )
-        - asked
-    )
+    return signature.fluents - asked
 
 
 STEP = "Step__"
@@ -177,18 +173,20 @@ def rule(head: str, body: list[str]) -> str:
     return f"{head}{' :- ' if body else ''}{'; '.join(body)}."
 
 
-def _timed(text: str, signature: Signature, step: str) -> str:
+@lru_cache(maxsize=4096)
+def _timed(text: str, step: str, sorts: frozenset[str], fluents: frozenset[str]) -> str:
     found: list[ast.AST] = []
     ast.parse_string(f":- {text}.", found.append)
-    (element,) = _AtStep(signature, step).visit(found[1]).body
+    (element,) = _AtStep(sorts, fluents, step).visit(found[1]).body
     return str(element)
 
 
 class _AtStep(ast.Transformer):
     """Wraps sorts, statics and fluents; fluents get a step."""
 
-    def __init__(self, signature: Signature, step: str) -> None:
-        self.signature = signature
+    def __init__(self, sorts: frozenset[str], fluents: frozenset[str], step: str) -> None:
+        self.sorts = sorts
+        self.fluents = fluents
         self.step = _term(step)
 
     def visit_SymbolicAtom(self, atom: ast.AST) -> ast.AST:  # noqa: N802
@@ -197,10 +195,10 @@ class _AtStep(ast.Transformer):
         while function.ast_type is ast.ASTType.UnaryOperation:
             function = function.argument
         location = symbol.location
-        if function.name in self.signature.sorts:
+        if function.name in self.sorts:
             arguments = [ast.Function(location, function.name, [], False), *function.arguments]
             wrapped = ast.Function(location, "sort", arguments, False)
-        elif self.signature.kind(function.name).is_fluent:
+        elif function.name in self.fluents:
             wrapped = ast.Function(location, "holds", [symbol, self.step], False)
         else:
             wrapped = ast.Function(location, "holds", [symbol], False)

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator
 from functools import cached_property
 from itertools import chain
 
 import clingo
 
+from seewhy.knowledge.answer_set import AnswerSet
 from seewhy.knowledge.axiom import Axiom, Literal
 from seewhy.knowledge.condition_words import say_condition
 from seewhy.knowledge.foundation import Forced, Foundation, Need, opposite
-from seewhy.knowledge.ground import key_of
+from seewhy.knowledge.ground import key_of, literal_of, text_of
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.possible import Asked, Belief, Instance
-from seewhy.knowledge.reasoner import AnswerSet, Reasoner
+from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
+from seewhy.knowledge.things import things_of
 
 Say = Callable[[Literal], str]
 """How a literal is said in words."""
@@ -51,9 +54,9 @@ class Evidence:
         self.vector = dict(zip(self.schema.features, scene, strict=True))
         self.answer_set = answer_set
         self.say = say
-        self.holds = {str(symbol) for symbol in answer_set.holds}
+        self.holds = set(map(text_of, answer_set.holds))
         shared = answer_set.holds if believed is None else believed
-        self.believed = frozenset(map(str, shared))
+        self.believed = frozenset(map(text_of, shared))
         self.others = others
         self._foundations: dict[Belief, Foundation] = {}
         self._conditions_said: dict[tuple[str, bool], str] = {}
@@ -120,6 +123,67 @@ class Evidence:
         """Whether the picture itself shows something."""
         return self._seen(key) is not None
 
+    def is_ruled_out(self, key: str) -> bool:
+        """Whether something cannot be believed, because a thing that it is about is not there."""
+        return self.ruled_out(key) is not None
+
+    def ruled_out(self, key: str) -> Node | None:
+        """The node that says that the things are not there that a literal is about.
+
+        What is not there has no features, and stands in no relation. The node speaks of all
+        things that are not there at once, so that what fails by one of them is told once.
+        """
+        if self._nothing_else is None:
+            return None
+        arguments = literal_of(key).arguments
+        return self._nothing_else if not self._absent.isdisjoint(arguments) else None
+
+    @cached_property
+    def things(self) -> tuple[str, ...]:
+        """The things that are there, or may be."""
+        return tuple(thing for thing in self.schema.presence if thing not in self._absent)
+
+    @cached_property
+    def _absent(self) -> frozenset[str]:
+        """The things that are not there."""
+        presence = self.schema.presence
+        return frozenset(thing for thing, named in presence.items() if self.vector[named] == "no")
+
+    @cached_property
+    def _nothing_else(self) -> Node | None:
+        return self.absent_things([self.schema.presence[thing] for thing in self._absent])
+
+    def absent_things(self, presences: Collection[str]) -> Node | None:
+        """The node of things that are not there, given the features that say so, if there are any.
+
+        The features of all other things are known to be those of no thing.
+        """
+        ordered = [named for named in self.schema.presence.values() if named in presences]
+        if not ordered:
+            return None
+        sort = literal_of(ordered[0]).predicate.replace("_", " ")
+        every = len(ordered) == len(self.schema.presence)
+        return Node(
+            literal=f"-{ordered[0]}",
+            text=f"there is no {sort}" if every else f"there is no other {sort}",
+            basis=Basis.FEATURE,
+            feature=ordered[0],
+            value="no",
+            beside=tuple(ordered[1:]),
+        )
+
+    def feature_nodes(self, features: Iterable[str]) -> tuple[Node, ...]:
+        """The nodes of features of the scene; things that are not there have one together."""
+        named = list(features)
+        absent = [f for f in named if f in self._presences and self.vector[f] == "no"]
+        nodes = [self.feature_node(feature) for feature in named if feature not in absent]
+        together = self.absent_things(absent)
+        return (*nodes, *([together] if together else []))
+
+    @cached_property
+    def _presences(self) -> frozenset[str]:
+        return frozenset(self.schema.presence.values())
+
     def seen(self, literal: Literal) -> Node | None:
         """The node of a literal that the picture itself shows."""
         shown = self._seen(key_of(literal))
@@ -156,7 +220,7 @@ class Evidence:
         if value is None:
             return Node(
                 feature,
-                f"the {feature.replace('_', ' ')} is not known",
+                f"the {_say_feature(feature)} is not known",
                 Basis.ABSENCE,
                 feature=feature,
             )
@@ -178,7 +242,14 @@ class Evidence:
         """
         if key in self.holds:
             return 3 if self._seen(key) is not None else 1
-        return 2 if self._seen(opposite(key)) is not None else 0
+        return 2 if self._seen(opposite(key)) is not None or self.is_ruled_out(key) else 0
+
+
+def _say_feature(feature: str) -> str:
+    """A feature in words: ``on(block1,block2)`` is the on of block 1 and block 2."""
+    name, things = things_of(feature)
+    of_what = " and ".join(re.sub(r"(\d+)$", r" \1", thing) for thing in things)
+    return f"{name} of {of_what}".replace("_", " ") if things else name.replace("_", " ")
 
 
 def evidence_of(reasoner: Reasoner, vector: FeatureVector, *, say: Say = str) -> Evidence:

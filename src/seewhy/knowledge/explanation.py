@@ -22,14 +22,12 @@ from seewhy.knowledge.condition_nodes import (
 )
 from seewhy.knowledge.counterfactual import Counterfactual
 from seewhy.knowledge.evidence import Evidence
+from seewhy.knowledge.failing import MOST_AXIOMS, Failing, by_axiom, fewest, told_ways
 from seewhy.knowledge.foundation import Foundation, Need, opposite
 from seewhy.knowledge.ground import literal_of
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.possible import Belief, Instance
 from seewhy.knowledge.settling import JointCondition
-
-_MOST_AXIOMS = 16
-"""Of more instances that all fail, so many are told, and those that name further features."""
 
 _TOLD_AGAIN = 24
 """A tree of more nodes is told in full once, and after that by the features that it names."""
@@ -162,7 +160,16 @@ class _Explanation:
                 children.append(self._need(needs[number], condition, place))
             elif (node := plain_node(condition, instance.binding)) is not None:
                 children.append(node)
-        return children
+        return self._without_plain_presence(children)
+
+    def _without_plain_presence(self, children: list[Node]) -> list[Node]:
+        """Nodes without those that say of a thing only that it is there, if others speak of it."""
+        schema = self.evidence.schema
+        if not schema.presence:
+            return children
+        shown = {named for node in children for named in node.features()}
+        known = {other for named in shown for other in schema.requires.get(named, ())}
+        return [node for node in children if node.feature not in known or node.value != "yes"]
 
     def _exception(self, instance: Instance, literal: Literal, place: _Place) -> Node:
         """The node of a default that was given up."""
@@ -237,13 +244,13 @@ class _Explanation:
         """A node that was told before."""
         if sum(1 for _ in islice(node.walk(), _TOLD_AGAIN + 1)) <= _TOLD_AGAIN:
             return node
-        leaves = tuple(map(self.evidence.feature_node, node.features()))
+        leaves = self.evidence.feature_nodes(node.features())
         return replace(node, basis=Basis.TOLD_BEFORE, children=leaves)
 
     def _absence(self, belief: Belief, above: frozenset[Belief], chain: frozenset[Belief]) -> Node:
         evidence, foundation = self.evidence, self.foundation
         literal, against = literal_of(belief.key), opposite(belief.key)
-        seen = evidence.seen(literal_of(against))
+        seen = evidence.seen(literal_of(against)) or evidence.ruled_out(belief.key)
         if seen is not None:
             return replace(seen, literal=f"not {literal}")
         text = f"nothing says that {evidence.say(literal)}"
@@ -270,50 +277,37 @@ class _Explanation:
     def _failing(self, key: str, place: _Place) -> Iterator[Node]:
         """A node for every axiom that could conclude a literal; its children are ways it fails."""
         apart = self.foundation.stages(place.apart)
-        groups: dict[frozenset[object], tuple[Instance, list[tuple[int, Need]]]] = {}
+        groups: dict[frozenset[object], Failing] = {}
         for instance in self.evidence.concluding(key):
             ways = [
                 (number, need)
                 for number, need, holds in self.evidence.needs(instance)
                 if not holds and self.foundation.is_founded(need, apart, place.waits)
             ]
+            ways = told_ways(self.evidence, ways)
             decided = (decided_by(self.evidence, need) for _, need in ways)
             groups.setdefault(frozenset((instance.axiom.identifier, *decided)), (instance, ways))
         told: set[str] = set()
         named: set[str] = set()
-        for number, (instance, ways) in enumerate(_fewest(groups)):
-            node = self._failing_axiom(instance, ways, place)
+        for number, together in enumerate(by_axiom(fewest(groups), self.evidence)):
+            node = self._failing_axiom(together, place)
             features = set(node.features())
-            if node.to_text() not in told and (number < _MOST_AXIOMS or not features <= named):
+            if node.to_text() not in told and (number < MOST_AXIOMS or not features <= named):
                 told.add(node.to_text())
                 named |= features
                 yield node
 
-    def _failing_axiom(
-        self, instance: Instance, ways: Sequence[tuple[int, Need]], place: _Place
-    ) -> Node:
+    def _failing_axiom(self, together: Sequence[Failing], place: _Place) -> Node:
         children: list[Node] = []
-        body = instance.axiom.body
-        for number, need in ways:
-            condition = body[number] if number < len(body) else None
+        axiom = together[0][0].axiom
+        for number, need in chain.from_iterable(ways for _, ways in together):
+            condition = axiom.body[number] if number < len(axiom.body) else None
             node = self._need(need, condition, place)
             if isinstance(need, Belief):
                 node = failed(self.evidence, need, node)
             children.append(node)
-        head = literal_of(instance.head)
-        return axiom_failed(self.evidence, instance.axiom, head, once(children))
-
-
-def _fewest(
-    groups: Mapping[frozenset[object], tuple[Instance, list[tuple[int, Need]]]],
-) -> list[tuple[Instance, list[tuple[int, Need]]]]:
-    """Leave out the instances that fail wherever another fails: what decides that one is enough."""
-    kept: list[frozenset[object]] = []
-    for group in sorted(groups, key=len):
-        if not any(fewer <= group for fewer in kept[: 4 * _MOST_AXIOMS]):
-            kept.append(group)
-    chosen = set(kept)
-    return [found for group, found in groups.items() if group in chosen]
+        head = literal_of(together[0][0].head)
+        return axiom_failed(self.evidence, axiom, head, once(children))
 
 
 @dataclass(frozen=True)

@@ -45,6 +45,9 @@ class Beliefs(Protocol):
     def is_seen(self, key: str) -> bool:
         """Whether the picture itself shows something."""
 
+    def is_ruled_out(self, key: str) -> bool:
+        """Whether the picture shows that something cannot be: a thing of it is not there."""
+
     def firing(self, key: str) -> list[Instance]:
         """The instances that conclude a belief."""
 
@@ -199,7 +202,7 @@ class Foundation:
         )
 
     def _fails(self, absence: Belief, founded: Founded, together: set[Belief]) -> bool:
-        if Belief(opposite(absence.key)) in founded:
+        if Belief(opposite(absence.key)) in founded or self.beliefs.is_ruled_out(absence.key):
             return True
         return all(
             any(self.is_founded(need, founded, together) for need in needs)
@@ -237,6 +240,8 @@ class Foundation:
                     if holds:
                         yield from self._literals_of(need)
         else:
+            if self.beliefs.is_ruled_out(belief.key):
+                return
             against = opposite(belief.key)
             if against in self.beliefs.holds:
                 yield Belief(against)

@@ -36,6 +36,23 @@ def literal_of(key: str) -> Literal:
     )
 
 
+@lru_cache(maxsize=65_536)
+def text_of(symbol: clingo.Symbol) -> str:
+    """A symbol as clingo prints it; of those that come again it is remembered."""
+    return str(symbol)
+
+
+def predicate_of(key: str) -> str:
+    """The predicate of a literal as clingo prints it.
+
+    Examples
+    --------
+    >>> predicate_of("-closed(kitchen)"), predicate_of("raining")
+    ('closed', 'raining')
+    """
+    return key.removeprefix("-").split("(", 1)[0]
+
+
 def complement_of(symbol: clingo.Symbol) -> clingo.Symbol:
     """The same symbol with the opposite classical sign."""
     return clingo.Function(symbol.name, symbol.arguments, not symbol.positive)

@@ -43,9 +43,7 @@ class Rule:
         return scenes
 
 
-def _reached(
-    parts: Sequence[int], weights: Sequence[int], at_least: int, all_scenes: int
-) -> int:
+def _reached(parts: Sequence[int], weights: Sequence[int], at_least: int, all_scenes: int) -> int:
     """The scenes in which weights add up to enough: numbers are added digit by digit."""
     digits = [0] * max(sum(weights).bit_length(), at_least.bit_length())
     for scenes, weight in zip(parts, weights, strict=True):

@@ -14,6 +14,8 @@ from seewhy.knowledge.program import UNKNOWN
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 
 _Read = TypeVar("_Read")
+_NAMED = 20
+"""So many features are named in an error."""
 
 
 class Search(NamedTuple):
@@ -94,9 +96,11 @@ class Grounding:
             tables = self._observed.values()
             return [table[value] for table, value in zip(tables, vector, strict=True)]
         except (KeyError, ValueError):
-            names = ", ".join(self.schema.features)
+            features = list(self.schema.features)
+            more = f" and {len(features) - _NAMED} more" * (len(features) > _NAMED)
+            names = ", ".join(features[:_NAMED]) + more
             raise ValueError(
-                f"{vector!r} is no feature vector: it must give one known value or None "
+                f"{vector[:_NAMED]!r} is no feature vector: it must give one known value or None "
                 f"for each of {names}"
             ) from None
 

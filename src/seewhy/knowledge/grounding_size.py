@@ -76,7 +76,7 @@ def grounding_size(knowledge: Knowledge) -> GroundingSize:
     return _size(
         [
             *(
-                (_instances(predicate, signature), predicate.location, str(predicate))
+                (_instances(predicate, signature), predicate.location, predicate)
                 for predicate in changing
             ),
             *_axioms(knowledge.axioms, signature),
@@ -97,12 +97,12 @@ def axioms_size(axioms: Iterable[Axiom], signature: Signature) -> GroundingSize:
     return _size([*_axioms(axioms, signature)])
 
 
-def _axioms(axioms: Iterable[Axiom], signature: Signature) -> Iterator[tuple[int, Location, str]]:
+def _axioms(axioms: Iterable[Axiom], signature: Signature) -> Iterator[tuple[int, Location, Axiom]]:
     for axiom in axioms:
-        yield axiom_instances(axiom, signature), axiom.location, str(axiom)
+        yield axiom_instances(axiom, signature), axiom.location, axiom
 
 
-def _size(parts: Sequence[tuple[int, Location, str]]) -> GroundingSize:
+def _size(parts: Sequence[tuple[int, Location, Axiom | Predicate]]) -> GroundingSize:
     if not parts:
         return GroundingSize()
     most, place, what = max(parts, key=lambda part: part[0])

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from html import escape
+from itertools import chain
 from typing import Any
 
 from seewhy.knowledge.axiom import Axiom
@@ -60,6 +61,9 @@ class Node:
         What the step rests on.
     overruled : (str, float) or None
         The more probable value that the network alone saw, where it does not fit what is known.
+    beside : tuple of str
+        Further features that its text tells together with ``feature``, as that nothing else is in
+        the picture.
 
     Examples
     --------
@@ -79,6 +83,7 @@ class Node:
     probability: float | None = None
     children: tuple[Node, ...] = ()
     overruled: tuple[str, float] | None = None
+    beside: tuple[str, ...] = ()
 
     def walk(self) -> Iterator[Node]:
         """Yield this node and all below it, parents first."""
@@ -88,8 +93,8 @@ class Node:
 
     def features(self) -> tuple[str, ...]:
         """Return the features that the justification rests on, each once."""
-        named = (node.feature for node in self.walk() if node.feature is not None)
-        return tuple(dict.fromkeys(named))
+        named = ((node.feature, *node.beside) for node in self.walk() if node.feature is not None)
+        return tuple(dict.fromkeys(chain.from_iterable(named)))
 
     def with_probabilities(
         self,
@@ -191,6 +196,7 @@ class Node:
             },
             "feature": self.feature,
             "value": self.value,
+            **({"beside": list(self.beside)} if self.beside else {}),
             "probability": self.probability,
             "overruled": None
             if self.overruled is None

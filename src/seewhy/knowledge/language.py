@@ -262,9 +262,11 @@ def _read_axiom(
 ) -> Axiom:
     action, head = _action_and_head(statement, kind, rule)
     if head.predicate in signature.sorts:
+        found = signature.sorts[head.predicate].of_things
+        where = "found in the picture" if found else "listed where it is declared"
         raise KnowledgeError(
-            f"{statement.location}: '{head.predicate}' is a sort; its members are listed where "
-            "it is declared, an axiom cannot add to them"
+            f"{statement.location}: '{head.predicate}' is a sort; its members are {where}, an "
+            "axiom cannot add to them"
         )
     variable_sorts: dict[str, Sort] = {}
     for atom in atoms(rule):

@@ -19,7 +19,7 @@ from seewhy.knowledge.axiom import (
     substitute,
     variables_in,
 )
-from seewhy.knowledge.ground import key_of
+from seewhy.knowledge.ground import key_of, predicate_of
 from seewhy.knowledge.grounding import Grounding
 from seewhy.knowledge.grounding_size import GroundingSize
 from seewhy.knowledge.language import Knowledge
@@ -130,9 +130,17 @@ class PossibleInstances:
         """Whether some scene could have an exception to a default."""
         return bool(self._grounding.with_predicate("exception", 2))
 
+    def can_hold(self, belief: Belief) -> bool:
+        """Whether a literal is believed in some scene."""
+        return belief.key in self._keys
+
+    @cached_property
+    def _keys(self) -> frozenset[str]:
+        return frozenset(str(symbol) for symbols in self.literals.values() for symbol in symbols)
+
     def concluding(self, key: str) -> list[Instance]:
         """The instances that conclude a literal in some scene."""
-        kind = (key.lstrip("-").split("(", 1)[0], not key.startswith("-"))
+        kind = (predicate_of(key), not key.startswith("-"))
         if kind not in self._concluding:
             by_key: dict[str, list[Instance]] = {}
             for axiom in self.knowledge.axioms:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -10,8 +10,9 @@ from typing import Literal as OneOf
 
 import clingo
 
+from seewhy.knowledge.answer_set import AnswerSet, answer_set_of
 from seewhy.knowledge.axiom import Axiom, AxiomKind
-from seewhy.knowledge.batch import SCENES, Batch
+from seewhy.knowledge.batch import SCENES, Batch, Outcome
 from seewhy.knowledge.grounding import Grounding, Search
 from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
 from seewhy.knowledge.language import Knowledge
@@ -43,28 +44,6 @@ class Decision:
 
     label: str | None
     verdict: Verdict
-
-
-@dataclass(frozen=True)
-class AnswerSet:
-    """One preferred answer set, or the conflicting beliefs where there is none.
-
-    Attributes
-    ----------
-    holds : frozenset of clingo.Symbol
-        The literals believed; a negative symbol is believed false.
-    firings : mapping of str to list
-        Axiom identifier → the values of its variables, for every instance that fires.
-    exceptions : tuple
-        (axiom identifier, values) of the defaults that were given up for consistency.
-    conflict : bool
-        True if the answer set holds contradictory literals (there is no consistent one).
-    """
-
-    holds: frozenset[clingo.Symbol]
-    firings: dict[str, list[tuple[str, ...]]]
-    exceptions: tuple[tuple[str, tuple[str, ...]], ...]
-    conflict: bool
 
 
 class Reasoner:
@@ -191,13 +170,19 @@ class Reasoner:
                 outcomes = self._batch.outcomes(chunk)
             except (KeyError, ValueError):
                 continue  # a vector does not fit; solving it alone says so
+            decisions = {outcome: self._decision_of(outcome) for outcome in set(outcomes)}
             for vector, outcome in zip(chunk, outcomes, strict=True):
-                if outcome is None:
-                    continue
-                if not outcome.contradictory:
-                    self._decisions[vector] = _decision(outcome.classes)
-                elif not self._has_defaults:
-                    self._decisions[vector] = Decision(None, Verdict.CONTRADICTION)
+                decision = decisions[outcome]
+                if decision is not None:
+                    self._decisions[vector] = decision
+
+    def _decision_of(self, outcome: Outcome | None) -> Decision | None:
+        """The decision of an outcome; None where the solver has to tell."""
+        if outcome is None or (outcome.contradictory and self._has_defaults):
+            return None
+        if outcome.contradictory:
+            return Decision(None, Verdict.CONTRADICTION)
+        return _decision(outcome.classes)
 
     def _decide(self, vector: FeatureVector) -> Decision:
         plain = self._plain
@@ -281,7 +266,7 @@ class Reasoner:
             left = _MOST_ANSWER_SETS - len(found)
             if left <= 0:
                 break
-            found += map(_answer_set, self._explaining.models(assumed, most=left))
+            found += map(answer_set_of, self._explaining.models(assumed, most=left))
             if found and not self._exceptions_assumed(assumed):
                 break
         if not found:
@@ -299,7 +284,7 @@ class Reasoner:
     def _contradictory(self, vector: FeatureVector) -> list[AnswerSet]:
         explaining = self._explaining
         assumed = [*explaining.assume(vector), -explaining.strict, *self._no_exceptions]
-        return [_answer_set(symbols) for symbols in explaining.models(assumed, most=1)]
+        return [answer_set_of(symbols) for symbols in explaining.models(assumed, most=1)]
 
     @cached_property
     def _no_exceptions(self) -> list[int]:
@@ -352,7 +337,7 @@ class Reasoner:
         for assumed in self._consistent_trials(vector):
             symbols = self._explaining.consequences(assumed)
             if symbols is not None:
-                shared &= _answer_set(symbols).holds
+                shared &= answer_set_of(symbols).holds
                 if not self._exceptions_assumed(assumed):
                     break
         return shared
@@ -363,24 +348,3 @@ def _decision(believed: tuple[str, ...]) -> Decision:
     if len(believed) == 1:
         return Decision(believed[0], Verdict.BELIEVED)
     return Decision(None, Verdict.SEVERAL if believed else Verdict.SILENT)
-
-
-def _answer_set(symbols: Iterable[clingo.Symbol]) -> AnswerSet:
-    holds: set[clingo.Symbol] = set()
-    firings: dict[str, list[tuple[str, ...]]] = {}
-    exceptions: list[tuple[str, tuple[str, ...]]] = []
-    conflict = False
-    for symbol in symbols:
-        if symbol.name == "holds":
-            holds.add(symbol.arguments[0])
-        elif symbol.name in ("fires", "exception"):
-            axiom, values = symbol.arguments[0].name, tuple(map(str, symbol.arguments[1].arguments))
-            if symbol.name == "fires":
-                firings.setdefault(axiom, []).append(values)
-            else:
-                exceptions.append((axiom, values))
-        elif symbol.name == "conflict":
-            conflict = True
-    for instances in firings.values():
-        instances.sort()
-    return AnswerSet(frozenset(holds), firings, tuple(sorted(exceptions)), conflict)

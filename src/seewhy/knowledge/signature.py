@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 
 
 @dataclass(frozen=True, order=True)
@@ -50,9 +51,9 @@ class Sort:
     """A named set of terms.
 
     ``members`` is None for the sort that stands for the scene itself: its only member is the
-    picture at hand. ``of_things`` says that the members are things that may be found in a picture or
-    not, so that being one of them is itself something to believe; how many there may be is said
-    by the domain, and until then they are None, too.
+    picture at hand. ``of_things`` says that the members are things that may be found in a picture
+    or not, so that being one of them is itself something to believe; how many there may be is
+    said by the domain, and until then they are None, too.
     """
 
     name: str
@@ -111,6 +112,13 @@ class Signature:
     def argument_sorts(self, name: str) -> tuple[str, ...]:
         """Return the sorts of the arguments of a predicate, or of a sort used as one."""
         return (name,) if name in self.sorts else self.predicates[name].sorts
+
+    @cached_property
+    def fluents(self) -> frozenset[str]:
+        """The predicates that are fluents."""
+        return frozenset(
+            name for name, predicate in self.predicates.items() if predicate.kind.is_fluent
+        )
 
     def members(self, sort: str) -> tuple[str, ...]:
         """Return the members of ``sort``; empty for the sort of the scene."""

@@ -8,7 +8,7 @@ special case in which there are none of these features.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import permutations
 
@@ -69,7 +69,7 @@ def things_of(feature: str) -> tuple[str, tuple[str, ...]]:
 
 
 def schema_with_things(
-    schema: SceneSchema, signature: Signature, seen: Mapping[str, int]
+    schema: SceneSchema, signature: Signature, seen: Iterable[str]
 ) -> SceneSchema:
     """Return a schema in which things are seen, too.
 
@@ -79,20 +79,21 @@ def schema_with_things(
         Of the features of the picture as a whole.
     signature : Signature
         Of knowledge that was counted by :meth:`~seewhy.knowledge.language.Knowledge.with_things`.
-    seen : mapping of str to int
-        The statics that are seen of things, or measured between two of them, each with what it
-        costs to change one. All others about things are concluded.
+    seen : iterable of str
+        The statics that are seen of things, or measured between two of them. All others about
+        things are concluded.
 
     Examples
     --------
     >>> from seewhy.knowledge.language import read_knowledge
     >>> known = read_knowledge("#sort picture. #sort thing = things. #static on(thing, thing).")
     >>> schema = SceneSchema("picture", {}, {}, {})
-    >>> list(schema_with_things(schema, known.with_things(2).signature, {"on": 1}).features)
+    >>> list(schema_with_things(schema, known.with_things(2).signature, ["on"]).features)
     ['thing(thing1)', 'thing(thing2)', 'on(thing1,thing2)', 'on(thing2,thing1)']
     """
     found = signature.sort_of_things
-    assert found is not None and found.members is not None, "the things are not counted"
+    assert found is not None, "there is no sort of things"
+    assert found.members is not None, "the things are not counted"
     presence = {thing: of_things(found.name, thing) for thing in found.members}
     features: dict[str, Mapping[str, Literal]] = {
         feature: {
@@ -101,19 +102,16 @@ def schema_with_things(
         }
         for thing, feature in presence.items()
     }
-    costs: dict[str, int] = {}
     requires: dict[str, tuple[str, ...]] = {}
-    for name, cost in seen.items():
+    for name in seen:
         predicate = signature.predicates[name]
         for subject in _subjects(predicate, found.name, found.members):
             feature = of_things(name, *subject)
             features[feature] = literals_about(predicate, subject, signature)
             requires[feature] = tuple(presence[thing] for thing in subject)
-            costs[feature] = cost
     return replace(
         schema,
         features={**schema.features, **features},
-        change_costs={**schema.change_costs, **costs},
         requires=requires,
         presence=presence,
     )

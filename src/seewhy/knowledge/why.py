@@ -126,7 +126,7 @@ def _completed(evidence: Evidence, literal: Literal, node: Node) -> Node:
         literal=f"not {literal.complement}",
         text="nothing else would agree with what is known",
         basis=Basis.CONSISTENCY,
-        children=tuple(evidence.feature_node(feature) for feature in added),
+        children=evidence.feature_nodes(added),
     )
     if node.basis is Basis.FEATURE:
         return node

@@ -7,14 +7,21 @@ from collections.abc import Sequence
 from dataclasses import replace
 from weakref import WeakKeyDictionary
 
-from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal, variables_in
+from seewhy.knowledge.axiom import (
+    Axiom,
+    AxiomKind,
+    Condition,
+    Literal,
+    predicates_in,
+    variables_in,
+)
 from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.condition_nodes import axiom_failed, failed_comparison, once
 from seewhy.knowledge.condition_nodes import failed as failed_by
 from seewhy.knowledge.evidence import Evidence, Say, evidence_of
 from seewhy.knowledge.explanation import belief_node, condition_node, need_node
 from seewhy.knowledge.foundation import opposite
-from seewhy.knowledge.ground import key_of, literal_of, term_of
+from seewhy.knowledge.ground import key_of, literal_of, predicate_of, term_of, text_of
 from seewhy.knowledge.grounding_size import axioms_size
 from seewhy.knowledge.justification import Basis, Node
 from seewhy.knowledge.possible import Belief
@@ -24,6 +31,7 @@ from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.why import either_or, justify
 
 _NESTING = 4
+_Place = tuple[str, tuple[str, ...]]  # an axiom and the values of its variables
 _Head = tuple[int, Axiom, tuple[tuple[int, str], ...]]  # position, axiom, constants of its head
 _BY_HEAD: WeakKeyDictionary[Reasoner, dict[tuple[str, bool], list[_Head]]] = WeakKeyDictionary()
 _CONSTANT = re.compile(r"_*[a-z][A-Za-z0-9_']*|0|-?[1-9][0-9]*")
@@ -217,9 +225,15 @@ def _solved(
     All conditions of all instances are evaluated over the beliefs as facts, so that comparisons
     and aggregates mean here what they mean in the program.
     """
-    lines = [f"holds({key})." for key in sorted(evidence.holds)]
+    asked = set().union(
+        *(predicates_in(condition.text) for _, axiom, _ in candidates for condition in axiom.body)
+    )
+    believed = sorted(key for key in evidence.holds if predicate_of(key) in asked)
+    lines = [f"holds({key})." for key in believed]
     for sort in evidence.signature.sorts.values():
         members = (evidence.schema.scene,) if sort.members is None else sort.members
+        if sort.of_things:
+            members = evidence.things or members
         lines += [f"sort({sort.name}, {member})." for member in members]
     for _, axiom, bound in candidates:
         instance = f"{axiom.identifier}, {variable_tuple(axiom)}"
@@ -237,23 +251,37 @@ def _solved(
             )
     size = axioms_size([axiom for _, axiom, _ in candidates], evidence.signature)
     control = BoundedControl("\n".join(lines), size=size)
-    instances: dict[tuple[str, tuple[str, ...]], set[int]] = {}
-    for atom in control.atoms:
-        if atom.is_fact and atom.symbol.name in ("instance", "ok"):
-            name, values = atom.symbol.arguments[:2]
-            key = (name.name, tuple(map(str, values.arguments)))
-            satisfied = instances.setdefault(key, set())
-            if atom.symbol.name == "ok":
-                satisfied.add(atom.symbol.arguments[2].number)
+    instances: dict[_Place, set[int]] = {}
+    for kind, arity in (("instance", 2), ("ok", 3)):
+        for atom in control.by_signature(kind, arity):
+            if atom.is_fact:
+                name, values, *places = atom.symbol.arguments
+                key = (name.name, tuple(map(text_of, values.arguments)))
+                instances.setdefault(key, set()).update(p.number for p in places)
     axioms = {axiom.identifier: axiom for _, axiom, _ in candidates}
     nearest: dict[str, tuple[dict[str, str], frozenset[int]]] = {}
     ranked = sorted(instances.items(), key=lambda item: _distance(item, axioms))
-    for (identifier, given), satisfied in ranked:
-        if identifier not in nearest:
-            variables = axioms[identifier].variables
-            binding = dict(zip(variables, given, strict=True))
-            nearest[identifier] = (binding, frozenset(satisfied))
+    for must_be_possible in (True, False):
+        for (identifier, given), satisfied in ranked:
+            if identifier not in nearest:
+                axiom = axioms[identifier]
+                binding = dict(zip(axiom.variables, given, strict=True))
+                if not must_be_possible or _can_be(evidence, axiom, binding):
+                    nearest[identifier] = (binding, frozenset(satisfied))
     return nearest
+
+
+def _can_be(evidence: Evidence, axiom: Axiom, binding: dict[str, str]) -> bool:
+    """Whether an instance asks nothing that no things can be, such as a block on itself."""
+    if not evidence.schema.presence:
+        return True
+    possible = evidence.reasoner.possible
+    asked = (
+        possible.asked_by(condition, binding)
+        for condition in axiom.body
+        if condition.literal is not None and not condition.absent
+    )
+    return all(possible.can_hold(need) for need in asked if isinstance(need, Belief))
 
 
 def _ranges(evidence: Evidence, axiom: Axiom, bound: dict[str, str]) -> list[str]:
@@ -297,6 +325,8 @@ def _failed_condition(
     if need.holds:
         return failed_by(evidence, need, belief_node(evidence, need.key))
     literal = literal_of(need.key)
+    if (absent := evidence.ruled_out(need.key)) is not None:
+        return failed_by(evidence, need, absent)
     nothing = Node(f"not {literal}", "", Basis.ABSENCE)
     if evidence.schema.feature_of(literal) is not None:
         return failed_by(evidence, need, nothing)
@@ -306,7 +336,7 @@ def _failed_condition(
 
 
 def _distance(
-    item: tuple[tuple[str, tuple[str, ...]], set[int]], axioms: dict[str, Axiom]
+    item: tuple[_Place, set[int]], axioms: dict[str, Axiom]
 ) -> tuple[int, int, tuple[str, ...]]:
     """Fewest failed conditions first; among those, failed comparisons rather than literals.
 

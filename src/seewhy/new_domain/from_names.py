@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from seewhy.data.importers.annotation import AnnotatedPicture, Notes
@@ -20,6 +20,7 @@ from seewhy.new_domain.sketch import look_features, sketch_of_vocabulary
 __all__ = ["NamedDomain", "domain_from_names", "named_classes", "named_features"]
 
 _YES_OR_NO = ("yes", "no")
+_TABLE = "the table of classes"
 
 
 @dataclass(frozen=True)
@@ -168,6 +169,6 @@ def _table_of(text: str) -> ClassFeatures:
         path = Path(folder) / CLASSES
         path.write_text(text, encoding="utf-8")
         try:
-            return read_class_features(path)
+            return replace(read_class_features(path), said=_TABLE)
         except DatasetError as problem:
-            raise DatasetError(str(problem).replace(str(path), "the table of classes")) from None
+            raise DatasetError(str(problem).replace(str(path), _TABLE)) from None

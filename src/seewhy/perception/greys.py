@@ -38,5 +38,7 @@ def usual_white(peak: float, *, fractions: bool) -> float:
 
 def of_eight_bits(greys: npt.NDArray[np.generic], white: float) -> Image.Image:
     """Greys of any range in 8 bits; Pillow's own conversion would clip them at 255."""
-    shares = np.nan_to_num(greys.astype(np.float64), nan=0.0, posinf=white, neginf=0.0) / white
+    with np.errstate(invalid="ignore"):  # signalling NaNs, which become 0 like all others
+        wide = greys.astype(np.float64)
+    shares = np.nan_to_num(wide, nan=0.0, posinf=white, neginf=0.0) / white
     return Image.fromarray(np.rint(np.clip(shares, 0.0, 1.0) * 255.0).astype(np.uint8))

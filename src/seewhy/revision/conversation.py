@@ -15,6 +15,7 @@ from seewhy.domain.wording import join_clauses, sentence
 from seewhy.errors import RevisionError
 from seewhy.induction.candidate import Candidate
 from seewhy.induction.sentence import say_rule
+from seewhy.knowledge.reasoner import Verdict
 from seewhy.revision.consequences import annotated_scenes
 from seewhy.revision.correction import Keeping, corrected, keeping
 from seewhy.revision.misreading import misreadings
@@ -244,7 +245,7 @@ class Conversation:
         found: list[Proposal] = []
         said = []
         if known is not None:
-            said.append(f'The rule is known already: "{known.text}".')
+            said.append(f'The rule is known already: "{known.text.removesuffix(".")}".')
         else:
             found += new_rule(doubted, reason)
         if unseen:
@@ -329,7 +330,7 @@ class Conversation:
         self._see()
         lines = [f'{begun}; "undo that" takes it back.', self._concluded(self.scene)]
         if revision is not None and proposal.cause is Cause.MISREAD:
-            lines.append("The networks see it so when they are trained again (seewhy train).")
+            lines.append("The networks learn it when they are trained again (seewhy train).")
         return Said("\n".join(lines), revision=revision)
 
     def _take_back(self, number: int | None) -> Said:
@@ -371,9 +372,13 @@ class Conversation:
         if scene.label is None:
             said = f"{begun}I cannot tell of which class {domain.subject} is"
             return sentence(said)
-        said = sentence(f"{begun}{domain.subject} is {domain.classes[scene.label].say}")
+        said = f"{begun}{domain.subject} is {domain.classes[scene.label].say}"
+        if scene.method == "tree":
+            contradict = scene.verdict == Verdict.CONTRADICTION.value
+            rules = "the rules contradict each other" if contradict else "no rule says so"
+            return sentence(f"{said}: {rules}, the decision tree says it")
         why = Question(Asks.WHY_CLASS, "", (), label=scene.label)
-        return f"{said} {self.agent.answer(scene, why).text}"
+        return f"{sentence(said)} {self.agent.answer(scene, why).text}"
 
 
 @dataclass(frozen=True)

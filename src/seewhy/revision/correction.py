@@ -10,6 +10,8 @@ from seewhy.agent.agent import Agent
 from seewhy.data.dataset import TABLE, Dataset
 from seewhy.dialogue.reply import Classification, FeatureReading
 from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
+from seewhy.domain.wording import join_words
 from seewhy.errors import DatasetError, RevisionError
 from seewhy.revision.proposal import Proposal
 from seewhy.revision.table_text import label_edits, read_text, rows_of
@@ -50,12 +52,23 @@ def keeping(
         return Keeping(False, f"{here} only: {problem}.")
     if not edits:
         return Keeping(False, f"{here}; {table} says so already.")
-    column = list(domain.features).index(proposal.reading[0])
-    said = {scene.vector[column] for scene in rows_of(data, picture)} - {None, proposal.reading[1]}
-    if said:
-        named = ", ".join(sorted(map(str, said)))
-        return Keeping(True, f"{table} says '{named}' of it, which would be changed.")
+    changed = [
+        f"its {column} would be '{value}' instead of '{before}'"
+        for column, value in cells_of(proposal).items()
+        for before in sorted(_said(data, picture, column) - {value})
+    ]
+    if changed:
+        return Keeping(True, f"In {table}, {join_words(changed)}.")
     return Keeping(True, f"It would be one more label in {table}.")
+
+
+def _said(data: Dataset, picture: Path, column: str) -> set[str]:
+    """What a table says of a picture in a column."""
+    scenes = rows_of(data, picture)
+    if column == CLASS:
+        return {scene.label for scene in scenes if scene.label}
+    place = list(data.domain.features).index(column)
+    return {value for scene in scenes if (value := scene.vector[place]) is not None}
 
 
 def cells_of(proposal: Proposal) -> dict[str, str]:
@@ -70,7 +83,7 @@ def cells_of(proposal: Proposal) -> dict[str, str]:
     {'lean': 'yes', 'class': 'unstable'}
     """
     cells = {} if proposal.reading is None else dict([proposal.reading])
-    return cells if proposal.label is None else {**cells, "class": proposal.label}
+    return cells if proposal.label is None else {**cells, CLASS: proposal.label}
 
 
 def corrected(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 from seewhy.agent.learning_from_pictures import AnnotatedScenes
@@ -22,6 +22,7 @@ from seewhy.induction.sentence import say_rule
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.language import read_axioms
+from seewhy.knowledge.scene import FeatureVector
 from seewhy.revision.edit import KNOWLEDGE
 from seewhy.revision.knowledge_text import axiom_added
 from seewhy.revision.proposal import Cause, Doubted, Proposal
@@ -159,8 +160,9 @@ def new_rule(
         edit = axiom_added(doubted.texts[KNOWLEDGE], statement, said)
         about = {"statement": statement, "label": one.label}
         proposal = doubted.judged(Cause.MISSING, said, (edit,), **about)
-        if proposal is None or proposal.decision.label != one.label:
-            given_way = exceptions_for(doubted, one)
+        applying = replace(doubted, vector=_vector_with(one, doubted))
+        if applying.decision.label not in (None, one.label):
+            given_way = exceptions_for(applying, one)
             edits = (edit, *(each for rule in given_way for each in rule.edits(doubted)))
             exceptions = tuple(rule.sentence(domain) for rule in given_way)
             if exceptions:
@@ -175,6 +177,15 @@ def new_rule(
             )
         found.append(proposal)
     return tuple(found)
+
+
+def _vector_with(candidate: Candidate, doubted: Doubted) -> FeatureVector:
+    """The scene as it would be if a rule applied to it."""
+    asked = {condition.feature: condition.values for condition in candidate.conditions}
+    return tuple(
+        value if key not in asked or value in asked[key] else asked[key][0]
+        for key, value in zip(doubted.known.domain.features, doubted.vector, strict=True)
+    )
 
 
 def known_already(known: WorkingKnowledge, candidate: Candidate) -> Axiom | None:

@@ -36,7 +36,8 @@ _PLACES = {"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5, "last":
     name: number for number, name in enumerate(("one", "two", "three", "four", "five"), start=1)
 }
 _CHOICE = re.compile(
-    r"(?:yes |take |please |do )*(?:the )?(?:number )?(\w+?)(?:st|nd|rd|th)?(?: one| proposal)?$"
+    r"(?:yes |take |please |do )*(?:the )?(?:number )?"
+    r"(?:(\d+)(?:st|nd|rd|th)?|(\w+))(?: one| proposal)?$"
 )
 _NUMBERED = re.compile(r"(?:please )?(?:undo|revert|take back)(?: the)? revision (\d+)$")
 
@@ -144,7 +145,7 @@ def _to_proposal(text: str, proposed: int) -> Remark | None:
     chosen = _CHOICE.fullmatch(text)
     if chosen is None:
         return None
-    said = chosen[1]
+    said = chosen[1] or chosen[2]
     number = int(said) if said.isdecimal() and len(said) < 4 else _PLACES.get(said)
     if number is None:
         return None

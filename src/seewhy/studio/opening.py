@@ -5,7 +5,8 @@ from __future__ import annotations
 import socket
 from pathlib import Path
 
-from seewhy.files.locks import sole_writer
+from seewhy.errors import BusyError
+from seewhy.files.locks import locked
 from seewhy.studio.access import AccessRules
 from seewhy.studio.project import Project
 from seewhy.studio.site import site
@@ -40,7 +41,11 @@ def open_studio(
     import uvicorn
 
     folder.mkdir(parents=True, exist_ok=True)
-    with sole_writer(folder / "studio"):
+    with locked(folder / "studio") as ours:
+        if not ours:
+            raise BusyError(
+                f"{folder}: another studio has the project open; go to its page, or end it first"
+            )
         app = site(Project(folder), rules=AccessRules(hosts, token, MOST_BYTES))
         config = uvicorn.Config(
             app, log_level="warning", timeout_keep_alive=30, server_header=False

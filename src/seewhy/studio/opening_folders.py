@@ -10,7 +10,7 @@ from seewhy.data.importers import ImportRequest
 from seewhy.domain.domain import load_domain
 from seewhy.errors import SeeWhyError
 from seewhy.files.folders import whole_folder
-from seewhy.studio.incoming import Arrived, from_source
+from seewhy.studio.incoming import from_source
 from seewhy.studio.project import Project
 
 __all__ = ["open_folder"]
@@ -21,7 +21,7 @@ _LARGEST = 4_000_000
 """Bytes of a file of a domain; larger ones, links and folders are left where they are."""
 
 
-def open_folder(project: Project, place: Path, *, who: str) -> Arrived:
+def open_folder(project: Project, place: Path, *, who: str) -> None:
     """Copy a domain or a model into the project, or import a dataset; the original stays as it is.
 
     Raises
@@ -31,15 +31,14 @@ def open_folder(project: Project, place: Path, *, who: str) -> Arrived:
     """
     if (place / _MODEL_FILE).is_file():
         _open_model(project, place)
-        return Arrived()
-    if (place / _DOMAIN_FILE).is_file():
+    elif (place / _DOMAIN_FILE).is_file():
         load_domain(place)
         _copy_domain(project, place)
         project.refresh()
-        return Arrived()
-    if not place.exists():
+    elif not place.exists():
         raise SeeWhyError(f"{place}: there is no such folder; check the spelling of the path")
-    return from_source(project, ImportRequest(place, ""), subject="the picture", who=who)
+    else:
+        from_source(project, ImportRequest(place, ""), subject="the picture", who=who)
 
 
 def _open_model(project: Project, place: Path) -> None:

@@ -93,7 +93,8 @@ def progress_of(project: Project, proposals: Proposals) -> Progress:
         for question in questions
         for value in question.values
     )
-    return Progress(len(there), complete, questions, tuple(advice) if complete else ())
+    sentences = tuple(f"{sentence[:1].upper()}{sentence[1:]}" for sentence in advice)
+    return Progress(len(there), complete, questions, sentences if complete else ())
 
 
 def _recognised(proposals: Proposals, name: str, place: int) -> Share | None:

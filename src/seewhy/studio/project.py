@@ -216,11 +216,17 @@ class Project:
         self.on_change()
         return entry
 
-    def refresh(self) -> None:
-        """Look at the folder anew: pictures that came, and files that another program changed."""
+    def refresh(self, *, who: str = _OUTSIDE, why: str = "changed outside") -> None:
+        """Look at the folder anew: pictures that came, and files that somebody changed.
+
+        Parameters
+        ----------
+        who, why : str
+            Who wrote the domain's files that the record does not know yet, and why.
+        """
         with self._lock:
             self._pictures = None
-            self._take_in_changes()
+            self._take_in_changes(who=who, why=why)
             self._write()
         self.on_change()
 
@@ -245,18 +251,25 @@ class Project:
 
     # Files ------------------------------------------------------------------------------------
 
+    def _usable_domain(self) -> Domain | None:
+        """The domain, unless its files are wrong: then the table waits until they are mended."""
+        try:
+            return self.domain()
+        except (DomainError, KnowledgeError):
+            return None
+
     def _write(self) -> None:
         folder = self.domain_folder
         if folder is None:
             return
         for name, text in folder_texts(self.record.holding(FILES)).items():
             write_text(folder / name, text, record=self.record, name=name)
-        labels = self.labels()
-        if labels.of or labels.rows:
-            text = scenes_table(labels, self.domain())
+        labels, domain = self.labels(), self._usable_domain()
+        if domain is not None and (labels.of or labels.rows):
+            text = scenes_table(labels, domain)
             write_text(self.folder / TABLE, text, record=self.record, name=TABLE)
 
-    def _take_in_changes(self) -> None:
+    def _take_in_changes(self, *, who: str = _OUTSIDE, why: str = "changed outside") -> None:
         """Note what another program wrote, so that nothing of it is written over."""
         folder = self.domain_folder
         if folder is None:
@@ -269,10 +282,10 @@ class Project:
             if changed_outside(folder / name, said, record=self.record, name=name)
         }
         if changed:
-            self.record.add(FILES, {"files": changed, "why": "changed outside"}, who=_OUTSIDE)
-        table = self.folder / TABLE
-        if table.is_file():
-            texts = {TABLE: scenes_table(self.labels(), self.domain())}
+            self.record.add(FILES, {"files": changed, "why": why}, who=who)
+        table, domain = self.folder / TABLE, self._usable_domain()
+        if domain is not None and table.is_file():
+            texts = {TABLE: scenes_table(self.labels(), domain)}
             if changed_outside(table, texts, record=self.record, name=TABLE):
                 self._take_in_table()
 

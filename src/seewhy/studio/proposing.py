@@ -118,7 +118,7 @@ class Proposer:
         self._rows: dict[str, npt.NDArray[np.floating]] = {}
         self._unreadable: set[str] = set()
         self._lesson: _Lesson | None = None
-        self._following: tuple[Domain, Following] | None = None
+        self._following: Following | None = None
         self._thread = Thread(target=self._run, name="proposer", daemon=True)
 
     def start(self) -> None:
@@ -158,6 +158,10 @@ class Proposer:
                 self._work()
             except SeeWhyError as problem:
                 self._publish(Proposals(self.latest().version + 1, problem=str(problem)))
+            except Exception as problem:
+                # Labelling goes on without proposals, and whoever labels reads why.
+                said = f"there are no proposals ({type(problem).__name__}: {problem})"
+                self._publish(Proposals(self.latest().version + 1, problem=said))
             if not self._changed.is_set():
                 self._idle.set()
 

@@ -24,7 +24,7 @@ from joblib import Parallel, delayed
 from seewhy.agent.agent import Agent
 from seewhy.errors import PlanningError, QuestionError
 from seewhy.files.whole_files import write_whole
-from seewhy.planning.dialogue.replying import answer
+from seewhy.planning.dialogue.run_answers import answer
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.sight import Sight
 from seewhy.planning.execution.simulation import Simulation, simulate

@@ -19,7 +19,7 @@ import numpy as np
 
 from seewhy.agent.learning_from_pictures import AnnotatedScenes, learn_for_domain, with_candidates
 from seewhy.domain.domain import Domain, load_domain
-from seewhy.induction.learning import LearningOptions
+from seewhy.induction.axiom_learning import LearningOptions
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector

@@ -6,6 +6,8 @@ A corpus is a table with the columns ``wording`` and ``meaning``; its name ends 
 domain. Meanings are written without sight of the grammar (tests/questions/README.md); where one has
 alternatives, separated by " / ", each is right. A wording is *misread* that is understood as
 something else than it means; one that is asked back although it means something is only missed.
+What could not be asked when the tables were written, such as "what else?", means in them that it
+is not understood: it is right where it is understood now, and counted by itself as well.
 """
 
 from __future__ import annotations
@@ -42,7 +44,13 @@ _NAMES = {
     Asks.DESCRIBE: "describe",
     Asks.HOW_MANY: "how-many {value}",
     Asks.WHICH: "which {value}",
+    Asks.WHEN_CLASS: "when class={label}",
+    Asks.MATTERS: "matters {feature}",
+    Asks.BECAUSE: "because {feature}",
+    Asks.MORE: "what-else",
 }
+_ASKED_SINCE = {Asks.WHEN_CLASS, Asks.MATTERS, Asks.BECAUSE, Asks.MORE}
+"""What could not be asked when the tables were written, which mean by it that it is not."""
 _JOINED = {Asks.ALL: "and", Asks.EITHER: "or", Asks.WHAT_IF: "what-if"}
 
 
@@ -79,11 +87,16 @@ def judge(path: Path) -> tuple[Counter[str], list[tuple[str, str, str]]]:
     wrong = []
     with path.open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
+            since = False
             try:
-                understood = meaning_of(questions.understand(row["wording"]))
+                question = questions.understand(row["wording"])
+                understood, since = meaning_of(question), question.asks in _ASKED_SINCE
             except QuestionError:
                 understood = NOT_UNDERSTOOD
-            right = understood in meanings(row["meaning"])
+            meant = meanings(row["meaning"])
+            since = since and NOT_UNDERSTOOD in meant
+            counted["asked since"] += since
+            right = since or understood in meant
             kind = "right" if right else "missed" if understood == NOT_UNDERSTOOD else "misread"
             counted[kind] += 1
             if not right:
@@ -100,7 +113,7 @@ def main() -> None:
     options = parser.parse_args()
     for path in options.corpus:
         counted, wrong = judge(path)
-        total = sum(counted.values())
+        total = counted["right"] + counted["missed"] + counted["misread"]
         shares = {kind: counted[kind] / total for kind in ("right", "missed", "misread")}
         if options.json:
             print(json.dumps({"corpus": path.name, "wordings": total, **counted}))
@@ -108,7 +121,8 @@ def main() -> None:
             said = ", ".join(
                 f"{counted[kind]} {kind} ({share:.1%})" for kind, share in shares.items()
             )
-            print(f"{path.stem}: {total} wordings, {said}")
+            since = counted["asked since"]
+            print(f"{path.stem}: {total} wordings, {said}" + f"; {since} asked since" * bool(since))
         if options.wrong:
             for wording, meant, understood in wrong:
                 print(f"  {wording!r} means {meant!r}, understood: {understood!r}")

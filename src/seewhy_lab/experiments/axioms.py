@@ -15,7 +15,7 @@ from seewhy.agent.refutation import refuted
 from seewhy.dialogue.question import Asks, Questions
 from seewhy.dialogue.reference import ReferenceAnswers
 from seewhy.domain.domain import Domain
-from seewhy.induction.learning import LearningOptions
+from seewhy.induction.axiom_learning import LearningOptions
 from seewhy.induction.scene_table import Reasons
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import Withdrawn

@@ -19,11 +19,10 @@ from seewhy.data.importers.picture_files import ENDINGS, PictureFinder, is_pictu
 from seewhy.data.importers.source import Source, split_in_folders
 from seewhy.data.importers.tables import TABLES, Row, Table, open_table
 from seewhy.data.importers.xml_reading import as_number
+from seewhy.data.thing import CORNERS, THINGS
 from seewhy.errors import DatasetError
 from seewhy.text.nearest import did_you_mean
 
-THINGS = "things.csv"
-CORNERS = ("left", "top", "right", "bottom")
 _SCENES = "scenes.csv"
 _LOOKED_AT = 200
 

@@ -10,9 +10,10 @@ from seewhy.data.importers.annotation import AnnotatedPicture, Box, Notes
 from seewhy.data.importers.class_features import ClassFeatures
 from seewhy.data.importers.names import distinct_names
 from seewhy.data.importers.yes_or_no import yes_or_no
+from seewhy.data.thing import CORNERS
 from seewhy.domain.tables import RESERVED, SCENE, TOGETHER
 
-THING_COLUMNS = ("image", "thing", "left", "top", "right", "bottom", "kind")
+THING_COLUMNS = ("image", "thing", *CORNERS, "kind")
 MOST_VALUES = 100
 """What has more different values is no feature."""
 

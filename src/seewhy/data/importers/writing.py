@@ -17,7 +17,6 @@ from seewhy.data.importers.class_features import ClassFeatures
 from seewhy.data.importers.file_names import RECORD
 from seewhy.data.importers.imported import ImportedDataset
 from seewhy.data.importers.picture_files import PictureHeader
-from seewhy.data.importers.picture_table import THINGS
 from seewhy.data.importers.placing import Placing, image_names
 from seewhy.data.importers.reading import ReadSource, read_source
 from seewhy.data.importers.record import Record, read_record, words_of_vocabulary
@@ -29,6 +28,7 @@ from seewhy.data.importers.vocabulary import (
     named_box,
     named_features,
 )
+from seewhy.data.thing import THINGS
 from seewhy.errors import DatasetError, PictureError
 from seewhy.files.csv_text import csv_text
 from seewhy.files.locks import sole_writer

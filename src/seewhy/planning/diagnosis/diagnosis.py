@@ -26,7 +26,7 @@ from seewhy.knowledge.dynamics import (
     rule,
     transition_rules,
 )
-from seewhy.knowledge.ground import fluent_of, key_of
+from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.history import History, Observation, Occurrence
 from seewhy.knowledge.language import Knowledge
@@ -240,11 +240,18 @@ def history_facts(history: History) -> Iterator[str]:
 def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) -> Iterator[State]:
     holds: list[set[clingo.Symbol]] = [set() for _ in range(last + 1)]
     for atom in sure:
-        if atom.name == "holds" and atom.arguments[1].type is clingo.SymbolType.Number:
-            holds[atom.arguments[1].number].add(atom.arguments[0])
+        if atom.name == "holds":
+            literal, step = atom.arguments
+            if step.type is clingo.SymbolType.Number:
+                holds[step.number].add(literal)
+    denials = [(fluent, complement_of(fluent)) for fluent in fluents]
     for believed in holds:
-        known = {fluent_of(literal) for literal in believed}
-        yield State(frozenset(believed), frozenset(set(fluents) - known))
+        unknown = (
+            fluent
+            for fluent, denial in denials
+            if fluent not in believed and denial not in believed
+        )
+        yield State(frozenset(believed), frozenset(unknown))
 
 
 def _surprises(
@@ -252,10 +259,11 @@ def _surprises(
     model: list[clingo.Symbol],
     sure: frozenset[clingo.Symbol],
 ) -> Iterator[Surprise]:
-    evident = {str(atom.arguments[0]) for atom in model if atom.name == "evident"}
+    named = [(atom.name, atom) for atom in model]
+    evident = {str(atom.arguments[0]) for name, atom in named if name == "evident"}
     axioms = {axiom.identifier: axiom for axiom in knowledge.axioms}
-    for atom in model:
-        if atom.name == SurpriseKind.EXCEPTION:
+    for name, atom in named:
+        if name == SurpriseKind.EXCEPTION:
             axiom = axioms[str(atom.arguments[0])]
             binding = dict(zip(axiom.variables, map(str, atom.arguments[1].arguments), strict=True))
             head = axiom.head.substitute(binding)
@@ -263,10 +271,10 @@ def _surprises(
                 continue  # seen, or clear from what was seen, and not assumed
             usual = clingo.parse_term(str(head))
             yield Surprise(0, SurpriseKind.EXCEPTION, usual, axiom, atom in sure)
-        elif atom.name in (SurpriseKind.EVENT, SurpriseKind.FAILURE, SurpriseKind.MISREADING):
+        elif name in (SurpriseKind.EVENT, SurpriseKind.FAILURE, SurpriseKind.MISREADING):
             yield Surprise(
                 step=atom.arguments[1].number,
-                kind=SurpriseKind(atom.name),
+                kind=SurpriseKind(name),
                 what=atom.arguments[0],
                 certain=atom in sure,
             )

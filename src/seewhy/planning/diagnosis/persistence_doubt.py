@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import clingo
 
@@ -14,7 +14,7 @@ from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis.belief_state import State
-from seewhy.planning.planner.mutex import mutexes
+from seewhy.planning.planner.mutex import Mutex, mutexes
 
 
 class PersistenceDoubt:
@@ -33,7 +33,8 @@ class PersistenceDoubt:
 
     def __init__(self, knowledge: Knowledge) -> None:
         self.knowledge = knowledge
-        self.fluents = _changed_unasked(knowledge)
+        self.mutexes = mutexes(knowledge)
+        self.fluents = _changed_unasked(knowledge, self.mutexes)
 
     def applied(
         self, state: State, last_seen: Mapping[clingo.Symbol, int], *, before: int
@@ -69,10 +70,10 @@ class PersistenceDoubt:
         return State(state.holds - doubtful - defined, state.unknown | unknown)
 
     def _group(self, fluent: clingo.Symbol) -> tuple[str, ...] | None:
-        return _group(fluent, self.knowledge)
+        return _group(fluent, self.mutexes)
 
 
-def _changed_unasked(knowledge: Knowledge) -> set[clingo.Symbol]:
+def _changed_unasked(knowledge: Knowledge, exclusions: Sequence[Mutex]) -> set[clingo.Symbol]:
     """The fluents that some exogenous action may change, with those that exclude them."""
     lines = list(fixed_rules(knowledge))
     signature = knowledge.signature
@@ -89,13 +90,13 @@ def _changed_unasked(knowledge: Knowledge) -> set[clingo.Symbol]:
         lines.append(rule(f"changed({fluent})", [f"exogenous({axiom.action})", *sorts]))
     control = BoundedControl("\n".join(lines), size=grounding_size(knowledge))
     changed = {atom.symbol.arguments[0] for atom in control.by_signature("changed", 1)}
-    groups = {_group(symbol, knowledge) for symbol in changed} - {None}
+    groups = {_group(symbol, exclusions) for symbol in changed} - {None}
     fluents = (atom.symbol.arguments[1] for atom in control.by_signature("fluent", 2))
-    return changed | {symbol for symbol in fluents if _group(symbol, knowledge) in groups}
+    return changed | {symbol for symbol in fluents if _group(symbol, exclusions) in groups}
 
 
-def _group(fluent: clingo.Symbol, knowledge: Knowledge) -> tuple[str, ...] | None:
-    for mutex in mutexes(knowledge):
+def _group(fluent: clingo.Symbol, exclusions: Sequence[Mutex]) -> tuple[str, ...] | None:
+    for mutex in exclusions:
         if mutex.predicate == fluent.name:
             others = [
                 str(term) for place, term in enumerate(fluent.arguments) if place != mutex.position

@@ -15,6 +15,7 @@ from seewhy.planning.dialogue.action_words import (
     needs_values,
     obstacle_values,
     say_actions,
+    say_hoped,
     say_not_done,
     say_obstacle,
 )
@@ -22,7 +23,7 @@ from seewhy.planning.dialogue.clause_forms import gerund
 from seewhy.planning.dialogue.goal_words import say_goal
 from seewhy.planning.dialogue.query import Asks, Query, Told
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import Speech, sentences
+from seewhy.planning.dialogue.surface_realisation import Speech, sentences
 from seewhy.planning.execution.execution import Decision
 
 
@@ -69,7 +70,7 @@ def why_did(view: RunView, query: Query) -> Told:
             "changed": [str(literal) for literal in removed.changed],
         }
         said.append(_say_removed(removed, speech))
-    return sentences(said), reasons
+    return sentences([*said, say_hoped(view, step)]), reasons
 
 
 def _say_removed(removed: Removed, speech: Speech) -> str:

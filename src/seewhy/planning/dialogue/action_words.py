@@ -13,11 +13,12 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.dialogue.action_reason import Failing
+from seewhy.planning.dialogue.belief_answers import instead_of
 from seewhy.planning.dialogue.instances import Applied
 from seewhy.planning.dialogue.query import Query
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import Speech
-from seewhy.planning.execution.execution import Outcome, Run, Step
+from seewhy.planning.dialogue.surface_realisation import Speech
+from seewhy.planning.execution.execution import Decision, Outcome, Run, Step
 from seewhy.planning.execution.plan_monitoring import suppositions
 
 
@@ -103,6 +104,30 @@ def say_supposed(view: RunView, step: Step) -> str:
         and literal not in step.believed.holds
     ]
     return view.speech.every([literal for literal in needed if literal.positive] or needed)
+
+
+def say_hoped(view: RunView, step: Step) -> str:
+    """What the plan of a step only supposed: it was not known, or believed to be otherwise."""
+    made = [
+        earlier
+        for earlier in view.run.steps
+        if earlier.number <= step.number and earlier.decision in (Decision.PLAN, Decision.REPLAN)
+    ]
+    kind = view.domain.knowledge.signature.kind
+    open_then = [
+        literal
+        for literal in (made[-1].supposed if made else ())
+        if kind(literal.name) is PredicateKind.FLUENT_BASIC and literal not in step.believed.holds
+    ]
+    hoped = [literal for literal in open_then if literal.positive] or open_then
+    if not hoped:
+        return ""
+    said = f"my plan only supposed that {view.speech.every_past(hoped)}"
+    denied = [complement_of(literal) for literal in hoped]
+    if not step.believed.holds.issuperset(denied):
+        return f"{said}, which I did not know"
+    believed = [instead_of(view.domain, literal, step.believed) for literal in denied]
+    return f"{said}: what I believed, that {view.speech.every_past(believed)}, might have changed"
 
 
 def say_not_done(view: RunView, query: Query, *, have: bool = False) -> str:

@@ -11,12 +11,12 @@ import clingo
 from seewhy.knowledge.ground import complement_of, fluent_of
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.dialogue.belief_reason import Beliefs, tell
-from seewhy.planning.dialogue.describing import describe_place, say_counted
+from seewhy.planning.dialogue.hypothetical_history import known_at
+from seewhy.planning.dialogue.location_fluents import Place, place_of, places, whereabouts
+from seewhy.planning.dialogue.location_fluents import contents as whats_at
+from seewhy.planning.dialogue.place_description import describe_place, say_counted
 from seewhy.planning.dialogue.query import Query, Told
-from seewhy.planning.dialogue.speech import Speech, sentences
-from seewhy.planning.dialogue.supposing import known_at
-from seewhy.planning.dialogue.whereabouts import Place, place_of, places, whereabouts
-from seewhy.planning.dialogue.whereabouts import contents as whats_at
+from seewhy.planning.dialogue.surface_realisation import Speech, sentences
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
 from seewhy.planning.planner.mutex import mutexes
@@ -28,7 +28,7 @@ class BeliefAnswers:
 
     Examples
     --------
-    >>> from seewhy.planning.dialogue.asking import PlanningQuestions
+    >>> from seewhy.planning.dialogue.question_parsing import PlanningQuestions
     >>> from seewhy.planning.goal import read_goal
     >>> from seewhy.planning.domain import load_planning_domain
     >>> domain = load_planning_domain("robot_assistant")
@@ -172,10 +172,14 @@ class BeliefAnswers:
         single = {fluent.predicate for fluent in places(self.domain) if fluent.single}
         who = self.speech.every(literal for literal in found if literal.name in single)
         described = describe_place(beliefs, place, step, named=bool(who))
-        said = [who, *described] if found else [self._nothing(place, beliefs, step)]
+        if query.text.startswith("who "):
+            # Whoever is there is what can be at one place only.
+            found = [literal for literal in found if literal.name in single]
+            described = []
+        said = [who, *described] if found else [self._nothing(place, beliefs, step, query)]
         return sentences(said), {"literals": [str(literal) for literal in found]}
 
-    def _nothing(self, place: str, beliefs: Beliefs, step: int) -> str:
+    def _nothing(self, place: str, beliefs: Beliefs, step: int, query: Query) -> str:
         fluents = [fluent for fluent in places(self.domain) if self._can_be_at(fluent, place)]
         where = " or ".join(dict.fromkeys(fluent.preposition for fluent in fluents))
         looked = any(
@@ -184,7 +188,8 @@ class BeliefAnswers:
             for other in places(self.domain)
             if seen.name == other.predicate
         )
-        said = f"I know of nothing {where} {self.speech.name(place)}"
+        nothing = none_of(query.text)
+        said = f"I know of {nothing} {where} {self.speech.name(place)}"
         return said if looked else f"{said}; I have not looked there"
 
     def _because(self, literal: clingo.Symbol, beliefs: Beliefs, step: int) -> list[str]:

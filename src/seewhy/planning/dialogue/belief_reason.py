@@ -18,7 +18,7 @@ from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis.diagnosis import Diagnosis, SurpriseKind, diagnose
 from seewhy.planning.dialogue.instances import Instances, unified
-from seewhy.planning.dialogue.speech import Speech
+from seewhy.planning.dialogue.surface_realisation import Speech
 from seewhy.planning.domain import PlanningDomain
 
 

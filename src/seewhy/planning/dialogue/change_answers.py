@@ -18,7 +18,7 @@ from seewhy.planning.dialogue.action_words import (
 )
 from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import sentences
+from seewhy.planning.dialogue.surface_realisation import sentences
 from seewhy.planning.execution.execution import Decision, Step
 from seewhy.planning.execution.plan_monitoring import state_after
 from seewhy.text.predicate_words import past

@@ -8,7 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from seewhy.planning.dialogue.speech import plural
+from seewhy.planning.dialogue.surface_realisation import of_several
+from seewhy.text.nouns import plural
 from seewhy.text.predicate_words import base_form, verb_place
 
 SLOT = re.compile(r"\{(\d+)\}")
@@ -46,7 +47,7 @@ def asking_for(clause: str, sorts: Sequence[str]) -> Iterator[tuple[int, str]]:
     0 what works in {1}
     0 who works in {1}
     0 which person works in {1}
-    0 which persons works in {1}
+    0 which persons work in {1}
     1 what does {0} work in
     1 who does {0} work in
     1 which place does {0} work in
@@ -63,7 +64,8 @@ def asking_for(clause: str, sorts: Sequence[str]) -> Iterator[tuple[int, str]]:
         number = int(words[first][1:-1])
         rest = (["is"] if begins else []) + words[first + 1 :]
         for asked in _what(sorts[number]):
-            yield number, " ".join([asked, *rest])
+            agreeing = rest if asked != _what(sorts[number])[-1] else of_several(rest)
+            yield number, " ".join([asked, *agreeing])
     if last == len(words) - 1 and last > first:
         number = int(words[last][1:-1])
         for text in _asking_for_the_end(words[:-1], sorts[number]):

@@ -13,13 +13,14 @@ from seewhy.planning.dialogue.action_words import (
     say_actions,
     say_end,
     say_gave_up,
+    say_hoped,
     say_not_done,
     say_supposed,
 )
 from seewhy.planning.dialogue.goal_words import say_goal
 from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import sentences
+from seewhy.planning.dialogue.surface_realisation import sentences
 from seewhy.planning.execution.execution import Decision, Outcome
 from seewhy.text.predicate_words import past
 
@@ -38,11 +39,17 @@ def plan(view: RunView, query: Query) -> Told:
         then = view.at(query.step)
         had = f"to {say_actions(then.plan, speech)}" if then.plan else "to do nothing more"
         was = f"at step {query.step} my plan was {had}"
-        return sentences([was]), {"actions": [str(action) for action in then.plan]}
+        return sentences([was, say_hoped(view, then) if then.plan else ""]), {
+            "actions": [str(action) for action in then.plan]
+        }
     if query.past and run.plans:
         made = [
-            f"at step {step.number} I planned to {say_actions(step.plan, speech)}"
+            said
             for step in run.plans
+            for said in (
+                f"at step {step.number} I planned to {say_actions(step.plan, speech)}",
+                say_hoped(view, step),
+            )
         ]
         return sentences(made), {
             "plans": [
@@ -103,6 +110,19 @@ def done(view: RunView, query: Query) -> Told:
         said.append(f"{who} {have} not done anything yet" if yet else f"{who} did not do anything")
     said.append(say_end(run, speech))
     return sentences(said), {"actions": events}
+
+
+def how_many_done(view: RunView, query: Query) -> Told:
+    """How many actions were done so far, or before a step, and how many of them in vain."""
+    until = len(view.run.steps) if query.step is None else query.step
+    done_so = [step for step in view.run.steps if step.action is not None and step.number < until]
+    failed = [step for step in done_so if (step.number, step.action) in view.failures]
+    reasons = {"steps": [step.number for step in done_so], "failed": len(failed)}
+    if not done_so:
+        return "I have not done anything yet.", reasons
+    actions = "one action" if len(done_so) == 1 else f"{len(done_so)} actions"
+    vain = [f"{len(failed)} of them failed"] if failed else []
+    return sentences([f"I did {actions}", *vain]), reasons
 
 
 def did_so(view: RunView, query: Query) -> Told:

@@ -12,7 +12,7 @@ from seewhy.knowledge.axiom import Condition, substitute, variables_in
 from seewhy.knowledge.ground import complement_of
 from seewhy.knowledge.signature import Signature
 from seewhy.planning.diagnosis.belief_state import State
-from seewhy.planning.dialogue.speech import Speech
+from seewhy.planning.dialogue.surface_realisation import Speech
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.goal import Goal
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from seewhy.dialogue.question_words import words_of
+from seewhy.planning.dialogue.location_fluents import places
 from seewhy.planning.dialogue.question_templates import plain_words
-from seewhy.planning.dialogue.whereabouts import places
 from seewhy.planning.domain import PlanningDomain
 
 LOCATION = ("location", "position", "whereabouts")

@@ -17,11 +17,11 @@ from seewhy.knowledge.ground import complement_of
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.dialogue.belief_answers import because, instead_of, none_of
 from seewhy.planning.dialogue.belief_reason import Beliefs
+from seewhy.planning.dialogue.hypothetical_history import known_at
+from seewhy.planning.dialogue.location_fluents import contents, place_of, places, whereabouts
 from seewhy.planning.dialogue.query import Asks, Query, Told
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import sentences
-from seewhy.planning.dialogue.supposing import known_at
-from seewhy.planning.dialogue.whereabouts import contents, place_of, whereabouts
+from seewhy.planning.dialogue.surface_realisation import sentences
 
 Literals = tuple[clingo.Symbol, ...]
 
@@ -85,10 +85,13 @@ def where_was(view: RunView, query: Query) -> Told:
 
 def which_were(view: RunView, query: Query) -> Told:
     """Of what something was believed, step by step, or what was at a place."""
+    asks_who = query.text.startswith("who ")
+    whose = {place.predicate for place in places(view.domain) if place.single}
 
     def found(state: State) -> Literals:
         if query.asks is Asks.CONTENTS:
-            return tuple(contents(view.domain, state, query.arguments[0] or ""))
+            there = contents(view.domain, state, query.arguments[0] or "")
+            return tuple(one for one in there if one.name in whose or not asks_who)
         return tuple(
             literal
             for literal in state.positive(query.predicate)

@@ -20,6 +20,7 @@ class Asks(StrEnum):
     CONTENTS = "contents"
     PLAN = "plan"
     DONE = "done"
+    HOW_MANY_DONE = "how_many_done"
     GOAL = "goal"
     WHY_DID = "why_did"
     WHY_NOT = "why_not"

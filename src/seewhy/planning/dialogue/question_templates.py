@@ -18,8 +18,8 @@ from seewhy.planning.dialogue.clause_forms import (
     without_first_words,
     without_last_thing,
 )
+from seewhy.planning.dialogue.location_fluents import places
 from seewhy.planning.dialogue.query import Asks
-from seewhy.planning.dialogue.whereabouts import places
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.tables import ActionTable
 
@@ -39,6 +39,10 @@ _UNFILLED = {
                 "what did you plan", "what did you plan to do", "what is next",
                 "what are you doing"),
     Asks.DONE: ("what did you do", "what have you done", "what happened"),
+    Asks.HOW_MANY_DONE: ("how many actions did you do", "how many actions have you done",
+                         "how many actions did you need", "how many actions did it take",
+                         "how many steps did you take", "how many steps have you taken",
+                         "how many steps did you do", "how many steps did it take"),
     Asks.GOAL: ("what is your goal", "what do you want to achieve", "what do you want"),
     Asks.WHY_CHANGED: ("why did the plan change", "why did your plan change",
                        "why did you change your plan", "why did you plan anew",
@@ -198,6 +202,10 @@ def _about_an_action(predicate: Predicate, table: ActionTable | None) -> Iterato
         less = without_last_thing(text)
         if less is not None:
             yield _template(Asks.DID, f"{beginning} {less}", predicate)
+    only = set(SLOT.findall(do))
+    if len(only) == 1:
+        # "Why not the library instead?" of what was moved to.
+        yield _template(Asks.WHY_NOT, f"why not {{{only.pop()}}}", predicate)
     place = without_first_words(do)
     if place is not None:
         yield _template(Asks.WHY_DID, f"why {place}", predicate)

@@ -11,9 +11,9 @@ from seewhy.knowledge.history import History
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.diagnosis.diagnosis import SurpriseKind, diagnose
 from seewhy.planning.dialogue.action_reason import Intentions
+from seewhy.planning.dialogue.hypothetical_history import known_at
 from seewhy.planning.dialogue.query import Query
-from seewhy.planning.dialogue.speech import Speech
-from seewhy.planning.dialogue.supposing import known_at
+from seewhy.planning.dialogue.surface_realisation import Speech
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run, Step, execute
 

@@ -14,10 +14,10 @@ from seewhy.planning.dialogue.action_words import (
     say_obstacle,
     say_supposed,
 )
+from seewhy.planning.dialogue.hypothetical_history import known_at, supposed_history
 from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.run_view import RunView
-from seewhy.planning.dialogue.speech import sentences, subjunctive
-from seewhy.planning.dialogue.supposing import known_at, supposed_history
+from seewhy.planning.dialogue.surface_realisation import sentences, subjunctive
 from seewhy.planning.execution.execution import Decision, Run
 from seewhy.planning.execution.plan_monitoring import state_after
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.stats import binom
 
+from seewhy.induction.axiom_learning import BY_CHANCE, Decide, LearningOptions, learn_axioms
 from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
 from seewhy.induction.generalisation import most_general
-from seewhy.induction.learning import BY_CHANCE, Decide, LearningOptions, learn_axioms
 from seewhy.induction.scene_table import SceneTable, scene_table
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.scene import FeatureVector
@@ -29,7 +29,7 @@ def default_candidates(
     Examples
     --------
     >>> import clingo
-    >>> from seewhy.induction.learning import decide_by_candidates
+    >>> from seewhy.induction.axiom_learning import decide_by_candidates
     >>> from seewhy.planning.domain import load_planning_domain
     >>> from seewhy.planning.learning.cases import Case
     >>> from seewhy.planning.learning.features import features_of

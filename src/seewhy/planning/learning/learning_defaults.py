@@ -1,8 +1,9 @@
 """Learn axioms about what is usually so at first from the record of earlier runs.
 
 The paper's robot learns so that people are usually where they work (hypothesis H4).
-The learner is that of pictures (:mod:`seewhy.induction.learning`); what is a picture there is here
-a fluent as a run first saw it, and its features are what is fixed about the fluent's arguments.
+The learner is that of pictures (:mod:`seewhy.induction.axiom_learning`); what is a picture there
+is here a fluent as a run first saw it, and its features are what is fixed about the fluent's
+arguments.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from seewhy.errors import PlanningError
+from seewhy.induction.axiom_learning import Decide, LearningOptions
 from seewhy.induction.candidate import Candidate, tally
-from seewhy.induction.learning import Decide, LearningOptions
 from seewhy.induction.scene_table import SceneTable, scene_table
 from seewhy.knowledge.axiom import Axiom, Origin
 from seewhy.knowledge.ground import fluent_of

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.stats import sem
 from sklearn.model_selection import GroupKFold
 
+from seewhy.induction.axiom_learning import LearningOptions, decide_by_candidates
 from seewhy.induction.candidate import Candidate
-from seewhy.induction.learning import LearningOptions, decide_by_candidates
 from seewhy.induction.scene_table import scene_table
 from seewhy.knowledge.reasoner import Decision
 from seewhy.knowledge.scene import FeatureVector

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, File, Form, Request, Response, UploadFile
 from fastapi.responses import RedirectResponse
@@ -85,8 +85,8 @@ def names(
         )
     named = NamedDomain(named_classes(classes), named_features(features), table, subject)
     domain_from_names(named, domain_place(project), data=str(project.folder))
-    project.refresh()
-    return RedirectResponse("/label", 303)
+    project.refresh(who=who_of(request), why="begun with these names")
+    return _to(request, "/label")
 
 
 @router.post("/begin/export")
@@ -105,14 +105,16 @@ def export(
         class_parts=class_parts.strip() or None,
     )
     project = studio_of(request).project
-    return _after(request, from_source(project, asked, subject=subject, who=who_of(request)))
+    from_source(project, asked, subject=subject, who=who_of(request))
+    return _to(request, PAGE.path)
 
 
 @router.post("/begin/open")
 def open_what_there_is(request: Request, path: PathText) -> Response:
     """Open a domain, a dataset or a model: what it holds is copied into the project."""
     place = _place(request, path)
-    return _after(request, open_folder(studio_of(request).project, place, who=who_of(request)))
+    open_folder(studio_of(request).project, place, who=who_of(request))
+    return _to(request, PAGE.path)
 
 
 def _place(request: Request, path: str) -> Path:
@@ -126,6 +128,13 @@ def _place(request: Request, path: str) -> Path:
     return Path(path.strip()).expanduser()
 
 
+def _to(request: Request, path: str) -> Response:
+    """Show another page: what is shown of this one changed in many places."""
+    if from_script(request):
+        return Response(headers={"HX-Redirect": path})
+    return RedirectResponse(path, 303)
+
+
 def _after(request: Request, arrived: Arrived) -> Response:
     if from_script(request):
         return render(request, "_begin_arrived.html", arrived=arrived, **_state(request))
@@ -136,7 +145,7 @@ def _shown(request: Request, *, arrived: Arrived | None = None) -> Response:
     return render(request, "begin.html", arrived=arrived, **_state(request))
 
 
-def _state(request: Request) -> dict[str, object]:
+def _state(request: Request) -> dict[str, Any]:
     project: Project = studio_of(request).project
     domain = None if project.domain_folder is None else project.domain()
     pictures = project.pictures()

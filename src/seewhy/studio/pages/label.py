@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated
+from typing import Annotated, Any
 from urllib.parse import urlencode
 
 from fastapi import APIRouter, Form, Query, Request, Response
@@ -153,13 +153,12 @@ def _shown(request: Request, *, at: str = "", done: str = "") -> Response:
         return RedirectResponse(f"{PAGE.path}?{urlencode(query)}", 303)
     proposals = studio.proposer.latest()
     bench = _bench(studio, here, at=at)
-    shown = {
+    shown: dict[str, Any] = {
         "bench": bench,
         "proposals": proposals,
         "worth": dict(proposals.order).get(here),
         "done": done,
         "progress": progress_of(studio.project, proposals),
-        "may_undo": True,
     }
     if not from_script(request):
         return render(request, "label.html", **shown)

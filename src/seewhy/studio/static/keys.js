@@ -49,14 +49,28 @@
     busy = true;
   });
 
+  // Nor are they shown while somebody presses a button or looks through a list.
+  let held = false;
+  document.addEventListener("pointerdown", () => { held = true; });
+  for (const kind of ["pointerup", "pointercancel"]) {
+    document.addEventListener(kind, () => setTimeout(() => { held = false; }));
+  }
   document.addEventListener("htmx:beforeSwap", (event) => {
-    if (!matters(event) && busy) event.detail.shouldSwap = false;
+    const choosing = document.activeElement?.matches("select, input:not([type=hidden])");
+    if (!matters(event) && (busy || held || choosing)) event.detail.shouldSwap = false;
   });
 
-  document.addEventListener("htmx:afterRequest", (event) => {
-    if (!matters(event)) return;
+  function release() {
     busy = false;
     while (waiting.length && !busy) press(waiting.shift());
+  }
+
+  // Only when an answer has settled do its buttons and links ask in their turn.
+  document.addEventListener("htmx:afterSettle", (event) => {
+    if (matters(event)) release();
+  });
+  document.addEventListener("htmx:afterRequest", (event) => {
+    if (matters(event) && (event.detail.failed || event.detail.xhr.status === 204)) release();
   });
 
   // A value that has no button of its own is said by choosing it.

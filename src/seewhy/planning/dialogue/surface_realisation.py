@@ -17,6 +17,7 @@ _ME = "\x01"
 _PLURAL = {"is": "are", "has": "have", "does": "do", "was": "were", "had": "had"}
 _VERB = re.compile(rf"^(.+?) ({'|'.join(_PLURAL)}) (.+)$")
 _SUBJECT = re.compile(rf"(^|\bthat |^perhaps ){_ME} (\w+)")
+_OF_ME = re.compile(rf"\bthe (\w+(?: \w+)?) of {_ME}(?!\w|')")
 _FIRST = {"is": "am", "has": "have", "does": "do", "was": "was", "goes": "go"}
 
 
@@ -162,17 +163,16 @@ def sentences(clauses: Iterable[str]) -> str:
     return " ".join(sentence(clause) for clause in clauses if clause)
 
 
-def plural(noun: str) -> str:
-    """Return the plural of a regular noun.
+def of_several(predicate: Sequence[str]) -> list[str]:
+    """Return a predicate of one thing, its verb first, as it is said of several.
 
     Examples
     --------
-    >>> plural("object"), plural("box")
-    ('objects', 'boxes')
+    >>> of_several("is large".split()), of_several("works in".split())
+    (['are', 'large'], ['work', 'in'])
     """
-    if noun.endswith(("s", "x", "ch", "sh")):
-        return f"{noun}es"
-    return f"{noun[:-1]}ies" if re.search("[^aeiou]y$", noun) else f"{noun}s"
+    verb, *rest = predicate or [""]
+    return [_PLURAL.get(verb) or base_form(verb), *rest] if predicate else []
 
 
 def _in_first_person(clause: str) -> str:
@@ -181,4 +181,5 @@ def _in_first_person(clause: str) -> str:
         return f"{before}I {_FIRST.get(verb) or base_form(verb)}"
 
     clause = _SUBJECT.sub(spoken, clause)
+    clause = _OF_ME.sub(r"my \1", clause)
     return clause.replace(f"{_ME}'s", "my").replace(_ME, "me")

@@ -8,8 +8,8 @@ import clingo
 
 from seewhy.domain.wording import join_words
 from seewhy.planning.dialogue.belief_reason import Beliefs
-from seewhy.planning.dialogue.speech import plural
-from seewhy.planning.dialogue.whereabouts import Place, places
+from seewhy.planning.dialogue.location_fluents import Place, places
+from seewhy.text.nouns import plural
 
 
 def describe_place(beliefs: Beliefs, place: str, step: int, *, named: bool) -> list[str]:

@@ -12,7 +12,7 @@ from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.history import History
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.diagnosis.diagnosis import Surprise, diagnose
-from seewhy.planning.dialogue.supposing import known_at
+from seewhy.planning.dialogue.hypothetical_history import known_at
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Decision, Outcome, Run, Step, execute
 from seewhy.planning.goal import Goal

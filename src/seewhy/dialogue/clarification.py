@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 from rapidfuzz import fuzz, process
 
@@ -58,7 +59,7 @@ class Suggestions:
         }
         chosen: dict[Query, str] = {}
         about = _about(text)
-        for pool in (_sharing(same, about), _sharing(as_denying, about), same, self._all):
+        for pool in (self._sharing(same, about), self._sharing(as_denying, about), same, self._all):
             if len(chosen) >= _MOST or (chosen and pool is self._all):
                 break
             ranked = process.extract(text, list(pool), scorer=fuzz.token_set_ratio, limit=40)
@@ -66,14 +67,18 @@ class Suggestions:
                 chosen.setdefault(pool[found], found)
         return tuple(f"{found}?" for found in list(chosen.values())[:_MOST])
 
+    def _sharing(self, questions: dict[str, Query], about: frozenset[str]) -> dict[str, Query]:
+        return {text: query for text, query in questions.items() if about & self._about[text]}
+
+    @cached_property
+    def _about(self) -> dict[str, frozenset[str]]:
+        """What each wording is about; worked out at the first question that is not understood."""
+        return {text: _about(text) for text in self._all}
+
 
 def _about(text: str) -> frozenset[str]:
     """The words that tell what a question is about."""
     return frozenset(map(lemma, set(words_of(text)) - _NOT_TELLING - set(_QUESTION_WORDS)))
-
-
-def _sharing(questions: dict[str, Query], about: frozenset[str]) -> dict[str, Query]:
-    return {text: query for text, query in questions.items() if about & _about(text)}
 
 
 def _kind(text: str) -> tuple[str, bool]:

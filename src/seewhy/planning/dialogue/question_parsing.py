@@ -13,7 +13,6 @@ from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.spelling import Spelling
 from seewhy.errors import QuestionError
 from seewhy.planning.dialogue.clause_forms import SLOT
-from seewhy.planning.dialogue.likeness import TELLING, VERBS, likeness, telling_words
 from seewhy.planning.dialogue.named_things import Marked, NamedThings, Thing
 from seewhy.planning.dialogue.query import Asks, Query
 from seewhy.planning.dialogue.question_templates import (
@@ -23,6 +22,7 @@ from seewhy.planning.dialogue.question_templates import (
     plain_words,
     question_templates,
 )
+from seewhy.planning.dialogue.template_similarity import TELLING, VERBS, likeness, telling_words
 from seewhy.planning.domain import PlanningDomain
 from seewhy.text.predicate_words import base_form
 

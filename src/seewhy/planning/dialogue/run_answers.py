@@ -15,10 +15,10 @@ from seewhy.planning.dialogue import (
     supposed_answers,
 )
 from seewhy.planning.dialogue.addressing import addressed, as_asked
-from seewhy.planning.dialogue.asking import PlanningQuestions
 from seewhy.planning.dialogue.belief_answers import BeliefAnswers
 from seewhy.planning.dialogue.query import Asks, Query, Told
-from seewhy.planning.dialogue.recalling import recalled
+from seewhy.planning.dialogue.question_parsing import PlanningQuestions
+from seewhy.planning.dialogue.reconstructed_run import recalled
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
@@ -26,6 +26,7 @@ from seewhy.planning.execution.execution import Run
 _ABOUT_RUN: Mapping[Asks, Callable[[RunView, Query], Told]] = {
     Asks.PLAN: course_answers.plan,
     Asks.DONE: course_answers.done,
+    Asks.HOW_MANY_DONE: course_answers.how_many_done,
     Asks.GOAL: course_answers.goal,
     Asks.DID: course_answers.did_so,
     Asks.ENDED: course_answers.has_ended,

@@ -1,0 +1,1 @@
+"""Questions about the things in a picture: read, answered with reasons, contrasted."""

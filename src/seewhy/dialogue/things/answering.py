@@ -1,0 +1,256 @@
+"""Answers to questions about one scene's things, each with its reasons."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from seewhy.data.thing_scene import ThingScene
+from seewhy.dialogue.things.contrast import tell_change, tell_why, tell_why_not
+from seewhy.dialogue.things.edits import edited, supposed_edits
+from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
+from seewhy.dialogue.things.outcome import Value, outcome_of
+from seewhy.dialogue.things.query import (
+    Count,
+    Describe,
+    Description,
+    Exists,
+    Holds,
+    Query,
+    Reference,
+    ValueOf,
+    Which,
+)
+from seewhy.dialogue.things.question_forms import FollowUp
+from seewhy.dialogue.things.reading import QuestionReader, Reading
+from seewhy.dialogue.things.reasons import Reasons
+from seewhy.dialogue.things.telling import tell, tell_failure
+from seewhy.dialogue.things.wording import ThingWords
+from seewhy.domain.things import Things
+from seewhy.errors import QuestionError
+from seewhy.knowledge.justification import Basis, Node
+
+__all__ = ["ThingAnswerer", "ThingReply"]
+
+
+@dataclass(frozen=True, eq=False)
+class ThingReply:
+    """An answer about things.
+
+    Attributes
+    ----------
+    question, text : str
+        What was asked, and the answer as a sentence.
+    query : Query
+        What the question was taken to ask.
+    value : bool, int, str, tuple or None
+        The answer itself; None where it is not known, or the question speaks of a thing that is
+        not there or not one.
+    failed : UnclearReferenceError or None
+        Why the question has no answer.
+    spoken_of : Reference or None
+        What "it" is in the next question.
+    """
+
+    question: str
+    text: str
+    query: Query
+    value: Value
+    words: ThingWords
+    failed: UnclearReferenceError | None = None
+    spoken_of: Reference | None = None
+
+    @cached_property
+    def justification(self) -> Node:
+        """The reasons, down to the things and what was seen of them."""
+        if self.failed is None:
+            return Reasons(self.words.evaluation, self.words).tree(self.query, self.text)
+        reference = self.failed.reference
+        counted = Count(Description(reference.description.conditions))
+        try:
+            return Reasons(self.words.evaluation, self.words).tree(counted, self.text)
+        except UnclearReferenceError:
+            return Node("reference", self.text, Basis.ABSENCE)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the reply as values that JSON can hold."""
+        return {
+            "question": self.question,
+            "text": self.text,
+            "answer": list(self.value) if isinstance(self.value, tuple) else self.value,
+            "understood": str(self.query),
+            "justification": self.justification.to_dict(),
+        }
+
+
+class ThingAnswerer:
+    """Answers questions about the things of a domain's scenes.
+
+    Examples
+    --------
+    >>> from seewhy.data.thing_scene import thing_scene
+    >>> from seewhy.domain.domain import load_domain
+    >>> things = load_domain("tabletop").things
+    >>> scene = thing_scene(
+    ...     things,
+    ...     [{"colour": "red", "shape": "cube"}, {"colour": "blue", "shape": "sphere"}],
+    ...     relations={"left": [(0, 1)]},
+    ... )
+    >>> answerer = ThingAnswerer(things)
+    >>> print(answerer.answer("What is left of the ball?", scene).text)
+    There is one thing left of the blue sphere: the red cube.
+    """
+
+    def __init__(self, things: Things) -> None:
+        self.things = things
+        self.reader = QuestionReader(things)
+
+    def answer(
+        self, question: str, scene: ThingScene, *, previous: ThingReply | None = None
+    ) -> ThingReply:
+        """Answer a question about a scene.
+
+        ``previous`` is the answer before, to which "it", "why?" and "and the red one?" go.
+
+        Raises
+        ------
+        QuestionError
+            If the question is not understood.
+        """
+        try:
+            return self._answer(question, scene, previous)
+        except RecursionError:
+            raise QuestionError(
+                "the question speaks of things by things by things, too many times over; ask in "
+                "two steps"
+            ) from None
+
+    def _answer(self, question: str, scene: ThingScene, previous: ThingReply | None) -> ThingReply:
+        readings = self.reader.readings(
+            question,
+            antecedent=previous.spoken_of if previous else None,
+            answered=previous is not None,
+        )
+        words = None if previous is None else previous.words
+        if words is None or words.evaluation.scene is not scene or words.evaluation.without:
+            words = ThingWords(Evaluation(scene, self.things))  # what was supposed is left again
+        failed: ThingReply | None = None
+        for reading in readings:
+            reply = self._answered(question, reading, words, previous)
+            if reply is not None and reply.failed is None:
+                return reply
+            failed = failed or reply
+        if failed is None:
+            raise QuestionError("I do not understand what the question has to do with the last")
+        return failed
+
+    def _answered(
+        self, question: str, reading: Reading, words: ThingWords, previous: ThingReply | None
+    ) -> ThingReply | None:
+        query = reading.query
+        if isinstance(query, FollowUp):
+            if query.query is not None:
+                return self._why(question, query.query, reading, words)
+            if previous is None:
+                return None
+            if query.asks == "what_if":
+                return self._supposed(question, query, previous, words)
+            if query.asks != "instead":
+                return _about_answer(question, query, previous)
+            replaced = _instead(previous.query, query.instead)
+            if replaced is None:
+                return None
+            query = replaced
+        spoken_of = _spoken_of(query) or reading.spoken_of
+        try:
+            outcome = outcome_of(query, words.evaluation)
+        except UnclearReferenceError as failed:
+            text = tell_failure(failed, words)
+            return ThingReply(question, text, query, None, words, failed, spoken_of)
+        text = tell(query, outcome, words)
+        return ThingReply(question, text, query, outcome.value, words, None, spoken_of)
+
+    def _supposed(
+        self, question: str, asked: FollowUp, previous: ThingReply, words: ThingWords
+    ) -> ThingReply | None:
+        """The question before, asked of the scene as it would be."""
+        evaluation = words.evaluation
+        if not isinstance(asked.instead, Reference):
+            return None
+        try:
+            number = evaluation.the(asked.instead)
+        except UnclearReferenceError as failed:
+            text = tell_failure(failed, words)
+            return ThingReply(question, text, previous.query, None, words, failed)
+        edits = supposed_edits(number, asked.supposed)
+        if edits is None:
+            return None
+        scene, without = edited(evaluation.scene, self.things, edits)
+        supposed = ThingWords(Evaluation(scene, self.things, without=without))
+        reply = self._answered(question, Reading(previous.query), supposed, None)
+        return reply and replace(reply, text=f"Then: {reply.text[:1].lower()}{reply.text[1:]}")
+
+    def _why(
+        self, question: str, query: Query, reading: Reading, words: ThingWords
+    ) -> ThingReply | None:
+        """Why something is so that a question names, and that it is not so where it is not."""
+        reply = self._answered(question, Reading(query, reading.spoken_of), words, None)
+        if reply is None or reply.failed is not None:
+            return reply
+        why = tell_why(reply.justification)
+        said = f"But it is not so: {why}" if reply.value is False else why
+        return replace(reply, text=said)
+
+
+def _about_answer(question: str, asked: FollowUp, previous: ThingReply) -> ThingReply:
+    """What is asked about an answer; the answer stays what is spoken of."""
+    if asked.asks == "change":
+        text = tell_change(previous.query, previous.value, asked.wanted, previous.words)
+    elif asked.asks == "why_not":
+        text = tell_why_not(previous.query, previous.value, asked.wanted, previous.words)
+    else:
+        text = tell_why(previous.justification)
+    return ThingReply(
+        question,
+        text,
+        previous.query,
+        previous.value,
+        previous.words,
+        previous.failed,
+        previous.spoken_of,
+    )
+
+
+def _spoken_of(query: Query) -> Reference | None:
+    """What "it" means behind a question."""
+    match query:
+        case ValueOf(one=one) | Describe(one=one):
+            return one
+        case Holds(ones=ones):
+            return ones[0]
+        case Count(described=described) | Exists(described=described) | Which(described=described):
+            return Reference(described)
+    return None
+
+
+def _instead(query: Query, instead: Description | Reference | None) -> Query | None:
+    """The question before about something else: "and the red one?"."""
+    if isinstance(instead, Reference):
+        match query:
+            case ValueOf(feature=feature):
+                return ValueOf(feature, instead)
+            case Describe(place=place):
+                return Describe(instead, place)
+            case Holds(condition=condition):
+                return Holds((instead,), condition)
+        instead = instead.description
+    if isinstance(instead, Description):
+        match query:
+            case Count():
+                return Count(instead)
+            case Exists(denied=denied):
+                return Exists(instead, denied)
+            case Which():
+                return Which(instead)
+    return None

@@ -1,0 +1,145 @@
+"""Answers about answers: why, why not another, what would have to be otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from seewhy.dialogue.things.changing import smallest_change
+from seewhy.dialogue.things.evaluating import members
+from seewhy.dialogue.things.outcome import Value
+from seewhy.dialogue.things.query import (
+    CompareNumber,
+    Count,
+    Description,
+    Exists,
+    HasValue,
+    Holds,
+    Query,
+    Which,
+)
+from seewhy.dialogue.things.question_forms import Wanted
+from seewhy.dialogue.things.reasons import Reasons
+from seewhy.dialogue.things.wording import ThingWords, number_word
+from seewhy.domain.wording import join_words, sentence
+from seewhy.knowledge.justification import Basis, Node
+
+__all__ = ["tell_change", "tell_why", "tell_why_not"]
+
+_MOST_TOLD = 3
+
+
+def tell_why(justification: Node) -> str:
+    """Return the reasons of an answer as sentences.
+
+    Examples
+    --------
+    >>> red = Node("colour(thing1,red)", "it is red", Basis.FEATURE)
+    >>> cube = Node("thing1", "there is the red cube", Basis.JOINTLY, children=(red,))
+    >>> tell_why(Node("count", "There is one red thing.", Basis.JOINTLY, children=(cube,)))
+    'There is the red cube: it is red.'
+    """
+    return " ".join(map(sentence, _said(justification))) or sentence(justification.text)
+
+
+def _said(justification: Node) -> Iterator[str]:
+    there = [node for node in justification.children if node.basis is not Basis.ABSENCE]
+    for node in there:
+        leaves = [child.text for child in node.children if child.basis is Basis.FEATURE]
+        yield f"{node.text}: {join_words(leaves)}" if leaves else node.text
+    if not there or justification.text.startswith("No"):
+        for node in justification.children:
+            if node.basis is Basis.ABSENCE and node.children:
+                yield f"{node.text}: {'; '.join(child.text for child in node.children)}"
+
+
+def tell_why_not(query: Query, value: Value, wanted: Wanted, words: ThingWords) -> str:
+    """Return why an answer is not another one: what is nearest to making it so."""
+    if (
+        wanted is not None
+        and wanted == value
+        and isinstance(wanted, bool) == isinstance(value, bool)
+    ):
+        return sentence(f"but it is so: {_short(query, words)}")
+    if isinstance(wanted, HasValue):
+        return tell_why(Reasons(words.evaluation, words).tree(query, ""))
+    match query:
+        case Count(described=described) | Which(described=described):
+            fewer = isinstance(wanted, int) and isinstance(value, int) and wanted < value
+            return _why_no_more(described, words, fewer=fewer)
+        case Exists(described=described) | CompareNumber(described=described):
+            return _why_no_more(described, words, fewer=bool(value) and isinstance(query, Exists))
+        case Holds(ones=ones, condition=condition):
+            reasons = Reasons(words.evaluation, words)
+            leaves = [
+                reasons.judged(number, condition) for one in ones for number in reasons.numbers(one)
+            ]
+            return " ".join(sentence(leaf.text) for leaf in leaves)
+    return tell_why(Reasons(words.evaluation, words).tree(query, ""))
+
+
+def _short(query: Query, words: ThingWords) -> str:
+    return Reasons(words.evaluation, words).tree(query, "the answer is that").text
+
+
+def _why_no_more(described: Description, words: ThingWords, *, fewer: bool) -> str:
+    """Those that are so; or the things that lack least, and what they lack."""
+    evaluation = words.evaluation
+    fits = evaluation.fits(described)
+    reasons = Reasons(evaluation, words)
+    if fewer:
+        return " ".join(
+            sentence(f"{words.name(number)} is one: {join_words(reasons.so(number, described))}")
+            for number in members(fits.surely)
+        )
+    lacking: list[tuple[int, int, str]] = []
+    for number in members(evaluation.everything & ~fits.surely):
+        missing = reasons.missing(number, described)
+        lacking.append((len(missing), number, join_words(missing)))
+    if not lacking:
+        return "There are no other things."
+    least = min(lacking)[0]
+    nearest = [said for count, _, said in lacking if count == least]
+    several = f"; so it is with {number_word(len(nearest) - _MOST_TOLD)} more"
+    more = several if len(nearest) > _MOST_TOLD else ""
+    count = fits.surely.bit_count()
+    there = "There is" if count == 1 else "There are"
+    # "No other" comes nearer than these.
+    said = "; ".join(nearest[:_MOST_TOLD])
+    return f"{there} {words.counted(count, described)}. Nearest to one more: {said}{more}."
+
+
+def tell_change(query: Query, value: Value, wanted: Wanted, words: ThingWords) -> str:
+    """Return the smallest change of the scene after which an answer is another one."""
+    goal = wanted
+    if goal is None:
+        if not isinstance(value, bool):
+            return "Say what the answer is to be, as in 'what would make the answer two?'."
+        goal = not value
+    aim = goal.value if isinstance(goal, HasValue) else goal
+    if aim == value and isinstance(aim, bool) == isinstance(value, bool):
+        return "Nothing: that is the answer."
+    found = smallest_change(query, aim, words)
+    said_aim = _aim(goal, words)
+    untried = " One thing more was not tried." if found.without_additions else ""
+    if found.changes is None:
+        if not found.looked_at:
+            return "There are more changes than can be looked at."
+        count = number_word(found.looked_at)
+        several = f"up to {count} things" if found.looked_at > 1 else f"{count} thing"
+        return f"{sentence(f'no change of {several} {_makes(said_aim)}')}{untried}"
+    others = f" {number_word(found.others).capitalize()} other" if found.others else ""
+    ways = f"{others} change{'s' * (found.others > 1)} as small would do, too." if others else ""
+    told = sentence(f"if {join_words(found.changes)}, the answer would be {said_aim}")
+    return f"{told}{ways}{untried}"
+
+
+def _makes(aim: str) -> str:
+    return f"makes the answer {aim}; larger ones were not looked for"
+
+
+def _aim(goal: bool | int | HasValue, words: ThingWords) -> str:
+    if isinstance(goal, HasValue):
+        return words.value(goal.feature, goal.value)
+    if isinstance(goal, bool):
+        return "yes" if goal else "no"
+    return number_word(goal)

@@ -1,0 +1,173 @@
+"""The words of a domain's things, by the categories of the grammar."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from seewhy.dialogue.grammar import Binding
+from seewhy.dialogue.lexicon import NUMBERS
+from seewhy.dialogue.question_words import words_of
+from seewhy.dialogue.things.chart import Category, Chart, Ending
+from seewhy.dialogue.things.query import Extreme, HasValue, Ranked
+from seewhy.domain.things import ThingFeature, Things
+from seewhy.text.comparison import comparative, superlative
+from seewhy.text.nouns import plural
+from seewhy.text.predicate_words import past_form
+
+__all__ = ["RANKS", "Entries", "lexicon_of", "vocabulary_of"]
+
+RANKS = (
+    "first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth",
+    "eleventh", "twelfth",
+)  # fmt: skip
+
+
+class Entries:
+    """Phrases of one category, by their first word; the longest is tried first."""
+
+    def __init__(self) -> None:
+        self._by_first: dict[str, list[tuple[tuple[str, ...], tuple[Binding, ...]]]] = {}
+
+    def add(self, phrase: str, *bindings: Binding) -> None:
+        """Let a phrase mean something."""
+        words = tuple(words_of(phrase))
+        if not words:
+            return
+        listed = self._by_first.setdefault(words[0], [])
+        if (words, bindings) not in listed:
+            listed.append((words, bindings))
+            listed.sort(key=lambda entry: -len(entry[0]))
+
+    def __call__(self, chart: Chart, at: int) -> Sequence[Ending]:
+        """Return the phrases that begin at a place."""
+        words = chart.words
+        if at >= len(words) or words[at] not in self._by_first:
+            return ()
+        return [
+            Ending(at + len(phrase), bindings)
+            for phrase, bindings in self._by_first[words[at]]
+            if words[at : at + len(phrase)] == phrase
+        ]
+
+    @property
+    def first_words(self) -> frozenset[str]:
+        """The words with which phrases begin."""
+        return frozenset(self._by_first)
+
+    def words(self) -> Iterator[str]:
+        """Yield the words of all phrases."""
+        for listed in self._by_first.values():
+            for phrase, _ in listed:
+                yield from phrase
+
+
+_CATEGORIES = (
+    "adjective", "noun", "value", "feature", "how", "participle", "preposition", "verb", "verbing",
+    "comparative", "superlative", "extreme", "side", "rank", "number",
+)  # fmt: skip
+
+
+def lexicon_of(things: Things) -> dict[str, Category]:
+    """Return the categories of the grammar, filled with the words of a domain's things.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> lexicon = lexicon_of(load_domain("tabletop").things)
+    >>> lexicon["preposition"](Chart("to the left of it".split()), 0)[0].end
+    4
+    """
+    entries = {name: Entries() for name in _CATEGORIES}
+    for word in things.words:
+        _add_noun(entries["noun"], word, things.many if word == things.one else plural(word), ())
+    _add_noun(entries["noun"], "one", "ones", ())
+    for feature in things.features.values():
+        _add_feature(entries, feature)
+    for key, relation in things.relations.items():
+        for word in relation.words:
+            entries["preposition"].add(word, Binding("relation", key))
+        for verb in relation.verbs:
+            for form in (verb, _third_person(verb), past_form(verb)):
+                entries["verb"].add(form, Binding("relation", key))
+            entries["verbing"].add(_gerund(verb), Binding("relation", key))
+        for word in relation.most:
+            entries["extreme"].add(word, Binding("extreme", Extreme(key)))
+        for word in relation.side:
+            entries["side"].add(word, Binding("side", key))
+    for number, rank in enumerate(RANKS, start=1):
+        entries["rank"].add(rank, Binding("rank", number))
+    entries["rank"].add("last", Binding("rank", -1))
+    for number, word in enumerate(NUMBERS):
+        entries["number"].add(word, Binding("number", number))
+        entries["number"].add(str(number), Binding("number", number))
+    return {**entries, "pronoun": _Antecedent(_PRONOUNS), "its": _Antecedent(_OWNERS)}
+
+
+def vocabulary_of(lexicon: Mapping[str, Category]) -> frozenset[str]:
+    """Return the domain's own words."""
+    listed: Iterable[Entries] = (e for e in lexicon.values() if isinstance(e, Entries))
+    return frozenset(word for entries in listed for word in entries.words())
+
+
+def _add_feature(entries: Mapping[str, Entries], feature: ThingFeature) -> None:
+    asked = Binding("feature", feature.key)
+    for word in feature.called:
+        for form in (word, plural(word)):
+            entries["feature"].add(form, asked)
+    for word in feature.how:
+        entries["how"].add(word, asked)
+    for phrase in feature.participles:
+        entries["participle"].add(phrase, asked)
+    for value in feature.values:
+        for word in feature.words[value]:
+            meant = Binding("condition", HasValue(feature.key, value))
+            entries["adjective"].add(word, meant)
+            entries["value"].add(word, meant)
+        for noun in feature.nouns[value]:
+            meant = Binding("condition", HasValue(feature.key, value, noun=True))
+            _add_noun(entries["noun"], noun, plural(noun), (meant,))
+            for form in (noun, f"a {noun}", f"an {noun}", plural(noun)):
+                entries["value"].add(form, meant)
+    if not feature.ordered:
+        return
+    for value, more in ((feature.values[0], False), (feature.values[-1], True)):
+        for word in feature.words[value]:
+            compared = Binding("compared", (feature.key, more))
+            entries["comparative"].add(comparative(word), compared)
+            entries["superlative"].add(
+                superlative(word), Binding("ranked", Ranked(feature.key, most=more))
+            )
+
+
+def _add_noun(nouns: Entries, one: str, many: str, bindings: tuple[Binding, ...]) -> None:
+    nouns.add(one, *bindings, Binding("many", False))
+    nouns.add(many, *bindings, Binding("many", True))
+
+
+def _third_person(verb: str) -> str:
+    first, _, rest = verb.partition(" ")
+    return f"{plural(first)} {rest}".strip()
+
+
+def _gerund(verb: str) -> str:
+    first, _, rest = verb.partition(" ")
+    return f"{first.removesuffix('e')}ing {rest}".strip()
+
+
+_PRONOUNS = frozenset({"it", "this", "that", "they", "them", "these", "those"})
+_OWNERS = frozenset({"its", "their"})
+
+
+@dataclass(frozen=True)
+class _Antecedent:
+    """Words for what was spoken of before."""
+
+    first_words: frozenset[str]
+
+    def __call__(self, chart: Chart, at: int) -> Sequence[Ending]:
+        if chart.antecedent is None or at >= len(chart.words):
+            return ()
+        if chart.words[at] not in self.first_words:
+            return ()
+        return (Ending(at + 1, (Binding("one", chart.antecedent),)),)

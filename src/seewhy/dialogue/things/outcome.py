@@ -1,0 +1,155 @@
+"""What a query comes to in a scene: yes or no, a number, a value, things; None: not known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from operator import eq, ge, gt, le, lt
+
+from seewhy.dialogue.things.evaluating import Evaluation, Fits, members
+from seewhy.dialogue.things.query import (
+    CompareCounts,
+    CompareNumber,
+    Count,
+    Describe,
+    Description,
+    Difference,
+    Exists,
+    Holds,
+    Query,
+    Reference,
+    References,
+    SameValue,
+    ValueOf,
+    Which,
+)
+
+__all__ = ["Outcome", "Value", "outcome_of"]
+
+Value = bool | int | str | tuple[int, ...] | tuple[str, ...] | None
+"""Yes or no, a number, a value, numbers of things, features; None where it is not known."""
+
+_SIGNS: dict[str, Callable[[int, int], bool]] = {"=": eq, "<": lt, ">": gt, "<=": le, ">=": ge}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a query comes to.
+
+    ``fits`` are the things that were asked for, a set for each description of the query.
+    """
+
+    value: Value
+    fits: tuple[Fits, ...] = ()
+
+
+def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
+    """Evaluate a query.
+
+    Raises
+    ------
+    UnclearReferenceError
+        If it refers to a thing that is not there or not one.
+    """
+    match query:
+        case Count(described=described):
+            fits = evaluation.fits(described)
+            return Outcome(fits.surely.bit_count() if fits.known else None, (fits,))
+        case Exists(described=described, denied=denied):
+            fits = evaluation.fits(described)
+            found = True if fits.surely else None if fits.maybe else False
+            return Outcome(_denied(found) if denied else found, (fits,))
+        case Which(described=described):
+            fits = evaluation.fits(described)
+            return Outcome(tuple(members(fits.surely)) if fits.known else None, (fits,))
+        case CompareCounts(sign=sign, first=first, second=second):
+            one, other = evaluation.fits(first), evaluation.fits(second)
+            return Outcome(_compared(sign, _span(one), _span(other)), (one, other))
+        case CompareNumber(sign=sign, described=described, number=number):
+            fits = evaluation.fits(described)
+            return Outcome(_compared(sign, _span(fits), (number, number)), (fits,))
+        case ValueOf(feature=feature, one=one):
+            return _value_of(feature, one, evaluation)
+        case SameValue(feature=feature, first=first, second=second, denied=denied):
+            values = evaluation.scene.values[feature]
+            this, that = values[evaluation.the(first)], values[evaluation.the(second)]
+            same = None if this is None or that is None else this == that
+            return Outcome(_denied(same) if denied else same)
+        case Holds(ones=ones, condition=condition):
+            fits = evaluation.fits(Description((condition,)))
+            return Outcome(_all([_holds_of(one, fits, evaluation) for one in ones]), (fits,))
+        case Describe(one=one):
+            return Outcome((evaluation.the(one),))
+        case Difference():
+            return _difference(query, evaluation)
+    raise TypeError(f"must be a query, got {query!r}")
+
+
+def _value_of(feature: str, one: Reference, evaluation: Evaluation) -> Outcome:
+    values = evaluation.scene.values[feature]
+    if one.which is References.THE:
+        return Outcome(values[evaluation.the(one)])
+    fits = evaluation.fits(one.description)
+    found = {values[number] for number in members(fits.maybe)}
+    single = len(found) == 1 and fits.known
+    return Outcome(found.pop() if single else None, (fits,))
+
+
+def _difference(query: Difference, evaluation: Evaluation) -> Outcome:
+    one, other = evaluation.the(query.first), evaluation.the(query.second)
+    known = [
+        (key, values[one] == values[other])
+        for key, values in evaluation.scene.values.items()
+        if values[one] is not None and values[other] is not None
+    ]
+    if len(known) < len(evaluation.scene.values):
+        return Outcome(None)
+    return Outcome(tuple(key for key, same in known if same is query.alike))
+
+
+def _holds_of(one: Reference, fits: Fits, evaluation: Evaluation) -> bool | None:
+    """Whether what fits is so of the thing, of some thing or of every thing of a description."""
+    if one.which is References.THE:
+        return _of(evaluation.the(one), fits)
+    described = evaluation.fits(one.description)
+    each = [
+        (described.surely >> number & 1, _of(number, fits)) for number in members(described.maybe)
+    ]
+    if one.which is References.SOME:
+        if any(sure and so for sure, so in each):
+            return True
+        return False if all(so is False for _, so in each) else None
+    if any(sure and so is False for sure, so in each):
+        return False
+    return True if each and all(so for _, so in each) else None if each else False
+
+
+def _of(number: int, fits: Fits) -> bool | None:
+    if fits.surely >> number & 1:
+        return True
+    return None if fits.maybe >> number & 1 else False
+
+
+def _denied(so: bool | None) -> bool | None:
+    return None if so is None else not so
+
+
+def _all(parts: list[bool | None]) -> bool | None:
+    if False in parts:
+        return False
+    return None if None in parts else True
+
+
+def _span(fits: Fits) -> tuple[int, int]:
+    return fits.surely.bit_count(), fits.maybe.bit_count()
+
+
+def _compared(sign: str, first: tuple[int, int], second: tuple[int, int]) -> bool | None:
+    """Whether a comparison holds of all numbers within two spans, of none, or of some."""
+    holds = _SIGNS[sign]
+    found = {
+        holds(one, other)
+        for one in range(first[0], first[1] + 1)
+        for other in range(second[0], second[1] + 1)
+    }
+    return found.pop() if len(found) == 1 else None

@@ -1,0 +1,258 @@
+"""What the phrases of the grammar come to: conditions, descriptions and references."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from seewhy.dialogue.grammar import Binding
+from seewhy.dialogue.things.chart import Fold
+from seewhy.dialogue.things.query import (
+    All,
+    AnyOf,
+    Apart,
+    Between,
+    Compares,
+    Condition,
+    Description,
+    Extreme,
+    HasValue,
+    Is,
+    Nearest,
+    Not,
+    Numbered,
+    Reference,
+    References,
+    Related,
+    Shares,
+    references_in,
+)
+
+__all__ = ["PHRASES", "all_of", "meanings", "settled"]
+
+Bindings = tuple[Binding, ...]
+
+
+def meanings(bindings: Bindings, role: str) -> list[object]:
+    """Return what stands in a role, in order."""
+    return [binding.meaning for binding in bindings if binding.role == role]
+
+
+def _one(bindings: Bindings, role: str) -> object | None:
+    found = meanings(bindings, role)
+    return found[0] if found else None
+
+
+def _conditions(bindings: Bindings) -> tuple[Condition, ...]:
+    return tuple(meanings(bindings, "condition"))  # type: ignore[arg-type]
+
+
+def _condition(condition: Condition) -> Bindings:
+    return (Binding("condition", condition),)
+
+
+def all_of(conditions: Sequence[Condition]) -> Condition:
+    """Return several conditions as one."""
+    return conditions[0] if len(conditions) == 1 else All(tuple(conditions))
+
+
+def settled(description: Description, antecedent: Reference | None = None) -> Description:
+    """Return a description in which "other" is other than what it speaks of.
+
+    That is the first thing that its conditions refer to, or else what was spoken of before; where
+    there is neither, it says nothing.
+    """
+    if Apart(None) not in description.conditions:
+        return description
+    others = [c for c in description.conditions if c != Apart(None)]
+    referred = [one for condition in others for one in references_in(condition)]
+    anchor = referred[0] if referred else antecedent
+    apart = () if anchor is None else (Apart(anchor),)
+    return Description((*others, *apart), description.selection, description.many)
+
+
+def _apart(_: Bindings) -> Bindings:
+    return _condition(Apart(None))
+
+
+def _described(bindings: Bindings) -> Bindings:
+    many = meanings(bindings, "many")
+    described = Description(_conditions(bindings), many=bool(many and many[-1]))
+    return (Binding("described", described),)
+
+
+def _any_of(bindings: Bindings) -> Bindings:
+    return _condition(AnyOf(_conditions(bindings)))
+
+
+def _all_of(bindings: Bindings) -> Bindings:
+    return _condition(All(_conditions(bindings)))
+
+
+def _not(bindings: Bindings) -> Bindings:
+    return _condition(Not(all_of(_conditions(bindings))))
+
+
+def _neither(bindings: Bindings) -> Bindings:
+    return _condition(Not(AnyOf(_conditions(bindings))))
+
+
+def _standing(bindings: Bindings) -> Bindings:
+    return _condition(Related(str(_one(bindings, "relation")), _reference(bindings)))
+
+
+def _stood_to(bindings: Bindings) -> Bindings:
+    """What something else stands to: "the thing that the ball is left of"."""
+    relation = str(_one(bindings, "relation"))
+    return _condition(Related(relation, _reference(bindings), inverse=True))
+
+
+def _either_kind(bindings: Bindings) -> Bindings:
+    """Things of either of two descriptions: "cubes or green balls"."""
+    kinds = [d for d in meanings(bindings, "described") if isinstance(d, Description)]
+    either = AnyOf(tuple(all_of(settled(kind).conditions) for kind in kinds))
+    return (Binding("described", Description((either,), many=any(kind.many for kind in kinds))),)
+
+
+def _reference(bindings: Bindings, at: int = 0) -> Reference:
+    found = meanings(bindings, "one")[at]
+    if not isinstance(found, Reference):
+        raise TypeError(f"must be a reference, got {found!r}")
+    return found
+
+
+def _shares(bindings: Bindings) -> Bindings:
+    return _condition(Shares(str(_one(bindings, "feature")), _reference(bindings)))
+
+
+def _of_one_feature(bindings: Bindings) -> Bindings | None:
+    """Conditions with the feature that they are said of: "made of rubber", not "made of red"."""
+    features = set(meanings(bindings, "feature"))
+    for condition in _conditions(bindings):
+        if isinstance(condition, HasValue | Shares):
+            features.add(condition.feature)
+    if len(features) > 1:
+        return None
+    return tuple(binding for binding in bindings if binding.role == "condition")
+
+
+def _valued(bindings: Bindings) -> Bindings | None:
+    kept = _of_one_feature(bindings)
+    # The feature is kept for the participle in front: "made of the colour red" means nothing.
+    return None if kept is None else (*kept, *(b for b in bindings if b.role == "feature"))
+
+
+def _placed(bindings: Bindings) -> Bindings | None:
+    return _of_one_feature(bindings)
+
+
+def _compares(bindings: Bindings) -> Bindings | None:
+    compared = _one(bindings, "compared")
+    if not isinstance(compared, tuple):
+        return None
+    feature, more = compared
+    return _condition(Compares(feature, more, _reference(bindings)))
+
+
+def _between(bindings: Bindings) -> Bindings:
+    return _condition(Between(_reference(bindings), _reference(bindings, 1)))
+
+
+def _beyond(bindings: Bindings) -> Bindings:
+    return _condition(Apart(_reference(bindings)))
+
+
+def _kind_of(bindings: Bindings) -> Bindings | None:
+    described = _one(bindings, "described")
+    if not isinstance(described, Description):
+        return None
+    return _condition(all_of(settled(described).conditions))
+
+
+def _is(bindings: Bindings) -> Bindings:
+    return _condition(Is(_reference(bindings)))
+
+
+def _farthest(_: Bindings) -> Bindings:
+    return (Binding("farthest", True),)
+
+
+def _nearest(_: Bindings) -> Bindings:
+    return (Binding("farthest", False),)
+
+
+def _picked(bindings: Bindings) -> Bindings | None:
+    described = _one(bindings, "described") or Description()
+    if not isinstance(described, Description):
+        return None
+    rank, side = _one(bindings, "rank"), _one(bindings, "side")
+    extreme, ranked = _one(bindings, "extreme"), _one(bindings, "ranked")
+    farthest = _one(bindings, "farthest")
+    selection: object = ranked
+    if isinstance(extreme, Extreme) or side is not None:
+        number = rank if isinstance(rank, int) else 1
+        relation = extreme.relation if isinstance(extreme, Extreme) else str(side)
+        selection = Extreme(relation, abs(number), from_end=number < 0)
+    elif isinstance(rank, int):
+        selection = Numbered(rank)
+    elif farthest is not None:
+        selection = Nearest(_reference(bindings), farthest=bool(farthest))
+    picked = Description(described.conditions, selection, described.many)  # type: ignore[arg-type]
+    return (Binding("described", picked),)
+
+
+def _referring(which: References) -> Fold:
+    def fold(bindings: Bindings) -> Bindings | None:
+        described = _one(bindings, "described")
+        if not isinstance(described, Description):
+            return None
+        meant = which
+        if which is References.THE and described.many and described.selection is None:
+            meant = References.EVERY  # "the cubes"
+        return (Binding("one", Reference(settled(described), meant)),)
+
+    return fold
+
+
+def _numbered(bindings: Bindings) -> Bindings | None:
+    number = _one(bindings, "number")
+    if not isinstance(number, int) or number < 1 or any(meanings(bindings, "many")):
+        return None
+    described = Description(_conditions(bindings), Numbered(number))
+    return (Binding("one", Reference(described)),)
+
+
+PHRASES: dict[str, Fold] = {
+    "apart": _apart,
+    "else": _apart,
+    "described": _described,
+    "one_of_two": _any_of,
+    "not_so": _not,
+    "does_not": _not,
+    "not_state": _not,
+    "being_both": _all_of,
+    "being_either": _any_of,
+    "being_neither": _neither,
+    "kind_of": _kind_of,
+    "standing": _standing,
+    "stood_to": _stood_to,
+    "either_kind": _either_kind,
+    "best": _picked,
+    "verb_and_one": _standing,
+    "same_as": _shares,
+    "as_much": _shares,
+    "sharing": _of_one_feature,
+    "valued": _valued,
+    "placed": _placed,
+    "comparing": _compares,
+    "amid": _between,
+    "beyond": _beyond,
+    "itself": _is,
+    "near": _nearest,
+    "far": _farthest,
+    "picked": _picked,
+    "the": _referring(References.THE),
+    "some": _referring(References.SOME),
+    "every": _referring(References.EVERY),
+    "numbered": _numbered,
+}
+"""Phrase → what its bindings come to."""

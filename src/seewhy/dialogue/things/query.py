@@ -1,0 +1,303 @@
+"""What a question about things asks: a small algebra of descriptions, references and queries.
+
+A description is a list of conditions; a reference is the one thing that a description fits, some
+thing, or every one. Conditions speak of references, so that chains are of any length.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+__all__ = [
+    "All",
+    "AnyOf",
+    "Apart",
+    "Between",
+    "CompareCounts",
+    "CompareNumber",
+    "Compares",
+    "Condition",
+    "Count",
+    "Describe",
+    "Description",
+    "Difference",
+    "Exists",
+    "Extreme",
+    "HasValue",
+    "Holds",
+    "Is",
+    "Nearest",
+    "Not",
+    "Numbered",
+    "Query",
+    "Ranked",
+    "Reference",
+    "References",
+    "Related",
+    "SameValue",
+    "Shares",
+    "ValueOf",
+    "Which",
+    "references_in",
+]
+
+
+class References(StrEnum):
+    """Which of the things that fit a description a reference means."""
+
+    THE = "the"
+    SOME = "some"
+    EVERY = "every"
+
+
+@dataclass(frozen=True)
+class HasValue:
+    """A thing has a value of a feature."""
+
+    feature: str
+    value: str
+    noun: bool = False
+    """Whether it was said as a noun; it is meant all the same."""
+
+
+@dataclass(frozen=True)
+class Related:
+    """A thing stands in a relation to what is referred to; ``inverse``: that stands so to it."""
+
+    relation: str
+    to: Reference
+    inverse: bool = False
+
+
+@dataclass(frozen=True)
+class Shares:
+    """A thing other than that one has the same value of a feature."""
+
+    feature: str
+    other: Reference
+
+
+@dataclass(frozen=True)
+class Compares:
+    """A thing has more (or less) of an ordered feature than another."""
+
+    feature: str
+    more: bool
+    than: Reference
+
+
+@dataclass(frozen=True)
+class Between:
+    """A thing is between two others."""
+
+    first: Reference
+    second: Reference
+
+
+@dataclass(frozen=True)
+class Apart:
+    """A thing is another than that one; None: than the one that the question speaks of."""
+
+    one: Reference | None
+
+
+@dataclass(frozen=True)
+class Is:
+    """A thing is the one that is referred to."""
+
+    one: Reference
+
+
+@dataclass(frozen=True)
+class Not:
+    """A condition does not hold."""
+
+    condition: Condition
+
+
+@dataclass(frozen=True)
+class All:
+    """Every one of some conditions holds."""
+
+    conditions: tuple[Condition, ...]
+
+
+@dataclass(frozen=True)
+class AnyOf:
+    """At least one of some conditions holds."""
+
+    conditions: tuple[Condition, ...]
+
+
+Condition = HasValue | Related | Shares | Compares | Between | Apart | Is | Not | All | AnyOf
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """The one that comes first by a relation: to the left of the others of its description.
+
+    ``rank`` counts from 1; ``from_end`` counts from the other end.
+    """
+
+    relation: str
+    rank: int = 1
+    from_end: bool = False
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """The one with the most (or least) of an ordered feature."""
+
+    feature: str
+    most: bool
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """The one that is nearest to (or farthest from) another."""
+
+    to: Reference
+    farthest: bool = False
+
+
+@dataclass(frozen=True)
+class Numbered:
+    """The one that has a number in the picture, from 1."""
+
+    number: int
+
+
+Selection = Extreme | Ranked | Nearest | Numbered
+
+
+@dataclass(frozen=True)
+class Description:
+    """What things may be like; with a selection, one of those that are so.
+
+    ``many`` says whether the question speaks of several.
+    """
+
+    conditions: tuple[Condition, ...] = ()
+    selection: Selection | None = None
+    many: bool = False
+
+    def also(self, *conditions: Condition) -> Description:
+        """Return a description that asks for more."""
+        return Description((*self.conditions, *conditions), self.selection, self.many)
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The thing, some thing or every thing of a description."""
+
+    description: Description
+    which: References = References.THE
+
+
+@dataclass(frozen=True)
+class Count:
+    """How many there are."""
+
+    described: Description
+
+
+@dataclass(frozen=True)
+class Exists:
+    """Whether there is one; with ``denied``, whether there is none."""
+
+    described: Description
+    denied: bool = False
+
+
+@dataclass(frozen=True)
+class Which:
+    """Which things they are."""
+
+    described: Description
+
+
+@dataclass(frozen=True)
+class CompareCounts:
+    """Whether there are as many (``=``), fewer (``<``) or more (``>``) of one than of another."""
+
+    sign: str
+    first: Description
+    second: Description
+
+
+@dataclass(frozen=True)
+class CompareNumber:
+    """Whether there are so many: ``=``, ``<``, ``>``, ``<=`` or ``>=`` a number."""
+
+    sign: str
+    described: Description
+    number: int
+
+
+@dataclass(frozen=True)
+class ValueOf:
+    """Which value of a feature a thing has."""
+
+    feature: str
+    one: Reference
+
+
+@dataclass(frozen=True)
+class SameValue:
+    """Whether two things have the same value of a feature; ``denied``: different values."""
+
+    feature: str
+    first: Reference
+    second: Reference
+    denied: bool = False
+
+
+@dataclass(frozen=True)
+class Holds:
+    """Whether something is so of each of some things."""
+
+    ones: tuple[Reference, ...]
+    condition: Condition
+
+
+@dataclass(frozen=True)
+class Describe:
+    """What a thing is like; with ``place``, where it is."""
+
+    one: Reference
+    place: bool = False
+
+
+@dataclass(frozen=True)
+class Difference:
+    """In which features two things differ; with ``alike``, which they have in common."""
+
+    first: Reference
+    second: Reference
+    alike: bool = False
+
+
+Query = (
+    Count | Exists | Which | CompareCounts | CompareNumber | ValueOf | SameValue | Holds | Describe
+    | Difference
+)  # fmt: skip
+
+
+def references_in(condition: Condition) -> Iterator[Reference]:
+    """Yield the references that a condition itself speaks of, in order."""
+    match condition:
+        case Related(to=one) | Shares(other=one) | Compares(than=one) | Is(one=one):
+            yield one
+        case Between(first=first, second=second):
+            yield from (first, second)
+        case Apart(one=one) if one is not None:
+            yield one
+        case Not(condition=inner):
+            yield from references_in(inner)
+        case All(conditions=inners) | AnyOf(conditions=inners):
+            for inner in inners:
+                yield from references_in(inner)
+        case _:
+            return

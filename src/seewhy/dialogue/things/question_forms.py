@@ -1,0 +1,215 @@
+"""What the questions of the grammar come to: queries about a picture's things."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from seewhy.dialogue.grammar import Binding
+from seewhy.dialogue.things.chart import Fold
+from seewhy.dialogue.things.phrases import Bindings, all_of, meanings, settled
+from seewhy.dialogue.things.query import (
+    CompareCounts,
+    CompareNumber,
+    Condition,
+    Count,
+    Describe,
+    Description,
+    Difference,
+    Exists,
+    HasValue,
+    Holds,
+    Query,
+    Reference,
+    SameValue,
+    ValueOf,
+    Which,
+)
+
+__all__ = ["QUESTIONS", "FollowUp", "Wanted"]
+
+Wanted = bool | int | HasValue | None
+"""An answer that a question speaks of: yes or no, a number, a value."""
+
+
+@dataclass(frozen=True)
+class FollowUp:
+    """A question about the answer before: why, why not, what change, what if, and of others.
+
+    ``wanted`` is the other answer; ``instead`` what is to be put in the place of what the question
+    before asked about. With ``query`` it names the answer itself: "why is there no red cube?".
+    """
+
+    asks: str
+    wanted: Wanted = None
+    instead: Description | Reference | None = None
+    query: Query | None = None
+    supposed: Condition | None = None
+    """What is supposed of ``instead``, in "what if the ball were red?"; None: that it is gone."""
+
+
+def _query(query: Query) -> Bindings:
+    return (Binding("query", query),)
+
+
+def _descriptions(bindings: Bindings) -> list[Description]:
+    found = meanings(bindings, "described")
+    return [described for described in found if isinstance(described, Description)]
+
+
+def _references(bindings: Bindings) -> tuple[Reference, ...]:
+    found = meanings(bindings, "one")
+    return tuple(one for one in found if isinstance(one, Reference))
+
+
+def _conditions(bindings: Bindings) -> tuple[Condition, ...]:
+    return tuple(meanings(bindings, "condition"))  # type: ignore[arg-type]
+
+
+def _feature(bindings: Bindings) -> str | None:
+    """The feature that is asked for; None where several are named."""
+    named = set(meanings(bindings, "feature"))
+    return str(named.pop()) if len(named) == 1 else None
+
+
+def _described(bindings: Bindings) -> Description:
+    found = _descriptions(bindings)
+    return (found[0] if found else Description(many=True)).also(*_conditions(bindings))
+
+
+def _about(make: Callable[[Description], Query]) -> Fold:
+    return lambda bindings: _query(make(settled(_described(bindings))))
+
+
+def _exists(bindings: Bindings) -> Bindings:
+    if meanings(bindings, "query"):
+        return bindings
+    return _query(Exists(settled(_described(bindings))))
+
+
+def _value(bindings: Bindings) -> Bindings | None:
+    feature, ones = _feature(bindings), _references(bindings)
+    return None if feature is None or len(ones) != 1 else _query(ValueOf(feature, ones[0]))
+
+
+def _compared(bindings: Bindings, sign: str | None = None) -> Bindings:
+    first, second = map(settled, _descriptions(bindings))
+    signs = meanings(bindings, "sign")
+    return _query(CompareCounts(sign or str(signs[0]), first, second))
+
+
+def _number(bindings: Bindings) -> Bindings | None:
+    number, signs = meanings(bindings, "number")[0], meanings(bindings, "sign")
+    if not isinstance(number, int):
+        return None
+    sign = str(signs[0]) if signs else "="
+    return _query(CompareNumber(sign, settled(_descriptions(bindings)[0]), number))
+
+
+def _signed(sign: str) -> Fold:
+    return lambda _: (Binding("sign", sign),)
+
+
+def _same_value(bindings: Bindings) -> Bindings | None:
+    if meanings(bindings, "query"):
+        return bindings
+    return _alike(bindings, denied=False)
+
+
+def _alike(bindings: Bindings, *, denied: bool) -> Bindings | None:
+    feature, ones = _feature(bindings), _references(bindings)
+    if feature is None or len(ones) != 2:
+        return None
+    return _query(SameValue(feature, ones[0], ones[1], denied))
+
+
+def _holds(bindings: Bindings) -> Bindings | None:
+    conditions, ones = _conditions(bindings), _references(bindings)
+    features = set(meanings(bindings, "feature"))
+    of_another = any(isinstance(c, HasValue) and features - {c.feature} for c in conditions)
+    if not conditions or not ones or of_another:
+        return None
+    return _query(Holds(ones, all_of(conditions)))
+
+
+def _pair(make: Callable[[Reference, Reference], Query]) -> Fold:
+    def fold(bindings: Bindings) -> Bindings | None:
+        ones = _references(bindings)
+        return _query(make(*ones)) if len(ones) == 2 else None
+
+    return fold
+
+
+def _single(make: Callable[[Reference], Query]) -> Fold:
+    return lambda bindings: _query(make(_references(bindings)[0]))
+
+
+def _follow(asks: str) -> Fold:
+    def fold(bindings: Bindings) -> Bindings:
+        wanted = meanings(bindings, "wanted")
+        other: list[Description | Reference] = [*_references(bindings), *_descriptions(bindings)]
+        follow_up = FollowUp(
+            asks,
+            wanted=wanted[-1] if wanted else None,  # type: ignore[arg-type]
+            instead=other[0] if other else None,
+        )
+        return (Binding("follow_up", follow_up),)
+
+    return fold
+
+
+def _supposing(bindings: Bindings) -> Bindings:
+    if meanings(bindings, "follow_up"):
+        return bindings
+    conditions = _conditions(bindings)
+    follow_up = FollowUp(
+        "what_if",
+        instead=_references(bindings)[0],
+        supposed=all_of(conditions) if conditions else None,
+    )
+    return (Binding("follow_up", follow_up),)
+
+
+def _wanted(bindings: Bindings) -> Bindings | None:
+    for role in ("wanted", "number", "condition"):
+        if found := meanings(bindings, role):
+            return (Binding("wanted", found[0]),)
+    return None
+
+
+def _so(wanted: bool) -> Fold:
+    return lambda _: (Binding("wanted", wanted),)
+
+
+QUESTIONS: dict[str, Fold] = {
+    "count": _about(Count),
+    "exists": _exists,
+    "no_such": _about(lambda described: Exists(described, denied=True)),
+    "value_of": _value,
+    "compare_counts": _compared,
+    "more": _signed(">"),
+    "fewer": _signed("<"),
+    "at_least": _signed(">="),
+    "at_most": _signed("<="),
+    "just": _signed("="),
+    "same_number": lambda bindings: _compared(bindings, "="),
+    "compare_number": _number,
+    "same_value": _same_value,
+    "unlike": lambda bindings: _alike(bindings, denied=True),
+    "holds": _holds,
+    "difference": _pair(Difference),
+    "alike": _pair(lambda first, second: Difference(first, second, alike=True)),
+    "describe": _single(Describe),
+    "place": _single(lambda one: Describe(one, place=True)),
+    "which": _about(Which),
+    "why": _follow("why"),
+    "why_not": _follow("why_not"),
+    "change": _follow("change"),
+    "instead": _follow("instead"),
+    "what_if": _supposing,
+    "without_it": _supposing,
+    "wanted": _wanted,
+    "yes": _so(True),
+    "no": _so(False),
+}
+"""Question → what its bindings come to."""

@@ -1,0 +1,203 @@
+"""Questions about things, read by the grammar and a domain's words."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from itertools import islice
+from typing import Any
+
+from seewhy.dialogue.grammar import Form, parse_form, words_of_form
+from seewhy.dialogue.question_words import words_of
+from seewhy.dialogue.spelling import Spelling
+from seewhy.dialogue.things.chart import Chart, Forms
+from seewhy.dialogue.things.lexicon import lexicon_of, vocabulary_of
+from seewhy.dialogue.things.phrases import PHRASES, meanings, settled
+from seewhy.dialogue.things.query import Description, Query, Reference
+from seewhy.dialogue.things.question_forms import QUESTIONS, FollowUp
+from seewhy.domain.things import Things
+from seewhy.errors import QuestionError
+
+__all__ = ["QuestionReader", "Reading"]
+
+LONGEST = 1000
+"""Characters of a question."""
+MOST_WORDS = 120
+_MOST_READINGS = 12
+_SENTENCES = re.compile(r"[.;:!?\n]+")
+_POSSESSIVE = re.compile(
+    r"(?<!\bwhat)(?<!\bit)(?<!\bthat)(?<!\bthere)(?<!\bwho)(?<!\bwhere)['’]s\b", re.I
+)
+_PRONOUNS = frozenset({"it", "its", "they", "them", "their"})
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One way to understand a question.
+
+    ``query`` is what is asked; ``spoken_of`` is what "it" means in what follows.
+    """
+
+    query: Query | FollowUp
+    spoken_of: Reference | None = None
+
+
+class QuestionReader:
+    """Reads questions about the things of a domain.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> reader = QuestionReader(load_domain("tabletop").things)
+    >>> next(reader.readings("How many red blocks are there?")).query.described.conditions[0].value
+    'red'
+    """
+
+    def __init__(self, things: Things) -> None:
+        lexicon = lexicon_of(things)
+        self._forms = Forms(_phrases(), lexicon, {**PHRASES, **QUESTIONS})
+        self._spelling = Spelling(vocabulary_of(lexicon) | _words_of_grammar())
+        self._one = things.one
+
+    def readings(
+        self, text: str, *, antecedent: Reference | None = None, answered: bool = False
+    ) -> Iterator[Reading]:
+        """Yield the ways to understand a question, the most natural first.
+
+        Parameters
+        ----------
+        antecedent : Reference, optional
+            What "it" means, from the question before.
+        answered : bool
+            Whether there is an answer that may be asked about: "why?".
+
+        Raises
+        ------
+        QuestionError
+            If it cannot be understood at all.
+        """
+        if len(text) > LONGEST:
+            raise QuestionError(
+                f"the question has {len(text):,} characters; ask in {LONGEST:,} at most"
+            )
+        sentences = [words_of(_POSSESSIVE.sub(" s", part)) for part in _SENTENCES.split(text)]
+        sentences = [words for words in sentences if words]
+        if not sentences:
+            raise QuestionError("the question has no words; ask 'how many things are there?'")
+        if sum(map(len, sentences)) > MOST_WORDS:
+            raise QuestionError(f"the question has more than {MOST_WORDS} words; ask in fewer")
+        found = False
+        for reading in islice(self._in_turn(sentences, antecedent, answered), _MOST_READINGS):
+            found = True
+            yield reading
+        if not found:
+            mended = [next(self._spelling.readings(words)).split() for words in sentences]
+            for reading in islice(self._in_turn(mended, antecedent, answered), _MOST_READINGS):
+                found = True
+                yield reading
+        if not found:
+            raise self._not_understood(text, sentences, antecedent)
+
+    def _in_turn(
+        self, sentences: list[list[str]], antecedent: Reference | None, answered: bool
+    ) -> Iterator[Reading]:
+        """Read statements, each perhaps about the thing of the one before, and a question."""
+        if len(sentences) == 1:
+            yield from self._whole(sentences[0], antecedent, answered)
+            return
+        for stated in self._statements(sentences[0], antecedent):
+            yield from self._in_turn(sentences[1:], stated, answered)
+
+    def _whole(
+        self, words: list[str], antecedent: Reference | None, answered: bool
+    ) -> Iterator[Reading]:
+        yield from self._asked(words, antecedent, answered)
+        if words[:2] == ["there", "is"]:  # "there is a cube, what colour is it"
+            for cut in range(len(words) - 1, 3, -1):
+                for stated in self._statements(words[:cut], antecedent):
+                    yield from self._asked(words[cut:], stated, answered)
+
+    def _statements(self, words: list[str], antecedent: Reference | None) -> Iterator[Reference]:
+        """The things that a statement may introduce: "there is a red cube"."""
+        for bindings in self._forms.readings(Chart(words, antecedent), "statement"):
+            for described in meanings(bindings, "described"):
+                if isinstance(described, Description):
+                    yield Reference(settled(described, antecedent))
+
+    def _asked(
+        self, words: list[str], antecedent: Reference | None, answered: bool
+    ) -> Iterator[Reading]:
+        for said in _without_asides(words):
+            chart = Chart(said, antecedent)
+            for query in self._queries(chart):
+                yield Reading(query, antecedent)
+            if said[0] == "why" and len(said) > 1:
+                for query in self._queries(Chart(said[1:], antecedent)):
+                    yield Reading(FollowUp("why", query=query), antecedent)
+            for name in _tables()["follow_ups"] if answered else ():
+                for bindings in self._forms.readings(chart, name):
+                    for asked in meanings(bindings, "follow_up"):
+                        yield Reading(asked, antecedent)  # type: ignore[arg-type]
+
+    def _queries(self, chart: Chart) -> Iterator[Query]:
+        for name in _tables()["questions"]:
+            for bindings in self._forms.readings(chart, name):
+                yield from meanings(bindings, "query")  # type: ignore[misc]
+
+    def _not_understood(
+        self, text: str, sentences: list[list[str]], antecedent: Reference | None
+    ) -> QuestionError:
+        words = {word for words in sentences for word in words}
+        strange = [word for word in words if not self._spelling.knows(word)]
+        if antecedent is None and words & _PRONOUNS:
+            remedy = f"say which {self._one} is meant, as in 'there is …; what is it?'"
+        elif strange:
+            remedy = f"'{min(strange, key=text.casefold().find)}' is no word of the domain"
+        else:
+            remedy = "ask how many, which, what or whether there are"
+        return QuestionError(f"I do not understand the question; {remedy}")
+
+
+def _without_asides(words: list[str]) -> Iterator[list[str]]:
+    """The words, and where they begin or end with an aside, what is left without."""
+    yield words
+    for aside in _asides():
+        size = len(aside)
+        if len(words) > size and words[:size] == aside:
+            yield from _without_asides(words[size:])
+            return
+        if len(words) > size and words[-size:] == aside:
+            yield from _without_asides(words[:-size])
+            return
+
+
+@cache
+def _tables() -> dict[str, Any]:
+    file = resources.files("seewhy.dialogue.things").joinpath("grammar.toml")
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+@cache
+def _asides() -> tuple[list[str], ...]:
+    return tuple(sorted((words_of(aside) for aside in _tables()["aside"]), key=len, reverse=True))
+
+
+@cache
+def _phrases() -> dict[str, Form]:
+    return {name: parse_form(form) for name, form in _written().items()}
+
+
+def _written() -> dict[str, str]:
+    return {
+        name: form if isinstance(form, str) else "|".join(form)
+        for name, form in _tables()["phrases"].items()
+    }
+
+
+@cache
+def _words_of_grammar() -> frozenset[str]:
+    return frozenset(word for form in _written().values() for word in words_of_form(form))

@@ -1,0 +1,218 @@
+"""Answers about things as sentences."""
+
+from __future__ import annotations
+
+from seewhy.dialogue.things.evaluating import Fits, Obstacle, UnclearReferenceError, members
+from seewhy.dialogue.things.outcome import Outcome
+from seewhy.dialogue.things.query import (
+    CompareCounts,
+    CompareNumber,
+    Count,
+    Describe,
+    Description,
+    Difference,
+    Exists,
+    Holds,
+    Is,
+    Not,
+    Query,
+    Reference,
+    References,
+    SameValue,
+    ValueOf,
+    Which,
+)
+from seewhy.dialogue.things.wording import ThingWords, number_word
+from seewhy.domain.wording import join_words, sentence
+
+__all__ = ["tell", "tell_failure"]
+
+
+def tell(query: Query, outcome: Outcome, words: ThingWords) -> str:
+    """Return an answer as one or two sentences.
+
+    Examples
+    --------
+    >>> from seewhy.data.thing_scene import thing_scene
+    >>> from seewhy.dialogue.things.evaluating import Evaluation
+    >>> from seewhy.dialogue.things.outcome import outcome_of
+    >>> from seewhy.dialogue.things.query import HasValue
+    >>> from seewhy.domain.domain import load_domain
+    >>> things = load_domain("tabletop").things
+    >>> red = Count(Description((HasValue("colour", "red"),), many=True))
+    >>> scene = thing_scene(things, [{"colour": "red", "shape": "cube"}], relations={})
+    >>> evaluation = Evaluation(scene, things)
+    >>> tell(red, outcome_of(red, evaluation), ThingWords(evaluation))
+    'There is one red thing: the red cube.'
+    """
+    if outcome.value is None and not (isinstance(query, ValueOf) and outcome.fits):
+        return sentence(f"I don't know: {_open(query, outcome, words)}")
+    match query:
+        case Which(described=described) if _is_one(described, outcome.fits[0]):
+            return sentence(f"it is {words.names(list(members(outcome.fits[0].surely)))}")
+        case Count(described=described) | Which(described=described):
+            return sentence(_there_are(described, outcome.fits[0], words))
+        case Exists(described=described):
+            so = _yes(outcome.value)
+            found = outcome.fits[0].surely
+            return sentence(f"{so}: {_there_are(described, Fits(found, found), words)}")
+        case CompareCounts(first=first, second=second):
+            counts = [
+                words.counted(fits.surely.bit_count(), described)
+                for fits, described in zip(outcome.fits, (first, second), strict=True)
+            ]
+            verb = _are(outcome.fits[0].surely.bit_count())
+            return sentence(f"{_yes(outcome.value)}: there {verb} {join_words(counts)}")
+        case CompareNumber(described=described):
+            return sentence(
+                f"{_yes(outcome.value)}: {_there_are(described, outcome.fits[0], words)}"
+            )
+        case ValueOf(feature=feature, one=one):
+            return sentence(_value(feature, one, outcome, words))
+        case SameValue():
+            return sentence(f"{_yes(outcome.value)}: {_both(query, words)}")
+        case Holds():
+            return sentence(f"{_yes(outcome.value)}, {_held(query, outcome, words)}")
+        case Describe(one=one, place=place):
+            return sentence(_described(one, words, place=place))
+        case Difference():
+            return sentence(_differing(query, outcome, words))
+    raise TypeError(f"must be a query, got {query!r}")
+
+
+def tell_failure(failed: UnclearReferenceError, words: ThingWords) -> str:
+    """Return that a question speaks of one thing, and there is none, or there are several.
+
+    A thing that there is not is no answer: who asks is told, or asked which is meant.
+    """
+    description = failed.reference.description
+    phrase = words.phrase(description, many=False)
+    if failed.obstacle is Obstacle.NONE:
+        return sentence(f"there is no {phrase}")
+    found = list(members(failed.fits.surely or failed.fits.maybe))
+    if failed.obstacle is Obstacle.UNKNOWN:
+        known = f"it may be {join_words([words.name(n) for n in found], word='or')}"
+        return sentence(f"I don't know which is the {phrase}: {known}" if found else "I don't know")
+    count = number_word(len(found))
+    return f"Which {phrase}? There are {count}: {words.names(found)}."
+
+
+def _is_one(described: Description, fits: Fits) -> bool:
+    """Whether a question asks which one a thing is, and it is one."""
+    asked = described.selection is not None or any(isinstance(c, Is) for c in described.conditions)
+    return asked and fits.surely.bit_count() == 1
+
+
+def _yes(so: object) -> str:
+    return "yes" if so else "no"
+
+
+def _are(count: int) -> str:
+    return "is" if count == 1 else "are"
+
+
+def _there_are(described: Description, fits: Fits, words: ThingWords) -> str:
+    found = list(members(fits.surely))
+    said = f"there {_are(len(found))} {words.counted(len(found), described)}"
+    if not found:
+        return said.replace("there are no ", "there is no ").replace(
+            words.phrase(described, many=True), words.phrase(described, many=False)
+        )
+    return f"{said}: {words.names(found)}"
+
+
+def _value(feature: str, one: Reference, outcome: Outcome, words: ThingWords) -> str:
+    scene = words.evaluation.scene
+    if one.which is References.THE:
+        number = words.evaluation.the(one)
+        return words.clause(feature, str(outcome.value), words.name(number))
+    parts = []
+    for number in members(outcome.fits[0].surely):
+        value = scene.values[feature][number]
+        name = words.name(number)
+        unknown = f"the {words.things.features[feature].name} of {name} is not known"
+        parts.append(unknown if value is None else words.clause(feature, value, name))
+    return (
+        join_words(parts) if parts else f"there is no {words.phrase(one.description, many=False)}"
+    )
+
+
+def _both(query: SameValue, words: ThingWords) -> str:
+    values = words.evaluation.scene.values[query.feature]
+    said = []
+    for one in (query.first, query.second):
+        number = words.evaluation.the(one)
+        said.append(words.clause(query.feature, str(values[number]), words.name(number)))
+    return join_words(said)
+
+
+def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
+    subjects = join_words([words.reference(one) for one in query.ones])
+    if not outcome.value and any(one.which is References.EVERY for one in query.ones):
+        return f"not {subjects} is {words.predicate(query.condition)}"
+    if not outcome.value and any(one.which is References.SOME for one in query.ones):
+        some = words.phrase(query.ones[0].description, many=False)
+        return f"no {some} is {words.predicate(query.condition)}"
+    verb = "are" if len(query.ones) > 1 else "is"
+    if isinstance(query.condition, Not) and not outcome.value and len(query.ones) == 1:
+        return f"{subjects} is {words.predicate(query.condition.condition)}"
+    denied = "" if outcome.value else "not "
+    both = "both " if len(query.ones) > 1 and not outcome.value else ""
+    return f"{subjects} {verb} {denied}{both}{words.predicate(query.condition)}"
+
+
+def _described(one: Reference, words: ThingWords, *, place: bool) -> str:
+    number = words.evaluation.the(one)
+    scene = words.evaluation.scene
+    name = words.name(number)
+    if place:
+        where = [
+            f"{relation.words[0]} {words.names(found)}"
+            for key, relation in words.things.relations.items()
+            if relation.words
+            and (found := [o for o in range(scene.count) if scene.related[key][o] >> number & 1])
+        ]
+        return f"{name} is {join_words(where)}" if where else f"{name} is by itself"
+    clauses = [
+        words.clause(feature, value, "it")
+        for feature, values in scene.values.items()
+        if (value := values[number]) is not None
+    ]
+    return f"it is {name}: {join_words(clauses)}" if clauses else f"nothing is known of {name}"
+
+
+def _differing(query: Difference, outcome: Outcome, words: ThingWords) -> str:
+    named = outcome.value if isinstance(outcome.value, tuple) else ()
+    one, other = words.evaluation.the(query.first), words.evaluation.the(query.second)
+    scene = words.evaluation.scene
+    if not named:
+        return "they have nothing in common" if query.alike else "they differ in nothing"
+    parts = []
+    for key in map(str, named):
+        subject = "each" if query.alike else words.name(one)
+        this = words.clause(key, str(scene.values[key][one]), subject)
+        that = words.clause(key, str(scene.values[key][other]), words.name(other))
+        parts.append(this if query.alike else f"{this} and {that}")
+    features = join_words([words.things.features[str(key)].name for key in named])
+    return f"they {'share' if query.alike else 'differ in'} {features}: {join_words(parts)}"
+
+
+def _open(query: Query, outcome: Outcome, words: ThingWords) -> str:
+    """What is not known."""
+    unsure = 0
+    for fits in outcome.fits:
+        unsure |= fits.maybe & ~fits.surely
+    if isinstance(query, ValueOf | SameValue):
+        ones = (query.one,) if isinstance(query, ValueOf) else (query.first, query.second)
+        values = words.evaluation.scene.values[query.feature]
+        numbers = [words.evaluation.the(one) for one in ones if one.which is References.THE]
+        unsure = sum(1 << number for number in set(numbers) if values[number] is None)
+        name = words.things.features[query.feature].name
+        return f"the {name} of {words.names(list(members(unsure)))} is not known"
+    if isinstance(query, Count | Exists) and outcome.fits:
+        low, high = outcome.fits[0].surely.bit_count(), outcome.fits[0].maybe.bit_count()
+        between = f"at least {number_word(low)} and at most {number_word(high)}"
+        return f"there are {between}; not enough is seen of {words.names(list(members(unsure)))}"
+    if not unsure:
+        return "not enough is seen of the things"
+    return f"not enough is seen of {words.names(list(members(unsure)))}"

@@ -1,0 +1,235 @@
+"""Things, descriptions and conditions in the words of a domain."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from seewhy.dialogue.lexicon import NUMBERS
+from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
+from seewhy.dialogue.things.lexicon import RANKS
+from seewhy.dialogue.things.query import (
+    All,
+    AnyOf,
+    Apart,
+    Between,
+    Compares,
+    Condition,
+    Description,
+    Extreme,
+    HasValue,
+    Is,
+    Nearest,
+    Not,
+    Numbered,
+    Ranked,
+    Reference,
+    References,
+    Related,
+    Shares,
+)
+from seewhy.domain.wording import join_words
+from seewhy.text.comparison import comparative, superlative
+from seewhy.text.nouns import plural, with_article
+
+__all__ = ["ThingWords", "number_word"]
+
+
+def number_word(number: int) -> str:
+    """Return a number as a word, where it has one.
+
+    Examples
+    --------
+    >>> number_word(3), number_word(144)
+    ('three', '144')
+    """
+    return NUMBERS[number] if 0 <= number < len(NUMBERS) else str(number)
+
+
+class ThingWords:
+    """Says the things of one scene.
+
+    Examples
+    --------
+    >>> from seewhy.data.thing_scene import thing_scene
+    >>> from seewhy.domain.domain import load_domain
+    >>> things = load_domain("tabletop").things
+    >>> seen = {"size": "small", "colour": "red", "material": "metal", "shape": "cube"}
+    >>> scene = thing_scene(things, [seen, {"colour": "red"}], relations={})
+    >>> words = ThingWords(Evaluation(scene, things))
+    >>> words.name(0), words.name(1)
+    ('the small red metal cube', 'the red thing')
+    >>> words.phrase(Description((HasValue("colour", "red"),), many=True))
+    'red things'
+    """
+
+    def __init__(self, evaluation: Evaluation) -> None:
+        self.evaluation = evaluation
+        self.things = evaluation.things
+        scene = evaluation.scene
+        values = [
+            {key: column[number] for key, column in scene.values.items()}
+            for number in range(scene.count)
+        ]
+        said = [self._full(of_one) for of_one in values]
+        self._references: dict[int, tuple[Reference, str]] = {}
+        self._names = [
+            f"the {name}" if said.count(name) == 1 else f"the {name} ({self.things.one} {at})"
+            for at, name in enumerate(said, start=1)
+        ]
+
+    def _full(self, values: dict[str, str | None]) -> str:
+        adjectives: list[str] = []
+        noun = self.things.one
+        for key, value in values.items():
+            if value is None:
+                continue
+            feature = self.things.features[key]
+            if feature.nouns[value]:
+                noun = feature.nouns[value][0]
+            elif feature.words[value]:
+                adjectives.append(feature.words[value][0])
+        return " ".join([*adjectives, noun])
+
+    def term(self, number: int) -> str:
+        """Return what a thing is called in the knowledge language."""
+        return f"{self.things.sort}{number + 1}"
+
+    def name(self, number: int) -> str:
+        """Return a thing as it is told from the others."""
+        return self._names[number]
+
+    def names(self, numbers: Sequence[int]) -> str:
+        """Return several things as a list."""
+        return join_words([self.name(number) for number in numbers])
+
+    def value(self, feature: str, value: str) -> str:
+        """Return a value as an adjective, or as a noun."""
+        described = self.things.features[feature]
+        words = described.nouns[value] or described.words[value]
+        return words[0] if words else value
+
+    def denied(self, feature: str, value: str) -> str:
+        """Return that something does not have a value, behind what it has: ", not a cube"."""
+        noun = self.things.features[feature].nouns[value]
+        return f", not {with_article(noun[0]) if noun else self.value(feature, value)}"
+
+    def clause(self, feature: str, value: str, subject: str) -> str:
+        """Return that something has a value."""
+        return self.things.features[feature].say[value].replace("{it}", subject)
+
+    def counted(self, count: int, description: Description) -> str:
+        """Return so many of a description: "three red cubes"."""
+        number = "no" if count == 0 else number_word(count)
+        return f"{number} {self.phrase(description, many=count != 1)}"
+
+    def reference(self, reference: Reference) -> str:
+        """Return what a reference refers to: the thing by its name, where there is one."""
+        known = self._references.get(id(reference))
+        if known is None:
+            known = self._references[id(reference)] = (reference, self._referred(reference))
+        return known[1]
+
+    def _referred(self, reference: Reference) -> str:
+        if reference.which is References.THE:
+            try:
+                return self.name(self.evaluation.the(reference))
+            except UnclearReferenceError:
+                return f"the {self.phrase(reference.description, many=False)}"
+        if reference.which is References.SOME:
+            return with_article(self.phrase(reference.description, many=False))
+        return f"every {self.phrase(reference.description, many=False)}"
+
+    def phrase(self, description: Description, *, many: bool | None = None) -> str:
+        """Return a description without an article: "red cubes left of the blue ball"."""
+        several = description.many if many is None else many
+        adjectives, noun, behind = [], "", []
+        for condition in description.conditions:
+            if isinstance(condition, HasValue) and not self._as_noun(condition):
+                words = self.things.features[condition.feature].words[condition.value]
+                adjectives.append(words[0] if words else f"({condition.value})")
+            elif isinstance(condition, HasValue) and not noun:
+                noun = self.value(condition.feature, condition.value)
+            else:
+                behind.append(self._behind(condition, several))
+        noun = noun or self.things.one
+        if several:
+            noun = self.things.many if noun == self.things.one else plural(noun)
+        if isinstance(description.selection, Nearest):
+            behind.append(self._at_distance(description.selection))
+        selected = self._selected(description)
+        return " ".join(filter(None, [selected, *adjectives, noun, " and ".join(behind)]))
+
+    def _as_noun(self, condition: HasValue) -> bool:
+        return bool(self.things.features[condition.feature].nouns[condition.value])
+
+    def _selected(self, description: Description) -> str:
+        match description.selection:
+            case Extreme(relation=relation, rank=rank, from_end=from_end):
+                words = self.things.relations[relation].most or (f"most {relation}",)
+                counted = "" if rank == 1 else RANKS[rank - 1] if rank <= len(RANKS) else str(rank)
+                return " ".join(filter(None, ["last" if from_end else counted, words[0]]))
+            case Ranked(feature=feature, most=most):
+                values = self.things.features[feature].values
+                return superlative(self.value(feature, values[-1 if most else 0]))
+            case Numbered(number=number):
+                return "last" if number < 0 else RANKS[number - 1] if number <= 12 else str(number)
+        return ""
+
+    def _at_distance(self, nearest: Nearest) -> str:
+        far = "farthest from" if nearest.farthest else "nearest to"
+        return f"{far} {self.reference(nearest.to)}"
+
+    def _behind(self, condition: Condition, many: bool) -> str:
+        """A condition behind a noun."""
+        if isinstance(condition, HasValue | Not | All | AnyOf | Is):
+            return f"that {'are' if many else 'is'} {self.predicate(condition, many=many)}"
+        return self.predicate(condition, many=many)
+
+    def predicate_of(self, relation: str, named: str) -> str:
+        """Return a relation to something as it stands behind "is"."""
+        words = self.things.relations[relation].words
+        if words:
+            return f"{words[0]} {named}"
+        return f"such that {self.things.relations[relation].say.format('it', named)}"
+
+    def predicate(self, condition: Condition, *, many: bool = False) -> str:
+        """Return a condition as it stands behind "is": "red", "left of the blue ball"."""
+        match condition:
+            case HasValue(feature=feature, value=value):
+                said = self.value(feature, value)
+                if not self._as_noun(condition):
+                    return said
+                return plural(said) if many else with_article(said)
+            case Related(relation=relation, to=to, inverse=True):
+                said = self.things.relations[relation].say.format(self.reference(to), "it")
+                return f"such that {said}"
+            case Related(relation=relation, to=to):
+                return self.predicate_of(relation, self.reference(to))
+            case Shares(feature=feature, other=other):
+                name = self.things.features[feature].name
+                return f"of the same {name} as {self.reference(other)}"
+            case Compares(feature=feature, more=more, than=than):
+                values = self.things.features[feature].values
+                word = comparative(self.value(feature, values[-1 if more else 0]))
+                return f"{word} than {self.reference(than)}"
+            case Between(first=first, second=second):
+                return f"between {self.reference(first)} and {self.reference(second)}"
+            case Apart(one=one):
+                return "" if one is None else f"other than {self.reference(one)}"
+            case Is(one=one):
+                return self.reference(one)
+            case Not(condition=inner):
+                return f"not {self.predicate(inner, many=many)}"
+            case All(conditions=inners):
+                return self._together(inners, "and", many)
+            case AnyOf(conditions=inners):
+                return self._together(inners, "or", many)
+        raise TypeError(f"must be a condition, got {condition!r}")
+
+    def _together(self, conditions: Sequence[Condition], word: str, many: bool) -> str:
+        if not conditions:
+            return self.things.many if many else with_article(self.things.one)
+        if any(isinstance(c, HasValue) and self._as_noun(c) for c in conditions) and word == "and":
+            phrase = self.phrase(Description(tuple(conditions)), many=many)
+            return phrase if many else with_article(phrase)
+        return join_words([self.predicate(c, many=many) for c in conditions], word=word)

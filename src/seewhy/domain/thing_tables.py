@@ -1,0 +1,163 @@
+"""What may stand under ``[things]`` in domain.toml."""
+
+from __future__ import annotations
+
+from typing import Annotated
+from typing import Literal as OneOf
+
+from pydantic import AfterValidator, Field
+
+from seewhy.domain.table_texts import Clause, Key, StrictTable, Word
+from seewhy.text.slots import wrong_slot
+
+Measure = OneOf[
+    "left",
+    "right",
+    "above",
+    "below",
+    "inside",
+    "touching",
+    "nearer",
+    "larger",
+    "in_front",
+    "behind",
+    "seen",
+    "axioms",
+]
+"""Where a relation comes from: measured from boxes or positions, seen on the pair, concluded."""
+
+
+def _with_two_things(text: str) -> str:
+    ordinary = text.replace("{0}", "").replace("{1}", "")
+    if wrong_slot(ordinary, ()) is not None or not ("{0}" in text and "{1}" in text):
+        raise ValueError(f"must have the slots {{0}} and {{1}} and no others, got '{text}'")
+    return text
+
+
+RelationClause = Annotated[str, AfterValidator(_with_two_things)]
+
+
+class ThingValueTable(StrictTable):
+    """``[things.features.NAME.values.VALUE]``: how a value of a thing's feature is said."""
+
+    say: Clause | None = Field(
+        default=None,
+        description="The clause that says it, as in `{it} is gray`; {it} stands for the thing. "
+        "Where left out, `{it} is` with the first of its words, or `{it} is a` with its first "
+        "noun.",
+    )
+    words: tuple[Word, ...] = Field(
+        default=(),
+        description="Adjectives by which questions may name the value, as in `shiny`; its own "
+        "name is one, too, where it has no nouns.",
+    )
+    nouns: tuple[Word, ...] = Field(
+        default=(),
+        description="Nouns, in the singular, by which questions may name a thing of this value, "
+        "as in `cube` and `block`; answers use the first.",
+    )
+
+
+class ThingFeatureTable(StrictTable):
+    """``[things.features.NAME]``: a feature of every thing, a static of things in knowledge.al."""
+
+    name: Word | None = Field(
+        default=None,
+        description="What the feature is called in answers; where left out, its name in "
+        "knowledge.al.",
+    )
+    words: tuple[Word, ...] = Field(
+        default=(),
+        description="Other words for the feature in questions, as in `color` beside `colour`.",
+    )
+    how: tuple[Word, ...] = Field(
+        default=(),
+        description="Adjectives that ask for it behind `how`, as in `big` for `how big is it?`.",
+    )
+    participles: tuple[Word, ...] = Field(
+        default=(),
+        description="Words between a thing and its value, as in `made of` for `what is it made "
+        "of?` and `made of the same material`.",
+    )
+    ordered: bool = Field(
+        default=False,
+        description="Whether its values stand in knowledge.al from the least to the most, so "
+        "that things can be compared (`larger than`, `the smallest`).",
+    )
+    values: dict[Key, ThingValueTable] = Field(
+        default={},
+        max_length=2000,
+        description="A table for each value whose name alone does not say it.",
+    )
+
+
+class RelationTable(StrictTable):
+    """``[things.relations.NAME]``: what may hold between two things, a static of both."""
+
+    measure: Measure = Field(
+        description="Where it comes from: measured from boxes or positions (`left`, `right`, "
+        "`above`, `below`, `inside`, `touching`, `nearer`, `larger`, `in_front`, `behind`), "
+        "`seen` by a head on the pair, or `axioms`, which conclude it.",
+    )
+    say: RelationClause = Field(
+        description="The clause that says it, as in `{0} is left of {1}`.",
+    )
+    words: tuple[Word, ...] = Field(
+        default=(),
+        description="Prepositions, without `is`, by which questions name it, as in `left of` and "
+        "`to the left of`.",
+    )
+    verbs: tuple[Word, ...] = Field(
+        default=(),
+        description="Verbs, without ending, by which questions name it, as in `touch` for `which "
+        "block touches the ball?`.",
+    )
+    most: tuple[Word, ...] = Field(
+        default=(),
+        description="Adjectives for the thing that is so to all others, as in `leftmost`.",
+    )
+    side: tuple[Word, ...] = Field(
+        default=(),
+        description="Nouns for the side from which things are counted, as in `left` for `the "
+        "second thing from the left`.",
+    )
+    converse: str | None = Field(
+        default=None,
+        description="The relation that holds the other way round, as `right` of `left`.",
+    )
+
+
+class ThingsTable(StrictTable):
+    """``[things]``: what pictures show several of, their features and relations."""
+
+    sort: str = Field(
+        default="thing",
+        description="The sort of knowledge.al that stands for things.",
+    )
+    most: int = Field(
+        default=10,
+        ge=1,
+        le=100,
+        description="The most things that a picture may show; what is reasoned with is made for "
+        "so many.",
+    )
+    one: Word = Field(default="thing", description="The noun for any one of them.")
+    many: Word | None = Field(
+        default=None,
+        description="The noun for several; where left out, the regular plural.",
+    )
+    words: tuple[Word, ...] = Field(
+        default=(),
+        description="Other nouns, in the singular, for any of them, as in `object`.",
+    )
+    features: dict[Key, ThingFeatureTable] = Field(
+        min_length=1,
+        max_length=100,
+        description="A table for each feature of things; the order is that in which answers say "
+        "adjectives.",
+    )
+    relations: dict[Key, RelationTable] = Field(
+        default={},
+        max_length=100,
+        description="A table for each relation between two things.",
+    )

@@ -1,0 +1,31 @@
+"""Nouns: the regular plural, and the article in front of one."""
+
+from __future__ import annotations
+
+import re
+
+__all__ = ["plural", "with_article"]
+
+
+def plural(noun: str) -> str:
+    """Return the plural of a regular noun.
+
+    Examples
+    --------
+    >>> plural("object"), plural("box"), plural("berry")
+    ('objects', 'boxes', 'berries')
+    """
+    if noun.endswith(("s", "x", "ch", "sh")):
+        return f"{noun}es"
+    return f"{noun[:-1]}ies" if re.search("[^aeiou]y$", noun) else f"{noun}s"
+
+
+def with_article(phrase: str) -> str:
+    """Return a phrase in the singular with "a" or "an" before it.
+
+    Examples
+    --------
+    >>> with_article("red block"), with_article("orange ball")
+    ('a red block', 'an orange ball')
+    """
+    return f"{'an' if phrase[:1].lower() in 'aeiou' else 'a'} {phrase}"

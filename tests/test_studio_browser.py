@@ -1,0 +1,200 @@
+"""The studio in a real browser: the way of the keys, and that everybody can use every page."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import shutil
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+import uvicorn
+
+from seewhy.studio.access import AccessRules
+from seewhy.studio.pages import PAGES
+from seewhy.studio.project import Project
+from seewhy.studio.serving import bound_socket
+from seewhy.studio.site import site
+from studio_builder import FRUIT, embed, pictures, with_domain
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+AXE = Path(__file__).parent / "axe" / "axe.min.js"
+
+pytestmark = [
+    pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium (apt install chromium)"),
+    pytest.mark.skipif(
+        importlib.util.find_spec("playwright") is None,
+        reason="playwright is not installed (pip install 'seewhy[dev]')",
+    ),
+]
+
+PATHS = [*(page.path for page in PAGES), "/label/sheet", "/label/progress", "/label/history"]
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Browser]:
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return Project(with_domain(pictures(tmp_path / "fruit"), FRUIT))
+
+
+@pytest.fixture
+def address(project: Project) -> Iterator[str]:
+    yield from served(project)
+
+
+def served(project: Project) -> Iterator[str]:
+    """Show a project from a thread; yield its address."""
+    listening = bound_socket("127.0.0.1", 0)
+    rules = AccessRules(frozenset({"127.0.0.1"}), "", 10_000_000)
+    config = uvicorn.Config(site(project, rules=rules, embed=embed), log_level="error")
+    server = uvicorn.Server(config)
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]}, daemon=True)
+    thread.start()
+    yield f"http://127.0.0.1:{listening.getsockname()[1]}"
+    server.should_exit = True
+    thread.join(timeout=20)
+
+
+@pytest.fixture
+def page(chromium: Browser) -> Iterator[Page]:
+    context = chromium.new_context(viewport={"width": 1280, "height": 800})
+    page = context.new_page()
+    page.set_default_timeout(60_000)
+    problems: list[str] = []
+    page.on("console", lambda said: problems.append(said.text) if said.type == "error" else None)
+    page.on("pageerror", lambda problem: problems.append(str(problem)))
+    yield page
+    context.close()
+    # A refused script or style (Content-Security-Policy) is an error of the console; so is an
+    # answer that says what was wrong with a form, which is meant.
+    assert [problem for problem in problems if "422" not in problem] == []
+
+
+def until(project: Project, expected: dict[str, dict[str, str]]) -> None:
+    """Wait until these labels are there."""
+    ends = time.monotonic() + 60
+    while time.monotonic() < ends:
+        labels = project.labels()
+        if all(labels.values(picture) == said for picture, said in expected.items()):
+            return
+        time.sleep(0.05)
+    raise AssertionError({picture: project.labels().values(picture) for picture in expected})
+
+
+def test_labelling_by_keyboard_alone(page: Page, address: str, project: Project) -> None:
+    page.goto(f"{address}/label?picture=a.png")
+    # colour: green, red; round: yes, no; class: good, spoilt. All keys come at once.
+    for key in ("2", "1", "1"):
+        page.keyboard.press(key)
+    until(project, {"a.png": {"colour": "red", "round": "yes", "class": "good"}})
+    page.wait_for_selector("#workbench:not([data-picture='a.png'])")
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_selector("#workbench[data-picture='a.png']")
+    page.keyboard.press("Shift+O")  # because of the colour
+    page.wait_for_selector(".reasons .chosen")
+    assert project.labels().reasons == {"a.png": ("colour",)}
+    page.keyboard.press("u")
+    page.wait_for_selector(".reasons .choice:not(.chosen)")
+    page.keyboard.press("u")
+    until(project, {"a.png": {"colour": "red", "round": "yes"}})
+    page.keyboard.press("r")
+    until(project, {"a.png": {"colour": "red", "round": "yes", "class": "good"}})
+
+
+def test_a_letter_leads_to_a_feature_and_enter_confirms(
+    page: Page, address: str, project: Project
+) -> None:
+    for name, colour in (("a.png", "red"), ("b.png", "green")):
+        project.label({name: {"colour": colour, "round": "yes", "class": "good"}}, who="Ada")
+    page.goto(f"{address}/label?picture=c.png")
+    page.wait_for_selector(".choice.proposed")  # comes by itself, once the heads are trained
+    page.keyboard.press("c")
+    page.wait_for_selector("fieldset.here:has(legend:has-text('class'))")
+    page.keyboard.press("2")
+    page.wait_for_selector("button[value='class=spoilt'].chosen")
+    page.keyboard.press("Enter")
+    until(project, {"c.png": {"colour": "red", "class": "spoilt"}})
+    assert project.labels().of["c.png"]["colour"].how == "confirmed"
+
+
+def test_a_contact_sheet_by_keyboard(page: Page, address: str, project: Project) -> None:
+    page.goto(f"{address}/label/sheet?feature=colour&value=red")
+    for key in ("ArrowRight", "Space", "ArrowRight", "Space", "Enter"):
+        page.keyboard.press(key)
+    page.wait_for_selector("text=2 pictures: colour red")
+    until(project, {"a.png": {"colour": "red"}, "b.png": {"colour": "red"}, "c.png": {}})
+
+
+def test_pictures_are_dropped_and_names_said(page: Page, tmp_path: Path) -> None:
+    project = Project(tmp_path / "fresh")
+    sent = [str(path) for path in sorted(pictures(tmp_path / "photos", 25).iterdir())]
+    for address in served(project):
+        page.goto(f"{address}/begin")
+        page.set_input_files("#single-files", sent)
+        page.click("text=Send the pictures")
+        page.wait_for_selector("#arrived strong:has-text('25')")
+        page.fill("[name=classes]", "good")
+        page.click("text=Write the domain")
+        page.wait_for_selector("#problem .problem")
+        page.fill("[name=classes]", "good, spoilt")  # what was typed is still there
+        page.fill("[name=features]", "colour: red, green")
+        page.click("text=Write the domain")
+        page.wait_for_selector("#workbench")
+    assert list(project.domain().features) == ["colour"]
+    assert len(project.pictures()) == 25
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_everybody_can_use_every_page(chromium: Browser, project: Project, scheme: str) -> None:
+    project.label(
+        {
+            "a.png": {"colour": "red", "round": "yes", "class": "good"},
+            "b.png": {"colour": "green", "round": "yes", "class": "spoilt"},
+        },
+        who="Ada",
+    )
+    found: dict[str, list[str]] = {}
+    for address in served(project):
+        for width in (1280, 390):
+            context = chromium.new_context(
+                viewport={"width": width, "height": 800}, color_scheme=scheme, bypass_csp=True
+            )
+            shown = context.new_page()
+            for path in PATHS:
+                shown.goto(f"{address}{path}")
+                shown.add_script_tag(path=str(AXE))
+                judged: dict[str, Any] = shown.evaluate("axe.run()")
+                problems = [
+                    f"{problem['id']}: {json.dumps(problem['nodes'][0]['html'])}"
+                    for problem in judged["violations"]
+                ]
+                if shown.evaluate("document.documentElement.scrollWidth") > width:
+                    problems.append(f"wider than {width} pixels")
+                if problems:
+                    found[f"{path} at {width}"] = problems
+            context.close()
+    assert found == {}
+
+
+def test_tab_reaches_the_content_first(page: Page, address: str) -> None:
+    page.goto(f"{address}/label")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.textContent") == "Skip to the content"
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.id") == "content"
