@@ -16,6 +16,7 @@ from seewhy.domain.domain import load_domain
 from seewhy.errors import SeeWhyError
 from seewhy.studio.project import Project
 from seewhy.studio.record import Record
+from seewhy.studio.text_edits import edits_between
 from studio_builder import FRUIT, pictures, with_domain
 
 
@@ -82,13 +83,26 @@ def test_a_file_of_the_domain_is_revised_taken_back_and_changed_outside(folder: 
     project = Project(folder)
     knowledge = folder / "fruit" / "knowledge.al"
     first = knowledge.read_text()
-    entry = project.revise({"knowledge.al": first + "% one\n"}, why="a test", who="Ada")
+    edits = edits_between("knowledge.al", first, first + "% one\n")
+    entry = project.revise(edits, why="a test", who="Ada")
     assert knowledge.read_text() == first + "% one\n"
     project.take_back(entry.number, who="Ada")
     assert knowledge.read_text() == first
     knowledge.write_text(first + "% by hand\n")
     assert Project(folder).domain() is not None
     assert knowledge.read_text() == first + "% by hand\n"
+
+
+def test_a_revision_is_taken_back_from_under_what_another_program_wrote(folder: Path) -> None:
+    project = Project(folder)
+    knowledge = folder / "fruit" / "knowledge.al"
+    first = knowledge.read_text()
+    edits = edits_between("knowledge.al", first, first + "% one\n")
+    entry = project.revise(edits, why="a test", who="Ada")
+    knowledge.write_text("% by hand\n" + knowledge.read_text())
+    project.refresh()
+    project.take_back(entry.number, who="Ada")
+    assert knowledge.read_text() == "% by hand\n" + first
 
 
 def test_a_broken_domain_keeps_the_labels(folder: Path) -> None:

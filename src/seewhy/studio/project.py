@@ -22,6 +22,7 @@ from seewhy.studio.writing import (
     FILES,
     changed_outside,
     folder_texts,
+    outside_body,
     read_text,
     revision_body,
     scenes_table,
@@ -282,7 +283,7 @@ class Project:
             if changed_outside(folder / name, said, record=self.record, name=name)
         }
         if changed:
-            self.record.add(FILES, {"files": changed, "why": why}, who=who)
+            self.record.add(FILES, outside_body(said, changed, why=why), who=who)
         table, domain = self.folder / TABLE, self._usable_domain()
         if domain is not None and table.is_file():
             texts = {TABLE: scenes_table(self.labels(), domain)}

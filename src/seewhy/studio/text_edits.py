@@ -30,15 +30,16 @@ def edits_between(file: FileName, old: str, new: str) -> tuple[Edit, ...]:
 
 
 def _passages(file: FileName, old: str, new: str) -> Iterator[Edit]:
-    """A passage for each change, with the line before it, so that it is found again."""
+    """A passage for each change, with a line beside it, so that it is found again."""
     lines, others = old.splitlines(keepends=True), new.splitlines(keepends=True)
     moved = 0
     matcher = SequenceMatcher(None, lines, others, autojunk=False)
     for what, first, last, other_first, other_last in matcher.get_opcodes():
         if what == "equal":
             continue
-        with_one = 1 if first > 0 else 0
-        before = "".join(lines[first - with_one : last])
-        after = "".join(lines[first - with_one : first] + others[other_first:other_last])
-        yield Edit(file, len("".join(lines[: first - with_one])) + moved, before, after)
+        above, below = (1, 0) if first > 0 else (0, 1)
+        kept_above, kept_below = lines[first - above : first], lines[last : last + below]
+        before = "".join([*kept_above, *lines[first:last], *kept_below])
+        after = "".join([*kept_above, *others[other_first:other_last], *kept_below])
+        yield Edit(file, len("".join(lines[: first - above])) + moved, before, after)
         moved += len(after) - len(before)

@@ -8,21 +8,23 @@ import io
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from seewhy.data.scene_rows import IMAGE
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.files.whole_files import write_whole
-from seewhy.revision.edit import LEARNED, Edit
+from seewhy.revision.edit import LEARNED, Edit, FileName, edited
 from seewhy.studio.labels import Labels
 from seewhy.studio.record import Entry, Record
+from seewhy.studio.text_edits import edits_between
 
 __all__ = [
     "FILES",
     "digest_of_text",
     "folder_texts",
     "learned_edits",
+    "outside_body",
     "revision_body",
     "scenes_table",
     "write_text",
@@ -70,6 +72,36 @@ def revision_body(edits: Iterable[Edit], *, why: str) -> dict[str, Any]:
     {'knowledge.al': 'b.'}
     """
     return {"edits": [asdict(edit) for edit in edits], "why": why}
+
+
+def outside_body(said: Mapping[str, str], found: Mapping[str, str], *, why: str) -> dict[str, Any]:
+    """The body of an entry that takes in what another program wrote.
+
+    It has edits where the record has a text of the file, so that what was revised before can
+    still be taken back.
+
+    Parameters
+    ----------
+    said, found : mapping of str to str
+        Name → text, as the record and as the files have it.
+    why : str
+
+    Examples
+    --------
+    >>> outside_body({}, {"knowledge.al": "a."}, why="edited")
+    {'edits': [], 'why': 'edited', 'files': {'knowledge.al': 'a.'}}
+    """
+    edits: list[Edit] = []
+    whole: dict[str, str] = {}
+    for name, text in found.items():
+        # All files of a domain are edited alike.
+        file = cast("FileName", name)
+        changes = edits_between(file, said[name], text) if name in said else ()
+        if name in said and edited({file: said[name]}, changes)[file] == text:
+            edits += changes
+        else:
+            whole[name] = text
+    return {**revision_body(edits, why=why), "files": whole}
 
 
 def folder_texts(entries: Iterable[Entry]) -> dict[str, str]:
