@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 from threading import Event
+from time import monotonic, sleep
 
 import pytest
 from rich.progress import Progress
@@ -14,11 +15,9 @@ from seewhy.cli.screen import progress
 from seewhy.files.progress_file import PROGRESS_FILE, read_progress
 
 
-def test_without_a_terminal_long_work_is_told_in_lines_and_in_the_file(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    file, told, enough = tmp_path / "progress.json", [], Event()
-    monkeypatch.setenv(PROGRESS_FILE, str(file))
+def test_without_a_terminal_long_work_is_told_in_lines() -> None:
+    told: list[str] = []
+    enough = Event()
 
     def tell(line: str) -> None:
         told.append(line)
@@ -33,9 +32,23 @@ def test_without_a_terminal_long_work_is_told_in_lines_and_in_the_file(
     assert re.fullmatch(
         r"looking at pictures: \d+ of 900(, \d:\d\d:\d\d left)? \(since \d:\d\d:\d\d\)", told[-1]
     )
-    found = read_progress(file)
-    assert found is not None
+
+
+def test_another_process_reads_of_it_in_the_file_that_is_named(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    file, told = tmp_path / "progress.json", list[str]()
+    monkeypatch.setenv(PROGRESS_FILE, str(file))
+    with Progress(disable=True) as bars:
+        task = bars.add_task("looking at pictures", total=900)
+        with telling_plainly(bars, told.append, seconds=0.05):
+            bars.update(task, completed=120)
+            end = monotonic() + 20
+            while (found := read_progress(file)) is None:
+                assert monotonic() < end
+                sleep(0.01)
     assert [(stage.what, stage.total) for stage in found.stages] == [("looking at pictures", 900)]
+    assert told == []
 
 
 def test_short_work_says_nothing_without_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:

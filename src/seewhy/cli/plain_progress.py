@@ -29,7 +29,7 @@ _SHOWN = 4
 def telling_plainly(
     bars: Progress, tell: Callable[[str], None], *, seconds: float = SECONDS
 ) -> Iterator[None]:
-    """Tell of work while it goes on; also in the file that the environment names, if it does."""
+    """Tell of work while it goes on; in the file that the environment names instead, if it does."""
     ended = Event()
     named = os.environ.get(PROGRESS_FILE)
     file = Path(named) if named else None
@@ -42,7 +42,7 @@ def telling_plainly(
             now = monotonic()
             if file is not None:
                 write_progress(file, stages, seconds=now - start)
-            if now - said >= seconds:
+            elif now - said >= seconds:
                 said = now
                 tell(_line(stages, now - start))
 

@@ -161,9 +161,9 @@ def _because(
     if mine is None:
         name = domain.features[feature].name
         return Told(kind, sentence(f"no, not because of the {name}: {since}"), why, ground)
-    own = mine.features()
-    clause = say_features(domain, scene.vector, own, subject=domain.subject)
-    others = [key for key in why.features() if key not in own]
+    asked = mine.features()
+    clause = say_features(domain, scene.vector, asked, subject=domain.subject)
+    others = [key for key in why.features() if key not in asked]
     text = f"yes, since {clause}"
     if others:
         besides = say_features(domain, scene.vector, others, subject="it")

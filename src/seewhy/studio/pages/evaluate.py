@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Annotated, Any
@@ -53,7 +53,7 @@ class Wrong:
     wrong_class : bool
     probability : float or None
         Of the class said.
-    misread : list of mapping
+    misread : sequence of mapping
         ``words``, ``seen``, ``probability`` and ``annotated`` of each feature.
     at : str
         Which question of the Label page it is about.
@@ -66,7 +66,7 @@ class Wrong:
     annotated: str
     wrong_class: bool
     probability: float | None
-    misread: list[Mapping[str, Any]]
+    misread: Sequence[Mapping[str, Any]]
     at: str
     changed: bool
 

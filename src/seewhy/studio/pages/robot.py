@@ -145,7 +145,9 @@ def _shown(
     if asked.get("domain"):
         domains.setdefault(asked["domain"], Path(asked["domain"]).name)
     chosen = domain or asked.get("domain") or next(iter(domains))
-    problem, questions, literals, example = "", (), {}, ""
+    problem, example = "", ""
+    questions: tuple[str, ...] = ()
+    literals: dict[str, str] = {}
     try:
         loaded = load_planning_domain(_domain(studio, chosen, ""))
         example = example_fluent(loaded.knowledge)
