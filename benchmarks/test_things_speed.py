@@ -1,4 +1,4 @@
-"""`make bench`: scenes of ten things, distinct ones, and one justification of such a scene.
+"""`make bench`: scenes of ten things: distinct ones, a justification, and the smallest change.
 
 "plain clingo" builds, grounds and solves one program a scene, of what is seen as facts.
 """
@@ -17,6 +17,7 @@ from things_knowledge import (
     tabletop_schema,
 )
 
+from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.program import axiom_rules, sort_facts
 from seewhy.knowledge.reasoner import Reasoner
@@ -127,3 +128,25 @@ def test_why_not(benchmark, scene):
     benchmark.pedantic(
         lambda: why_not(reasoner, vector, literal).to_text(), setup=reasoner.forget, rounds=10
     )
+
+
+def test_smallest_change(benchmark, world):
+    reasoner = Reasoner(*world)
+    finder = ChangeFinder(reasoner)
+    vectors = scenes_of_ten(world[1], 10, seed=5)
+    finder.smallest(vectors[0], next(iter(world[1].classes)))  # grounds the programs
+    asked = [
+        (vector, label)
+        for vector in vectors
+        for label in world[1].classes
+        if reasoner.decide(vector).label != label
+    ]
+
+    left = list(asked)
+
+    def next_question() -> tuple[tuple[FeatureVector, str], dict[str, str]]:
+        reasoner.forget()
+        return left.pop(), {}
+
+    # Every question is a round of its own: the largest is the longest that anybody waits.
+    benchmark.pedantic(finder.smallest, setup=next_question, rounds=len(asked))

@@ -11,6 +11,7 @@ import clingo
 import pytest
 
 from seewhy.errors import KnowledgeError
+from seewhy.knowledge import nearest_instances
 from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge, read_knowledge, read_literal
@@ -320,6 +321,21 @@ def test_why_not_takes_the_nearest_things_and_none_that_are_not_there() -> None:
     assert "block4" not in node.to_text()
     assert "on(block1, block1)" not in node.to_text()
     assert "round(block2)" in node.to_text()
+
+
+def test_instances_of_things_are_looked_up_as_clingo_solves_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    knowledge, schema = block_world(4)
+    chance = random.Random(5)
+    scenes = [random_scene(schema, chance, chance.randint(0, 4), unknown=0.2) for _ in range(12)]
+    asked = [read_literal(f"falls(block{n})") for n in (1, 2)] + [*schema.classes.values()]
+    reasoner = Reasoner(knowledge, schema)
+    looked_up = [why_not(reasoner, vector, literal) for vector in scenes for literal in asked]
+    monkeypatch.setattr(nearest_instances, "_looked_up", lambda *_: None)
+    assert looked_up == [
+        why_not(reasoner, vector, literal) for vector in scenes for literal in asked
+    ]
 
 
 # What would have to be otherwise ------------------------------------------------------------------

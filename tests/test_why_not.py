@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import HealthCheck, example, given, settings
 
 from knowledge_builders import CLASSES, Rule, World, worlds
-from seewhy.knowledge import why_not as module
+from seewhy.knowledge import nearest_instances as module
 from seewhy.knowledge.evidence import evidence_of
 from seewhy.knowledge.language import read_literal
 from seewhy.knowledge.reasoner import Reasoner
@@ -26,15 +26,15 @@ NOTHING_OPEN = World((Rule("p(S)", ("f(S)", "not g(S, dark)")), Rule("p(S)", ("-
 def test_looking_up_and_solving_agree(world: World) -> None:
     reasoner = Reasoner(world.knowledge, world.schema)
     literals = [read_literal(text) for text in CLASSES[world.classes].values()]
-    looked_up = module._settled
+    looked_up = module._looked_up
     for vector in world.vectors[::5]:
         for literal in literals:
             quick = why_not(reasoner, vector, literal)
-            module._settled = lambda *_: None  # type: ignore[assignment]
+            module._looked_up = lambda *_: None  # type: ignore[assignment]
             try:
                 assert why_not(reasoner, vector, literal) == quick
             finally:
-                module._settled = looked_up
+                module._looked_up = looked_up
 
 
 @given(world=worlds(defaults=False))

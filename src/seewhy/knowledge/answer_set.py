@@ -8,6 +8,8 @@ from functools import lru_cache
 
 import clingo
 
+from seewhy.knowledge.ground import text_of
+
 __all__ = ["AnswerSet", "answer_set_of"]
 
 
@@ -46,7 +48,7 @@ def _read_atom(
         return name, atom.arguments[0], None
     if name in ("fires", "exception"):
         axiom, values = atom.arguments
-        return name, None, (axiom.name, tuple(map(str, values.arguments)))
+        return name, None, (axiom.name, tuple(map(text_of, values.arguments)))
     return name, None, None
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from clingo import ast
 
@@ -37,6 +37,8 @@ def substitute(text: str, binding: Mapping[str, str]) -> str:
     >>> substitute("num_blocks(S, N+1)", {"S": "scene", "N": "2"})
     'num_blocks(scene, 2+1)'
     """
+    if text in binding:
+        return binding[text]
     return _VARIABLE.sub(lambda match: binding.get(match.group(), match.group()), text)
 
 
@@ -118,7 +120,8 @@ class Literal:
 
     def substitute(self, binding: Mapping[str, str]) -> Literal:
         """Return the literal with variables replaced as ``binding`` says."""
-        return replace(self, arguments=tuple(substitute(a, binding) for a in self.arguments))
+        arguments = tuple([substitute(argument, binding) for argument in self.arguments])
+        return Literal(self.predicate, arguments, self.positive)
 
 
 @dataclass(frozen=True)
@@ -136,7 +139,7 @@ class Condition:
     def __str__(self) -> str:
         return self.text
 
-    @property
+    @cached_property
     def is_local(self) -> bool:
         """Whether the condition has variables of its own, as ``#count {…}`` and ``p(X) : q(X)``."""
         return self.literal is None and re.search("[{:]", STRING.sub("", self.text)) is not None
@@ -224,7 +227,7 @@ class Axiom:
         """Whether its author says it in words, or its text is the statement itself."""
         return self.text.rstrip(".") != str(self).rstrip(".")
 
-    @property
+    @cached_property
     def variables(self) -> tuple[str, ...]:
         """The variables of head and body, those of local conditions left out, in order.
 

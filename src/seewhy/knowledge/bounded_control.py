@@ -28,7 +28,7 @@ from seewhy.knowledge.deferred_interrupt import DeferredInterrupt
 from seewhy.knowledge.ground_process import Request
 from seewhy.knowledge.grounding_size import GroundingSize
 
-__all__ = ["BoundedControl", "OutOfTimeError"]
+__all__ = ["SOLVING_SECONDS", "BoundedControl", "OutOfTimeError", "out_of_time"]
 
 SMALL = 500_000
 """So many instances are grounded within about a second, and need no process of their own."""
@@ -64,6 +64,11 @@ class _Search(Generic[_Read]):
 
 class OutOfTimeError(ReasoningError):
     """A call of clingo took longer than it may."""
+
+
+def out_of_time(size: GroundingSize, what: str, seconds: float) -> OutOfTimeError:
+    """Return the error of what took longer than it may."""
+    return OutOfTimeError(f"{size.largest}; {what} took longer than {seconds:.0f} s; {_REMEDY}")
 
 
 class BoundedControl:
@@ -283,9 +288,7 @@ class BoundedControl:
         try:
             while not done.wait(_HEARD):
                 if time.perf_counter() >= until:
-                    raise OutOfTimeError(
-                        f"{self.size.largest}; {what} took longer than {seconds:.0f} s; {_REMEDY}"
-                    )
+                    raise out_of_time(self.size, what, seconds)
                 if _resident() - memory > MEMORY:
                     raise ReasoningError(
                         f"{self.size.largest}; {what} took more than "

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import clingo
 
-from seewhy.knowledge.axiom import Literal
-from seewhy.knowledge.bounded_control import BoundedControl
-from seewhy.knowledge.ground import key_of
-from seewhy.knowledge.grounding_size import grounding_size
+from seewhy.knowledge.axiom import AxiomKind, Literal
+from seewhy.knowledge.bounded_control import SOLVING_SECONDS, BoundedControl, out_of_time
+from seewhy.knowledge.ground import key_of, text_of
+from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
 from seewhy.knowledge.occurrence import Occurrence
-from seewhy.knowledge.program import UNKNOWN, program_text
+from seewhy.knowledge.program import CONTRADICTORY, UNKNOWN, program_text, without_exceptions
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
+from seewhy.knowledge.stratified import is_stratified
 from seewhy.knowledge.vector_index import Part
 
 _CAN_OCCUR = "can_occur"
+_EXCEPTED = "excepted"
 _EQUALLY_NEAR = 64  # so many are looked at
 
 
@@ -47,14 +51,22 @@ class Change:
     cost: int
 
 
+class _Goal(NamedTuple):
+    """What is to be believed, and what is not to be beside it; keys of literals."""
+
+    believed: str
+    apart_from: tuple[str, ...] = ()
+
+
 class ChangeFinder:
     """Finds the cheapest feature vectors under which a class is believed.
 
     An optimisation over answer sets, exact: candidates come in order of cost, among equals those
     whose numbers move least, and each is confirmed by the reasoner, because a class must be
-    believed in every preferred answer set and not in one only. Of more than 64 that are equally
-    near, 64 are looked at. Vectors that fail are ruled out for good, and so are values that never
-    go together where only what can occur is looked for.
+    believed in every preferred answer set and not in one only. Of stratified knowledge, candidates
+    come without exceptions that no contradiction asks for, and a class comes without any other.
+    Of more than 64 that are equally near, 64 are looked at. Vectors that fail are ruled out for
+    good, and so are values that never go together where only what can occur is looked for.
 
     Parameters
     ----------
@@ -77,19 +89,26 @@ class ChangeFinder:
         self.reasoner = reasoner
         self.schema = reasoner.schema
         self.occurrence = occurrence
+        self._is_stratified = is_stratified(reasoner.knowledge)
+        self._has_defaults = any(a.kind is AxiomKind.DEFAULT for a in reasoner.knowledge.axioms)
         self._constraints = 0
         self._literals: dict[str, int] = {}
-        self._goals: dict[str, str] = {}
+        self._goals: dict[_Goal, str] = {}
 
     @cached_property
     def _control(self) -> BoundedControl:
         control = BoundedControl(
             self._program(),
-            size=grounding_size(self.reasoner.knowledge),
+            size=self._size,
             arguments=["--opt-mode=optN", "--project=show", *_strategy(self.schema)],
         )
         control.configuration.models = _EQUALLY_NEAR
         return control
+
+    @cached_property
+    def _size(self) -> GroundingSize:
+        size = grounding_size(self.reasoner.knowledge)
+        return size.times(2) if self._is_stratified and self._has_defaults else size
 
     def _literal(self, atom: str) -> int:
         """The solver literal of an atom; those that were found once are not looked for again."""
@@ -100,8 +119,14 @@ class ChangeFinder:
         return self._literals[atom]
 
     def _program(self) -> str:
-        schema = self.schema
-        lines = [program_text(self.reasoner.knowledge, schema, exceptions=True)]
+        schema, knowledge = self.schema, self.reasoner.knowledge
+        lines = [program_text(knowledge, schema, exceptions=True)]
+        if self._is_stratified and self._has_defaults:
+            lines += [
+                without_exceptions(knowledge, schema),
+                f"{_EXCEPTED} :- exception(I, V).",
+                f":- {_EXCEPTED}, not {CONTRADICTORY}.",
+            ]
         for feature, values in schema.features.items():
             choices = "; ".join(f"current({feature}, {value})" for value in (*values, UNKNOWN))
             cost = schema.change_costs.get(feature, 1)
@@ -128,7 +153,8 @@ class ChangeFinder:
             "#minimize { C@2, F : changed(F, C) }.",
             "#minimize { D@1, F : moved(F, D) }.",
             "#minimize { 1@0, F : named(F) }.",
-            "#show observed/2.",
+            "becomes(F, V) :- observed(F, V), not current(F, V).",
+            "#show becomes/2.",
         ]
         return "\n".join(lines)
 
@@ -146,10 +172,15 @@ class ChangeFinder:
         ------
         KeyError
             If there is no such class.
+        ReasoningError
+            If the search takes longer than 120 s.
         """
-        literal = self.schema.classes[label]
+        others = {name: other for name, other in self.schema.classes.items() if name != label}
         return self._smallest(
-            vector, literal, lambda reached: self.reasoner.decide(reached).label == label, limit
+            vector,
+            _Goal(key_of(self.schema.classes[label]), tuple(map(key_of, others.values()))),
+            lambda reached: self.reasoner.decide(reached).label == label,
+            limit,
         )
 
     def smallest_for(
@@ -168,19 +199,22 @@ class ChangeFinder:
         """
         believed = clingo.parse_term(key_of(literal))
         return self._smallest(
-            vector, literal, lambda reached: believed in self.reasoner.believed(reached), limit
+            vector,
+            _Goal(key_of(literal)),
+            lambda reached: believed in self.reasoner.believed(reached),
+            limit,
         )
 
     def _smallest(
         self,
         vector: FeatureVector,
-        literal: Literal,
+        wanted: _Goal,
         is_reached: Callable[[FeatureVector], bool],
         limit: int,
     ) -> tuple[Change, ...]:
         if is_reached(vector):
             return (Change((), vector, 0),)
-        goal = self._goal(literal)
+        goal = self._goal_atom(wanted)
         if goal is None:
             return ()
         found: list[FeatureVector] = []
@@ -190,23 +224,24 @@ class ChangeFinder:
         changes = (self._change(vector, after) for after in found)
         return tuple(sorted(changes, key=_order)[:limit])
 
-    def _goal(self, literal: Literal) -> str | None:
-        """The atom that stands for that a literal is believed, added to the program once.
+    def _goal_atom(self, goal: _Goal) -> str | None:
+        """The atom that stands for that a goal is reached, added to the program once.
 
         None where no scene has the belief.
         """
-        key = key_of(literal)
-        if self._control.atoms[clingo.parse_term(f"holds({key})")] is None:
+        if self._control.atoms[clingo.parse_term(f"holds({goal.believed})")] is None:
             return None
-        if key not in self._goals:
-            goal = f"goal({len(self._goals)})"
-            self._control.add(
-                f"goal_{len(self._goals)}", f"{{ {goal} }}. :- {goal}, not holds({key})."
-            )
-            if self._control.atoms[clingo.parse_term(goal)] is None:
+        if goal not in self._goals:
+            atom = f"goal({len(self._goals)})"
+            rules = [f"{{ {atom} }}.", f":- {atom}, not holds({goal.believed})."]
+            if self._is_stratified:
+                # Without exceptions there is one answer set, and what it holds is believed.
+                rules += [f":- {atom}, holds({key}), not {_EXCEPTED}." for key in goal.apart_from]
+            self._control.add(f"goal_{len(self._goals)}", "\n".join(rules))
+            if self._control.atoms[clingo.parse_term(atom)] is None:
                 return None  # no scene has an answer set at all
-            self._goals[key] = goal
-        return self._goals[key]
+            self._goals[goal] = atom
+        return self._goals[goal]
 
     def _nearest(
         self,
@@ -230,11 +265,14 @@ class ChangeFinder:
             ),
             can_occur if occurrence is not None else -can_occur,
         ]
-        while candidates := self._cheapest(assumptions):
+        until = time.monotonic() + SOLVING_SECONDS
+        while candidates := self._cheapest(vector, assumptions):
             confirmed = [candidate for candidate in candidates if is_reached(candidate)]
             never = {c: occurrence.never_together(c) if occurrence else None for c in confirmed}
             if possible := [reached for reached, parts in never.items() if parts is None]:
                 return possible
+            if time.monotonic() >= until:
+                raise out_of_time(self._size, "the search for the smallest change", SOLVING_SECONDS)
             for candidate in candidates:
                 if candidate not in never:
                     self._rule_out(candidate, goal)
@@ -242,21 +280,19 @@ class ChangeFinder:
                 self._keep_apart(parts)
         return []
 
-    def _cheapest(self, assumptions: list[int]) -> list[FeatureVector]:
-        def vector(model: clingo.Model) -> FeatureVector | None:
+    def _cheapest(self, vector: FeatureVector, assumptions: list[int]) -> list[FeatureVector]:
+        before = dict(zip(self.schema.features, vector, strict=True))
+
+        def after(model: clingo.Model) -> FeatureVector | None:
             if not model.optimality_proven:
                 return None
-            shown = {
-                str(s.arguments[0]): str(s.arguments[1])
-                for s in model.symbols(shown=True)
-                if s.name == "observed"
-            }
-            return tuple(
-                None if shown[feature] == UNKNOWN else shown[feature]
-                for feature in self.schema.features
-            )
+            # What stays as it is would be hundreds of atoms to read, of every model.
+            shown = (symbol.arguments for symbol in model.symbols(shown=True))
+            becomes = {text_of(feature): text_of(value) for feature, value in shown}
+            known = {f: None if value == UNKNOWN else value for f, value in becomes.items()}
+            return tuple({**before, **known}.values())
 
-        found = self._control.solve(assumptions, on_model=vector)
+        found = self._control.solve(assumptions, on_model=after)
         return [candidate for candidate in dict.fromkeys(found) if candidate is not None]
 
     def _rule_out(self, vector: FeatureVector, goal: str) -> None:

@@ -55,9 +55,9 @@ class Evidence:
         self.answer_set = answer_set
         self.say = say
         self.holds = set(map(text_of, answer_set.holds))
-        shared = answer_set.holds if believed is None else believed
-        self.believed = frozenset(map(text_of, shared))
+        self.believed = frozenset(self.holds if believed is None else map(text_of, believed))
         self.others = others
+        self._shown: dict[str, Node | None] = {}
         self._foundations: dict[Belief, Foundation] = {}
         self._conditions_said: dict[tuple[str, bool], str] = {}
         self._needs: dict[tuple[str, tuple[str, ...]], list[tuple[int, Need, bool]]] = {}
@@ -196,23 +196,20 @@ class Evidence:
         )
 
     def _seen(self, key: str) -> Node | None:
-        return self._shown.get(key)
+        if key not in self._shown:
+            self._shown[key] = self._showing(key)
+        return self._shown[key]
 
-    @cached_property
-    def _shown(self) -> dict[str, Node]:
-        """What the picture shows, by key: the value of every feature, and what it rules out."""
-        nodes: dict[str, Node] = {}
-        for feature, literals in self.schema.features.items():
+    def _showing(self, key: str) -> Node | None:
+        """The node of the value of a feature by which the picture shows a literal."""
+        for feature, values in reversed(self.schema.shown_by.get(key, {}).items()):
             value = self.vector[feature]
-            if value is None:
-                continue
-            shown = literals[value]
-            text = self.say(shown)
-            for key in _shown_keys(self.schema, feature, value):
-                nodes[key] = Node(
+            if value in values:
+                text = self.say(self.schema.features[feature][value])
+                return Node(
                     literal=key, text=text, basis=Basis.FEATURE, feature=feature, value=value
                 )
-        return nodes
+        return None
 
     def feature_node(self, feature: str) -> Node:
         """The node of a feature of the scene, whether its value is known or not."""
@@ -275,14 +272,4 @@ def _observed(schema: SceneSchema, vector: FeatureVector) -> Iterator[tuple[clin
     """For every feature the literals that are believed because of its value."""
     for feature, value in zip(schema.features, vector, strict=True):
         if value is not None:
-            yield tuple(map(clingo.parse_term, _shown_keys(schema, feature, value)))
-
-
-def _shown_keys(schema: SceneSchema, feature: str, value: str) -> Iterator[str]:
-    """What is believed because of a feature's value: its literal, and the others denied."""
-    literals = schema.features[feature]
-    yield key_of(literals[value])
-    if all(literal.positive for literal in literals.values()):
-        for other, literal in literals.items():
-            if other != value:
-                yield key_of(literal.complement)
+            yield tuple(map(clingo.parse_term, schema.shown(feature, value)))

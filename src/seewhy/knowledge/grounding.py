@@ -138,17 +138,17 @@ class Grounding:
         return next(iter(self.models(assumptions, most=1)), None)
 
     def models(self, assumptions: Iterable[int], *, most: int) -> list[list[clingo.Symbol]]:
-        """Return the true atoms of each answer set, of at most so many."""
+        """Return the true atoms that the program shows of each answer set, of at most so many."""
         return self.solve(
             assumptions,
             Search(models=most),
-            on_model=lambda model: list(model.symbols(atoms=True)),
+            on_model=lambda model: list(model.symbols(shown=True)),
         )
 
     def consequences(self, assumptions: Iterable[int]) -> list[clingo.Symbol] | None:
         """Return the atoms that are true in every answer set, or None if there is none."""
         found = self.solve(
-            assumptions, IN_COMMON, on_model=lambda model: list(model.symbols(atoms=True))
+            assumptions, IN_COMMON, on_model=lambda model: list(model.symbols(shown=True))
         )
         return found[-1] if found else None
 

@@ -19,7 +19,7 @@ from seewhy.knowledge.axiom import (
     substitute,
     variables_in,
 )
-from seewhy.knowledge.ground import key_of, predicate_of
+from seewhy.knowledge.ground import key_of, predicate_of, text_of
 from seewhy.knowledge.grounding import Grounding
 from seewhy.knowledge.grounding_size import GroundingSize
 from seewhy.knowledge.language import Knowledge
@@ -114,7 +114,7 @@ class PossibleInstances:
         found: dict[str, list[tuple[str, ...]]] = {}
         for symbol in sorted(self._grounding.with_predicate("fires", 2)):
             name, values = symbol.arguments
-            found.setdefault(name.name, []).append(tuple(map(str, values.arguments)))
+            found.setdefault(name.name, []).append(tuple(map(text_of, values.arguments)))
         return found
 
     @cached_property
@@ -136,7 +136,9 @@ class PossibleInstances:
 
     @cached_property
     def _keys(self) -> frozenset[str]:
-        return frozenset(str(symbol) for symbols in self.literals.values() for symbol in symbols)
+        return frozenset(
+            text_of(symbol) for symbols in self.literals.values() for symbol in symbols
+        )
 
     def concluding(self, key: str) -> list[Instance]:
         """The instances that conclude a literal in some scene."""

@@ -8,6 +8,7 @@ choice that is settled by an assumption, so that a program is grounded once for 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import lru_cache
 
@@ -20,6 +21,9 @@ from seewhy.knowledge.signature import Signature
 
 UNKNOWN = "unknown__"
 """The term that stands for a feature whose value was not seen."""
+CONTRADICTORY = "contradictory__"
+"""What is true in :func:`without_exceptions` where the beliefs contradict each other."""
+_WITHOUT = "without_exceptions__("
 
 
 def program_text(
@@ -61,6 +65,16 @@ def program_text(
     for axiom in knowledge.axioms:
         lines += axiom_rules(axiom, knowledge.signature, exceptions=exceptions, firings=firings)
     return "\n".join(lines) + "\n"
+
+
+def without_exceptions(knowledge: Knowledge, schema: SceneSchema) -> str:
+    """Return what is added to a program with exceptions to know whether a scene needs any.
+
+    It is the program without exceptions, its beliefs renamed, over the same features. Of
+    stratified knowledge, a scene needs exceptions where :data:`CONTRADICTORY` is true.
+    """
+    lines = program_text(knowledge, schema).replace(":- strict, conflict.", "")
+    return re.sub(r"\bconflict\b", CONTRADICTORY, re.sub(r"\bholds\(", _WITHOUT, lines))
 
 
 def body_text(axiom: Axiom, signature: Signature) -> str:

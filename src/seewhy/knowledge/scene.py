@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.ground import key_of
 
 FeatureVector = tuple[str | None, ...]
 """One value per feature in the order of the schema; None where the value is unknown."""
@@ -51,6 +52,26 @@ class SceneSchema:
     @cached_property
     def _left_out(self) -> dict[str, str]:
         return dict.fromkeys(self.presence.values(), "no")
+
+    def shown(self, feature: str, value: str) -> Iterator[str]:
+        """Yield the keys of what is believed for a value: its literal, and the others denied."""
+        literals = self.features[feature]
+        yield key_of(literals[value])
+        if all(literal.positive for literal in literals.values()):
+            for other, literal in literals.items():
+                if other != value:
+                    yield key_of(literal.complement)
+
+    @cached_property
+    def shown_by(self) -> dict[str, dict[str, tuple[str, ...]]]:
+        """Key of a literal → feature → its values by which a picture shows the literal."""
+        found: dict[str, dict[str, tuple[str, ...]]] = {}
+        for feature, literals in self.features.items():
+            for value in literals:
+                for key in self.shown(feature, value):
+                    by_feature = found.setdefault(key, {})
+                    by_feature[feature] = (*by_feature.get(feature, ()), value)
+        return found
 
     def feature_of(self, literal: Literal) -> str | None:
         """Return the feature that a literal speaks about, affirmed or denied."""

@@ -8,7 +8,6 @@ an answer set are none that could speak against it.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Collection, Sequence
 from functools import cached_property
 from itertools import count
@@ -20,12 +19,10 @@ from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.grounding import Grounding
 from seewhy.knowledge.grounding_size import GroundingSize
 from seewhy.knowledge.language import Knowledge
-from seewhy.knowledge.program import UNKNOWN, program_text
+from seewhy.knowledge.program import CONTRADICTORY, UNKNOWN, program_text, without_exceptions
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 from seewhy.knowledge.stratified import is_stratified
 
-_WITHOUT = "without_exceptions__("
-_CONTRADICTORY = "contradictory__"
 _LOOKED_AT = 64
 """So many scenes with exceptions are looked at before features count as too few."""
 
@@ -167,10 +164,6 @@ class SufficientFeatures:
         """
         text = program_text(self.knowledge, self.schema, exceptions=True)
         if is_stratified(self.knowledge):
-            text += self._contradictory_without()
+            text += without_exceptions(self.knowledge, self.schema)
+            text += f":- not {CONTRADICTORY}.\n"
         return Grounding(text, self.schema, size=self.size.times(2))
-
-    def _contradictory_without(self) -> str:
-        lines = program_text(self.knowledge, self.schema).replace(":- strict, conflict.", "")
-        renamed = re.sub(r"\bconflict\b", _CONTRADICTORY, re.sub(r"\bholds\(", _WITHOUT, lines))
-        return f"{renamed}:- not {_CONTRADICTORY}.\n"
