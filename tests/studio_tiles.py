@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-import numpy.typing as npt
 from fastapi.testclient import TestClient
 
-from seewhy.domain.domain import Domain
-from seewhy.perception.picture import read_picture
-from seewhy.studio.access import AccessRules
 from seewhy.studio.project import Project
 from seewhy.studio.site import site
+from studio_builder import RULES, csrf_of, embed
 
-RULES = AccessRules(frozenset({"testserver"}), "", 200_000)
+__all__ = ["HTMX", "csrf_of", "keys_of", "studio_of", "text_of", "tiles_project"]
+
 HTMX = {"HX-Request": "true"}
 
 
@@ -32,18 +28,7 @@ def tiles_project(folder: Path, *, data: Path, domain: Path, model: Path | None)
 
 def studio_of(folder: Path) -> TestClient:
     """A browser before the studio of a project."""
-    return TestClient(site(Project(folder), rules=RULES, embed=_mean_colours))
-
-
-def _mean_colours(files: Sequence[Path], _: Domain) -> npt.NDArray[np.floating]:
-    return np.stack([read_picture(file, size=8).mean(axis=(0, 1)) for file in files])
-
-
-def csrf_of(client: TestClient) -> str:
-    """What the forms of this browser's session bring."""
-    found = re.search(r'name="csrf" value="([0-9a-f]+)"', client.get("/begin").text)
-    assert found
-    return found[1]
+    return TestClient(site(Project(folder), rules=RULES, embed=embed))
 
 
 def text_of(fragment: str) -> str:

@@ -102,6 +102,39 @@ def test_a_picture_is_sent_and_spoken_of(client: TestClient) -> None:
     assert "The tile is bad" in text_of(sent.text)
 
 
+def test_a_picture_that_cannot_be_read_does_not_bar_the_way(
+    client: TestClient, folder: Path
+) -> None:
+    (folder / "images" / "torn.png").write_bytes(b"no picture")
+    token = csrf_of(client)
+    sent = client.post("/ask/picture", files={"file": ("a.txt", b"x")}, data={"csrf": token})
+    assert sent.status_code == 422
+    assert "no picture by its name" in sent.text
+    good = io.BytesIO()
+    draw_tile("red", "no", 4).save(good, "PNG")
+    files = {"file": ("b.png", good.getvalue())}
+    client.post("/ask/picture", files=files, data={"csrf": token})  # looks at the folder anew
+    shown = client.get("/ask?picture=images/torn.png")
+    assert shown.status_code == 200
+    assert "torn.png" in shown.text
+    assert 'class="problem" role="alert"' in shown.text
+    assert "The tile is good" in text_of(client.get("/ask?picture=images/b.png").text)
+
+
+def test_the_model_is_loaded_anew_when_it_changes(
+    client: TestClient, folder: Path, model_folder: Path
+) -> None:
+    ask(client, "what is it")
+    shutil.rmtree(folder / "model")
+    assert "There is no model yet" in client.get("/ask").text
+    shutil.copytree(model_folder, folder / "model", copy_function=shutil.copyfile)
+    assert "The tile is good" in text_of(client.get("/ask?picture=images/000.png").text)
+    (folder / "model" / "model.json").write_text("{}")
+    damaged = client.get("/ask?picture=images/000.png")
+    assert damaged.status_code == 422
+    assert "model.json" in damaged.text
+
+
 @pytest.mark.parametrize(
     ("address", "asked", "said"),
     [

@@ -9,7 +9,7 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import pytest
 import uvicorn
@@ -20,6 +20,7 @@ from seewhy.studio.project import Project
 from seewhy.studio.serving import bound_socket
 from seewhy.studio.site import site
 from studio_builder import FRUIT, embed, pictures, with_domain
+from studio_tiles import tiles_project
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -35,7 +36,13 @@ pytestmark = [
     ),
 ]
 
-PATHS = [*(page.path for page in PAGES), "/label/sheet", "/label/progress", "/label/history"]
+PATHS = [
+    *(page.path for page in PAGES),
+    "/label/sheet",
+    "/label/progress",
+    "/label/history",
+    "/rules/example",
+]
 
 
 @pytest.fixture(scope="module")
@@ -198,18 +205,66 @@ def test_everybody_can_use_every_page(chromium: Browser, project: Project, schem
             shown = context.new_page()
             for path in PATHS:
                 shown.goto(f"{address}{path}")
-                shown.add_script_tag(path=str(AXE))
-                judged: dict[str, Any] = shown.evaluate("axe.run()")
-                problems = [
-                    f"{problem['id']}: {json.dumps(problem['nodes'][0]['html'])}"
-                    for problem in judged["violations"]
-                ]
-                if shown.evaluate("document.documentElement.scrollWidth") > width:
-                    problems.append(f"wider than {width} pixels")
+                problems = hindrances(shown, width)
                 if problems:
                     found[f"{path} at {width}"] = problems
             context.close()
     assert found == {}
+
+
+def hindrances(shown: Page, width: int) -> list[str]:
+    """What keeps somebody from using a page: by axe-core, and that it is too wide."""
+    shown.add_script_tag(path=str(AXE))
+    judged: dict[str, Any] = shown.evaluate("axe.run()")
+    problems = [
+        f"{problem['id']}: {json.dumps(problem['nodes'][0]['html'])}"
+        for problem in judged["violations"]
+    ]
+    if shown.evaluate("document.documentElement.scrollWidth") > width:
+        problems.append(f"wider than {width} pixels")
+    return problems
+
+
+@pytest.mark.parametrize(("scheme", "width"), [("light", 1280), ("dark", 390)])
+def test_asking_and_doubting_by_keyboard_alone(
+    chromium: Browser,
+    tmp_path: Path,
+    tiles_data: Path,
+    tiles_folder: Path,
+    model_folder: Path,
+    scheme: Literal["light", "dark"],
+    width: int,
+) -> None:
+    folder = tiles_project(tmp_path / "p", data=tiles_data, domain=tiles_folder, model=model_folder)
+    for address in served(Project(folder)):
+        context = chromium.new_context(
+            viewport={"width": width, "height": 800}, color_scheme=scheme, bypass_csp=True
+        )
+        shown = context.new_page()
+        shown.set_default_timeout(60_000)
+        shown.goto(f"{address}/ask?picture=images/006.png")
+        shown.focus("#shows-colour-1")
+        shown.keyboard.press("ArrowRight")
+        shown.wait_for_selector(".then:has-text('would be')")
+        assert shown.evaluate("document.activeElement.id") == "shows-colour-2"
+        shown.focus("#question")
+        shown.keyboard.type("why is it good?")
+        shown.keyboard.press("Enter")
+        shown.wait_for_selector(".asked:has-text('why is the tile good?')")
+        shown.focus(".where summary")
+        shown.keyboard.press("Enter")
+        shown.wait_for_selector(".where img")
+        shown.focus("text=No, that is wrong")
+        shown.keyboard.press("Enter")
+        shown.wait_for_selector(".remedies:has-text('unless it has corners')")
+        assert hindrances(shown, width) == []
+        shown.focus(".remedies:has-text('unless it has corners') button")
+        shown.keyboard.press("Enter")
+        shown.wait_for_selector("text=Take it back")
+        assert "not -round(T)" in (folder / "tiles" / "knowledge.al").read_text()
+        shown.goto(f"{address}/rules/learned")
+        assert hindrances(shown, width) == []
+        context.close()
 
 
 def test_tab_reaches_the_content_first(page: Page, address: str) -> None:

@@ -1,4 +1,4 @@
-"""Share: answers and evaluations as files that open with no network."""
+"""Share: answers as a file that opens with no network."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from fastapi.testclient import TestClient
 from studio_tiles import studio_of, tiles_project
 
 
-def test_answers_and_the_evaluation_are_whole_files(
+def test_answers_are_a_whole_file(
     tmp_path: Path, tiles_data: Path, tiles_folder: Path, model_folder: Path
 ) -> None:
     folder = tiles_project(
@@ -26,9 +26,7 @@ def test_answers_and_the_evaluation_are_whole_files(
         kept = is_whole(client, "/share/answers.html?picture=images/000.png", "000.html")
         assert "the tile is good" in kept
         assert "colour: red" in kept
-        kept = is_whole(client, "/share/evaluation.html", "project-evaluation.html")
-        assert "majority" in kept
-        assert 'href="/share/evaluation.html"' in client.get("/evaluate").text
+        assert 'href="/evaluate">Evaluate</a>' in client.get("/share").text
 
 
 def is_whole(client: TestClient, address: str, name: str) -> str:
@@ -44,4 +42,3 @@ def is_whole(client: TestClient, address: str, name: str) -> str:
 def test_without_a_model_there_is_nothing_to_share(tmp_path: Path) -> None:
     with studio_of(tmp_path / "new") as client:
         assert "There is no domain yet" in client.get("/share").text
-        assert client.get("/share/evaluation.html").status_code == 422

@@ -49,6 +49,15 @@ def simulate(
     ] = None,
     learned: Learned = None,
     without: Without = None,
+    at_first: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--at-first",
+            metavar="LITERAL",
+            help="What is so in the world at first, whatever else is random, such as "
+            '"closed(library)"; may be given several times.',
+        ),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Simulate a robot that plans, acts, is surprised, and plans anew.
@@ -59,6 +68,7 @@ def simulate(
     from seewhy.planning.dialogue.run_answers import RunAnswers
     from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.execution.run_narration import narrate_end, narrate_step
+    from seewhy.planning.execution.simulation import ground_fluents
     from seewhy.planning.execution.simulation import simulate as run_simulation
     from seewhy.planning.goal import read_goal
 
@@ -67,11 +77,18 @@ def simulate(
     robot_domain = with_knowledge_of_robot(world, learned=learned, without=without)
     aim = read_goal(goal, robot_domain.knowledge)
     sight = None if model is None else _sight(robot_domain, model)
+    start = ground_fluents(at_first or (), world.knowledge)
     last: Simulation | None = None
     interrupted = False
     try:
         for last in run_simulation(
-            robot_domain, aim, seed=seed, most_steps=steps, world=world, sight=sight
+            robot_domain,
+            aim,
+            seed=seed,
+            most_steps=steps,
+            world=world,
+            sight=sight,
+            at_first=start,
         ):
             step = last.run.steps[-1]
             if not json:
@@ -93,6 +110,7 @@ def simulate(
         show_answers(asked)
     command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
     command += "" if model is None else f" --model {model}"
+    command += "".join(f' --at-first "{literal}"' for literal in at_first or ())
     command += robot_options(learned=learned, without=without)
     _write(robot_domain, last, out=out, record=record, command=command)
     if chat:

@@ -27,26 +27,8 @@ def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) ->
 
     Where planning.toml has a ``[map]``, every step shows who is believed to be where, and who is.
     """
-    words, run = domain.words, simulation.run
-    drawn = _Map(domain, simulation) if domain.map is not None else None
-    steps: list[dict[str, Any]] = []
-    for number, (step, world) in enumerate(zip(run.steps, simulation.worlds, strict=True)):
-        happened = simulation.happenings[number - 1] if number else None
-        unseen = [] if happened is None else list(map(words.did, happened.events))
-        if happened is not None and happened.failed and happened.action is not None:
-            unseen.insert(0, f"the attempt to {words.do(happened.action)} failed")
-        steps.append(
-            {
-                "number": step.number,
-                "decision": step.decision.value,
-                "said": narrate_step(words, step),
-                "plan": list(map(words.do, step.plan)),
-                "unseen": unseen,
-                "wrong": [words.say(literal) for literal in _wrong(step.believed, world)],
-                "map": drawn.svg(number) if drawn else "",
-                "picture": _picture(words, simulation, number),
-            }
-        )
+    run, shown = simulation.run, StepsShown(domain)
+    steps = [shown.step(simulation, number) for number in range(len(run.steps))]
     return rendered(
         "run.html",
         title=domain.title,
@@ -54,10 +36,46 @@ def run_page(domain: PlanningDomain, simulation: Simulation, *, command: str) ->
         steps=steps,
         ended=narrate_end(run),
         achieved=simulation.achieved,
-        has_map=drawn is not None,
+        has_map=domain.map is not None,
         version=__version__,
         command=command,
     )
+
+
+class StepsShown:
+    """The steps of runs in a domain, each as a page shows it.
+
+    Parameters
+    ----------
+    domain : PlanningDomain
+    """
+
+    def __init__(self, domain: PlanningDomain) -> None:
+        self._words = domain.words
+        self._map = _Map(domain) if domain.map is not None else None
+
+    def step(self, simulation: Simulation, number: int) -> dict[str, Any]:
+        """A step as values that JSON can hold.
+
+        ``said``, ``plan``, what of the world was ``unseen``, which beliefs are ``wrong``, and the
+        ``map`` in SVG, empty where the domain draws none.
+        """
+        words, step = self._words, simulation.run.steps[number]
+        happened = simulation.happenings[number - 1] if number else None
+        unseen = [] if happened is None else list(map(words.did, happened.events))
+        if happened is not None and happened.failed and happened.action is not None:
+            unseen.insert(0, f"the attempt to {words.do(happened.action)} failed")
+        wrong = _wrong(step.believed, simulation.worlds[number])
+        return {
+            "number": step.number,
+            "decision": step.decision.value,
+            "said": narrate_step(words, step),
+            "plan": list(map(words.do, step.plan)),
+            "unseen": unseen,
+            "wrong": [words.say(literal) for literal in wrong],
+            "map": self._map.svg(simulation, number) if self._map else "",
+            "picture": _picture(words, simulation, number),
+        }
 
 
 def _picture(words: PlanningWords, simulation: Simulation, number: int) -> dict[str, Any] | None:
@@ -95,10 +113,10 @@ def _rest(denied: clingo.Symbol, believed: State) -> bool:
 class _Map:
     """The places of a domain, laid out once, with who is where at each step."""
 
-    def __init__(self, domain: PlanningDomain, simulation: Simulation) -> None:
+    def __init__(self, domain: PlanningDomain) -> None:
         table = domain.map
         assert table is not None
-        self.domain, self.simulation, self.table = domain, simulation, table
+        self.domain, self.table = domain, table
         self.places = list(domain.knowledge.signature.members(table.places))
         statics = domain.statics(table.links)
         self.links = sorted(
@@ -106,9 +124,9 @@ class _Map:
         )
         self.at = layout(self.places, self.links)  # type: ignore[arg-type]
 
-    def svg(self, number: int) -> str:
+    def svg(self, simulation: Simulation, number: int) -> str:
         """The map at a step, with the robot's way up to there."""
-        step, world = self.simulation.run.steps[number], self.simulation.worlds[number]
+        step, world = simulation.run.steps[number], simulation.worlds[number]
         robot, where = self.domain.robot, self.table.where
         occupants: dict[str, list[Occupant]] = {}
         for literal in sorted({*step.believed.positive(where), *_of(where, world)}):
@@ -123,7 +141,7 @@ class _Map:
             )
         path = [
             str(literal.arguments[1])
-            for past in self.simulation.worlds[: number + 1]
+            for past in simulation.worlds[: number + 1]
             for literal in _of(where, past)
             if str(literal.arguments[0]) == robot
         ]

@@ -10,8 +10,8 @@ from seewhy.agent.learning_from_pictures import AnnotatedScenes
 from seewhy.agent.working_knowledge import working_knowledge
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError, RevisionError, SeeWhyError
-from seewhy.induction.candidate import Candidate
 from seewhy.induction.axiom_learning import LearningOptions
+from seewhy.induction.candidate import Candidate
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.scene import FeatureVector

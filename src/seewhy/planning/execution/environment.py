@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,8 +10,9 @@ import clingo
 import numpy as np
 from numpy.typing import NDArray
 
+from seewhy.errors import PlanningError
 from seewhy.knowledge.axiom import Literal
-from seewhy.knowledge.ground import literal_of
+from seewhy.knowledge.ground import complement_of, literal_of
 from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.sensing import Sensors
@@ -94,12 +95,22 @@ class PlanningEnvironment:
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.int8], dict[str, Any]]:
-        """Begin an episode in a random world; ``options={"state": World}`` sets it."""
+        """Begin an episode in a random world; ``options={"state": World}`` sets it.
+
+        ``options={"holds": literals}`` changes the random world no more than that these hold.
+
+        Raises
+        ------
+        PlanningError
+            If one of these cannot hold together with the ones before it.
+        """
         if seed is not None:
             self.random = np.random.default_rng(seed)
         self.done = 0
         given = (options or {}).get("state")
         self.state = self._random_state() if given is None else frozenset(given)
+        if options and options.get("holds"):
+            self.state = self._changed(self.state, options["holds"])
         observation, misread = self._sense()
         return observation, {"happening": Happening(None, False, (), misread)}
 
@@ -193,6 +204,19 @@ class PlanningEnvironment:
                 changed = self.transitions.after(state, [event])
                 state = state if changed is None else changed
         return state
+
+    def _changed(self, state: World, holds: Sequence[clingo.Symbol]) -> World:
+        changed = self.transitions.complete([*holds, *sorted(state)])
+        for literal in holds:
+            is_so = (
+                literal in changed if literal.positive else complement_of(literal) not in changed
+            )
+            if not is_so:
+                raise PlanningError(
+                    f"it cannot be that {self.domain.words.say(literal)} at first; suppose "
+                    "something else, or change knowledge.al"
+                )
+        return changed
 
     def _events_in(self, state: World) -> list[clingo.Symbol]:
         kept, self.state = self.state, state

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -10,6 +10,9 @@ import clingo
 import numpy as np
 
 from seewhy.knowledge.axiom import Literal
+from seewhy.knowledge.ground import key_of
+from seewhy.knowledge.ground_literal import read_ground_literal
+from seewhy.knowledge.language import Knowledge
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.environment import Happening, PlanningEnvironment
 from seewhy.planning.execution.execution import Run, execute
@@ -64,6 +67,18 @@ def execution_seconds(domain: PlanningDomain, run: Run) -> float:
     return float(sum(durations.get(action.name, 1.0) for action in run.actions))
 
 
+def ground_fluents(texts: Iterable[str], knowledge: Knowledge) -> list[clingo.Symbol]:
+    """Read literals about fluents, such as ``-closed(library)``, that hold at first.
+
+    Raises
+    ------
+    KnowledgeError
+        If one is no such literal, or names something that there is not; the nearest is offered.
+    """
+    read = (read_ground_literal(text, knowledge.signature, of="fluent") for text in texts)
+    return [clingo.parse_term(key_of(literal)) for literal in read]
+
+
 def simulate(
     domain: PlanningDomain,
     goal: Goal,
@@ -72,12 +87,14 @@ def simulate(
     most_steps: int = 60,
     world: PlanningDomain | None = None,
     sight: Sight | None = None,
+    at_first: Sequence[clingo.Symbol] = (),
 ) -> Iterator[Simulation]:
     """Let the robot pursue a goal in a random world; yields the simulation after each step.
 
     The world follows the knowledge of ``world``; the robot's own, where that is not given. So a
     robot may know less than is so, or have learned it. With ``sight``, it takes a picture at
-    every step, and sees what the networks read. The world's own course is the same with the same
+    every step, and sees what the networks read. Literals about fluents in ``at_first`` hold in the
+    world at first, whatever else is random. The world's own course is the same with the same
     seed, as long as the robot does the same.
 
     Examples
@@ -89,10 +106,14 @@ def simulate(
     >>> *_, last = simulate(office, goal, seed=1)
     >>> last.run.outcome.value, [str(action) for action in last.run.actions]
     ('achieved', ['move(rob1,kitchen)'])
+    >>> closed = [clingo.parse_term("closed(kitchen)")]
+    >>> first, *_ = simulate(office, goal, seed=1, at_first=closed)
+    >>> closed[0] in first.worlds[0]
+    True
     """
     truth = domain if world is None else world
     environment = PlanningEnvironment(truth, goal=goal, steps=most_steps + 1, sight=sight)
-    observation, _ = environment.reset(seed=seed)
+    observation, _ = environment.reset(seed=seed, options={"holds": at_first})
     worlds, happenings = [environment.state], list[Happening]()
     looks = [environment.look] if environment.look is not None else []
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 from urllib.parse import urlencode
 
 from fastapi import APIRouter, File, Form, Query, Request, Response, UploadFile
 from fastapi.responses import RedirectResponse
 
 from seewhy.dialogue.asked import Asks, Question
-from seewhy.errors import QuestionError, SeeWhyError
+from seewhy.errors import PictureError, QuestionError, SeeWhyError
 from seewhy.studio.incoming import sent_picture
 from seewhy.studio.pages import ask_doubt, ask_where
 from seewhy.studio.pages.asking import asked_again, chosen, shown_answer, understood
@@ -62,7 +62,7 @@ def show(
         find=find,
         at=at,
         last=max(0, len(names) - 1) // _STRIP,
-        **_bench(studio, request),
+        **_bench_or_problem(studio, request),
     )
 
 
@@ -151,7 +151,16 @@ def take_back(request: Request, picture: NameField, number: Annotated[int, Form(
     return render(request, "_ask_bench.html", **{**_bench(studio, request), "done": done})
 
 
-def _bench(studio: Studio, request: Request) -> dict[str, object]:
+def _bench_or_problem(studio: Studio, request: Request) -> dict[str, Any]:
+    """The bench; of a picture that cannot be read, why, so that another can be chosen."""
+    try:
+        return {**_bench(studio, request), "problem": ""}
+    except PictureError as problem:
+        talk = studio.talks.of(request.state.session)
+        return {"problem": str(problem), "picture": talk.picture}
+
+
+def _bench(studio: Studio, request: Request) -> dict[str, Any]:
     """The picture with its features as switches, and what was asked of it."""
     talk = studio.talks.of(request.state.session)
     with studio.model.at_work() as agent:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Form, Query, Request, Response
 
@@ -144,7 +144,7 @@ def _shown(
 ) -> Response:
     found = doubting.misread(studio.model, talk, about)
     with studio.model.at_work() as agent:
-        shown = {
+        shown: dict[str, Any] = {
             "picture": talk.picture,
             "remedies": remedies_of(studio, found),
             "wanted": talk.wanted or "",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from seewhy.dialogue.asked import Question
 from seewhy.errors import QuestionError, SeeWhyError
@@ -63,7 +63,7 @@ def asked_again(studio: Studio, talk: Talk) -> None:
     talk.remember(reply)
 
 
-def shown_answer(studio: Studio, talk: Talk) -> dict[str, object]:
+def shown_answer(studio: Studio, talk: Talk) -> dict[str, Any]:
     """What the template of an answer shows."""
     with studio.model.at_work() as agent:
         return {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Annotated
+from typing import Annotated, Any
 from urllib.parse import urlencode
 
 from fastapi import APIRouter, Form, Query, Request, Response
@@ -72,7 +72,7 @@ def save(
             "page again and put it in"
         )
     if problem:
-        shown = {**read, "text": text, "base": base, "done": "", "problem": problem}
+        shown: dict[str, Any] = {**read, "text": text, "base": base, "done": "", "problem": problem}
         return render(request, "rules.html", status=422, **shown)
     edits = edits_between(KNOWLEDGE, before, text)
     done = "nothing was changed"
@@ -92,7 +92,7 @@ def _knowledge(project: Project) -> str:
     return read_text(project.domain_folder / KNOWLEDGE) or ""
 
 
-def _read(project: Project, text: str) -> dict[str, object]:
+def _read(project: Project, text: str) -> dict[str, Any]:
     """What a text says and how that stands, or what is wrong with it and where."""
     assert project.domain_folder is not None
     try:

@@ -9,7 +9,9 @@ from fastapi import APIRouter, Query, Request, Response
 
 from seewhy.errors import SeeWhyError
 from seewhy.report.answers_page import answers_page
+from seewhy.studio.jobs import FINISHED, jobs_of
 from seewhy.studio.pages.asking import chosen
+from seewhy.studio.pages.evaluate import TASK as EVALUATION
 from seewhy.studio.pages.page import Page
 from seewhy.studio.rendering import render
 from seewhy.studio.state import studio_of
@@ -25,7 +27,10 @@ def show(request: Request) -> Response:
     """What there is to share."""
     studio = studio_of(request)
     talk = studio.talks.of(request.state.session)
-    return render(request, "share.html", missing=studio.model.missing, talk=talk)
+    evaluated = any(job.state == FINISHED for job in jobs_of(studio.project).of(EVALUATION))
+    return render(
+        request, "share.html", missing=studio.model.missing, talk=talk, evaluated=evaluated
+    )
 
 
 @router.get("/share/answers.html")
@@ -41,21 +46,6 @@ def answers(request: Request, picture: Annotated[str, Query(max_length=2000)]) -
         file = studio.project.picture_file(name)
         text = answers_page(agent.domain, file, talk.replies, where=where)
     return _file(text, f"{file.stem}.html")
-
-
-@router.get("/share/evaluation.html")
-def evaluation(request: Request) -> Response:
-    """How good the model is on the labelled pictures; it looks at all of them anew."""
-    from seewhy.evaluation import evaluate
-    from seewhy.report.evaluation_page import evaluation_page
-
-    studio = studio_of(request)
-    with studio.model.at_work() as agent:
-        found = evaluate(agent, studio.project.dataset())
-        text = evaluation_page(
-            agent.domain, found, command=f"seewhy evaluate {studio.project.name}/model"
-        )
-    return _file(text, f"{studio.project.name}-evaluation.html")
 
 
 def _file(text: str, name: str) -> Response:
