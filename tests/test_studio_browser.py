@@ -140,6 +140,26 @@ def test_a_letter_leads_to_a_feature_and_enter_confirms(
     assert project.labels().of["c.png"]["colour"].how == "confirmed"
 
 
+def test_a_key_that_comes_while_news_are_exchanged_is_not_lost(
+    page: Page, address: str, project: Project
+) -> None:
+    page.goto(f"{address}/label?picture=c.png")
+    page.evaluate("""() => {
+      window.stayed = true;
+      document.addEventListener("htmx:afterSwap", (event) => {
+        if (document.body.dataset.pressed || !event.detail.pathInfo.requestPath.startsWith("/label/news")) return;
+        document.body.dataset.pressed = "yes";
+        document.body.dispatchEvent(new KeyboardEvent("keydown", {key: "2", bubbles: true}));
+      });
+    }""")
+    for name, colour in (("a.png", "red"), ("b.png", "green")):
+        project.label({name: {"colour": colour, "round": "yes", "class": "good"}}, who="Ada")
+    page.wait_for_selector("body[data-pressed]")
+    until(project, {"c.png": {"colour": "red"}})
+    page.wait_for_selector("button[value='colour=red'].chosen")
+    assert page.evaluate("window.stayed")  # the page was not left for it
+
+
 def test_a_contact_sheet_by_keyboard(page: Page, address: str, project: Project) -> None:
     page.goto(f"{address}/label/sheet?feature=colour&value=red")
     for key in ("ArrowRight", "Space", "ArrowRight", "Space", "Enter"):

@@ -232,6 +232,22 @@ def test_the_most_probable_come_first_on_the_sheet(browser: Browser) -> None:
     assert set(names[2:]) == {"c.png", "e.png"}
 
 
+def test_the_page_says_when_to_go_on_to_train(browser: Browser, project: Project) -> None:
+    assert "Proposals come as soon as pictures of two classes" in browser.get("/label")
+    for name, colour, label in (
+        ("a.png", "red", "good"),
+        ("b.png", "green", "spoilt"),
+        ("c.png", "red", "good"),
+        ("d.png", "green", "spoilt"),
+    ):
+        project.label({name: {"colour": colour, "round": "yes", "class": label}}, who="Ada")
+    assert browser.proposer.settle(120)
+    text = browser.get("/label")
+    assert re.search(r"recognise the class of \d+ % of the labelled pictures", text)
+    assert '<a href="/train">' in text
+    assert "Proposals come as soon as" not in text
+
+
 def test_progress_says_what_would_help(browser: Browser) -> None:
     for choice in ("colour=red", "round=yes", "class=good"):
         browser.post("/label/set", picture="a.png", choice=choice)

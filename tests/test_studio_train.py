@@ -14,7 +14,7 @@ from fastapi.testclient import TestClient
 from seewhy.errors import SeeWhyError
 from seewhy.studio import jobs as jobs_module
 from seewhy.studio.jobs import FAILED, FINISHED, INTERRUPTED, JOB, Job, Jobs, jobs_of
-from seewhy.studio.keeping_back import keep_back, kept, place
+from seewhy.studio.keeping_back import keep_back, kept, place, suggested_pattern
 from seewhy.studio.processes import began
 from seewhy.studio.project import Project
 from seewhy.studio.site import site
@@ -134,6 +134,61 @@ def test_another_process_of_its_number_is_not_the_job(project: Project) -> None:
     project.record.add(JOB, body, who="Ada")
     assert began(os.getpid())
     assert jobs_of(project).of("train")[0].state == INTERRUPTED
+
+
+def show_people(project: Project, people: range) -> None:
+    """Put four pictures of each person into a project, PERSON_NUMBER.png, and label them."""
+    content = (project.folder / "a.png").read_bytes()
+    for person in people:
+        for number in range(4):
+            (project.folder / f"{person}_{number}.png").write_bytes(content)
+    project.refresh()
+    label_all(project)
+
+
+def splits_of_people(project: Project) -> dict[str, set[str]]:
+    found: dict[str, set[str]] = {}
+    for name, row in project.labels().rows.items():
+        found.setdefault(row["group"], set()).add(row["split"])
+    return found
+
+
+def test_pictures_that_belong_together_are_kept_together(client: TestClient) -> None:
+    project = client.app.state.studio.project  # type: ignore[attr-defined]
+    show_people(project, range(8))
+    for name in "abcdefgh":
+        (project.folder / f"{name}.png").rename(project.folder / f"8_{name}.png")
+    project.refresh()
+    assert suggested_pattern(project) == "^(.+)[_-]"
+    said = {"csrf": csrf_of(client), "together": "^(.+)[_-]"}
+    assert client.post("/train/keep-back", data=said).status_code == 200
+    before = splits_of_people(project)
+    assert set(before) >= {str(person) for person in range(8)}
+    assert all(len(splits) == 1 for splits in before.values())
+    assert {split for splits in before.values() for split in splits} == {"train", "test"}
+    # Who came later is kept together, too, without being asked for again.
+    (project.folder / "8_a.png").rename(project.folder / "a.png")
+    show_people(project, range(10, 14))
+    place(project, who="Ada")
+    after = splits_of_people(project)
+    assert set(after) >= {"10", "11", "12", "13"}
+    assert all(len(splits) == 1 for splits in after.values())
+
+
+@pytest.mark.parametrize(
+    ("pattern", "said"),
+    [("(", "is no regular expression"), ("^(x+)#", "is found in no picture&#39;s name")],
+)
+def test_an_expression_that_cannot_be_meant_keeps_nothing(
+    client: TestClient, project: Project, pattern: str, said: str
+) -> None:
+    label_all(project)
+    answered = client.post(
+        "/train/keep-back", data={"csrf": csrf_of(client), "together": pattern}
+    )
+    assert answered.status_code == 422
+    assert said in answered.text
+    assert kept(project.labels()) == {"train": 8}
 
 
 def test_a_quarter_of_each_class_is_kept_and_what_comes_later_too(project: Project) -> None:

@@ -3,25 +3,36 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from hashlib import sha256
 
+from seewhy.data.importers.groups import SUGGESTED, group_of, grouping, suggested_groups
 from seewhy.domain.tables import CLASS
+from seewhy.errors import DatasetError
 from seewhy.studio.labels import ROWS, Labels
 from seewhy.studio.project import Project
 
-__all__ = ["Kept", "keep_back", "kept", "place", "splits"]
+__all__ = ["Kept", "keep_back", "kept", "place", "splits", "suggested_pattern"]
 
 _SHARE = 4
 """One of so many is kept."""
+
+_PATTERN = "together"
+"""In the record's entry: the expression by which pictures belong together."""
 
 TRAIN, TEST = "train", "test"
 Kept = Counter[str]
 """How many labelled pictures are trained on (``train``) and evaluated on (``test``)."""
 
 
-def splits(labels: Labels) -> dict[str, str]:
+def splits(labels: Labels, groups: Mapping[str, str] | None = None) -> dict[str, str]:
     """Picture → split, for labelled pictures that have none yet; groups stay together.
+
+    Parameters
+    ----------
+    labels : Labels
+    groups : mapping of str to str or None
+        Picture → its group, beside those that the labels have.
 
     What is kept is spread over the classes: of each every fourth, in an order that follows from
     the pictures' names alone.
@@ -33,14 +44,14 @@ def splits(labels: Labels) -> dict[str, str]:
     >>> sorted(splits(Labels(said)).values())
     ['test', 'test', 'train', 'train', 'train', 'train', 'train', 'train']
     """
-    groups: dict[str, list[str]] = {}
+    together: dict[str, list[str]] = {}
     for picture in labels.of:
-        group = labels.rows.get(picture, {}).get("group") or f"/{picture}"
-        groups.setdefault(group, []).append(picture)
+        group = labels.rows.get(picture, {}).get("group") or (groups or {}).get(picture)
+        together.setdefault(group or f"/{picture}", []).append(picture)
     shown: Counter[tuple[str | None, str]] = Counter()
     found: dict[str, str] = {}
-    for group in sorted(groups, key=lambda name: sha256(name.encode()).digest()):
-        pictures = groups[group]
+    for group in sorted(together, key=lambda name: sha256(name.encode()).digest()):
+        pictures = together[group]
         given = {split for name in pictures if (split := _split(labels.rows, name))}
         label = labels.value(pictures[0], CLASS)
         if given:
@@ -62,15 +73,40 @@ def kept(labels: Labels) -> Kept:
     return Counter(_split(labels.rows, picture) or TRAIN for picture in labels.of)
 
 
-def keep_back(project: Project, *, who: str) -> None:
-    """Keep a quarter of the labelled pictures for evaluation."""
+def keep_back(project: Project, *, who: str, pattern: str | None = None) -> None:
+    """Keep a quarter of the labelled pictures for evaluation.
+
+    Parameters
+    ----------
+    project : Project
+    who : str
+    pattern : str or None
+        An expression for the part of their names that pictures share which belong together; empty
+        where none do, None for what was said the last time.
+
+    Raises
+    ------
+    DatasetError
+        If it is no regular expression, or in no picture's name.
+    """
     labels = project.labels()
-    found = splits(labels)
-    if found:
-        rows = {
-            name: {**labels.rows.get(name, {}), "split": split} for name, split in found.items()
-        }
-        project.note(ROWS, {"rows": rows}, who=who)
+    pattern = _pattern_said(project) if pattern is None else pattern.strip()
+    groups = _groups(labels.of, pattern)
+    found = splits(labels, groups)
+    if not found:
+        return
+    rows: dict[str, dict[str, str]] = {}
+    for name, split in found.items():
+        group = {"group": groups[name]} if groups.get(name) else {}
+        rows[name] = {**group, **labels.rows.get(name, {}), "split": split}
+    project.note(ROWS, {"rows": rows, _PATTERN: pattern}, who=who)
+
+
+def suggested_pattern(project: Project) -> str:
+    """The expression that the names of the labelled pictures suggest; empty where they do not."""
+    labels = project.labels()
+    named = ((name, labels.value(name, CLASS) or "") for name in labels.of)
+    return SUGGESTED if suggested_groups(named) else ""
 
 
 def place(project: Project, *, who: str) -> None:
@@ -81,6 +117,26 @@ def place(project: Project, *, who: str) -> None:
     labels = project.labels()
     if any(_split(labels.rows, picture) for picture in labels.of):
         keep_back(project, who=who)
+
+
+def _pattern_said(project: Project) -> str:
+    entries = reversed(project.record.holding(ROWS))
+    said: Iterable[str] = (entry.body[_PATTERN] for entry in entries if _PATTERN in entry.body)
+    return next(iter(said), "")
+
+
+def _groups(pictures: Iterable[str], pattern: str) -> dict[str, str]:
+    """Picture → its group, by a pattern that has to be found in some name."""
+    expression = grouping(pattern or None, option="")
+    if expression is None:
+        return {}
+    found = {picture: group_of(picture, expression) for picture in pictures}
+    if found and not any(found.values()):
+        raise DatasetError(
+            f"'{pattern}' is found in no picture's name, the first is '{min(found)}'; correct the "
+            "expression, or leave it empty"
+        )
+    return found
 
 
 def _split(rows: Mapping[str, Mapping[str, str]], picture: str) -> str:

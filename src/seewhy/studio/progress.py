@@ -59,6 +59,19 @@ class Progress:
     questions: tuple[QuestionProgress, ...]
     advice: tuple[str, ...]
 
+    @property
+    def differs(self) -> bool:
+        """Whether pictures of two classes are labelled, so that there is something to learn."""
+        classes = next(question for question in self.questions if question.name == CLASS)
+        return sum(value.labelled > 0 for value in classes.values) > 1
+
+    @property
+    def recognised(self) -> Share | None:
+        """How often the heads recognise the class of labelled pictures that were kept out."""
+        return next(
+            (question.recognised for question in self.questions if question.name == CLASS), None
+        )
+
 
 def progress_of(project: Project, proposals: Proposals) -> Progress:
     """Count what is labelled."""

@@ -56,8 +56,11 @@
     document.addEventListener(kind, () => setTimeout(() => { held = false; }));
   }
   document.addEventListener("htmx:beforeSwap", (event) => {
+    if (matters(event) || !event.detail.shouldSwap) return;
     const choosing = document.activeElement?.matches("select, input:not([type=hidden])");
-    if (!matters(event) && (busy || held || choosing)) event.detail.shouldSwap = false;
+    if (busy || held || choosing) event.detail.shouldSwap = false;
+    // Until news have settled their forms are not htmx's yet: a key waits, or the page would be left.
+    else busy = true;
   });
 
   function release() {
@@ -65,10 +68,8 @@
     while (waiting.length && !busy) press(waiting.shift());
   }
 
-  // Only when an answer has settled do its buttons and links ask in their turn.
-  document.addEventListener("htmx:afterSettle", (event) => {
-    if (matters(event)) release();
-  });
+  // Only when an answer, or news, have settled do its buttons and links ask in their turn.
+  document.addEventListener("htmx:afterSettle", release);
   document.addEventListener("htmx:afterRequest", (event) => {
     if (matters(event) && (event.detail.failed || event.detail.xhr.status === 204)) release();
   });

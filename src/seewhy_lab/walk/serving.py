@@ -1,0 +1,45 @@
+"""The studio as anybody starts it: a process of its own at a free port."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+__all__ = ["running_studio"]
+
+_LONGEST = 120.0
+"""Seconds until it says where it is."""
+
+
+@contextmanager
+def running_studio(folder: Path, log: Path) -> Iterator[str]:
+    """Yield the address of a studio on a folder; what it says goes to the file ``log``.
+
+    Raises
+    ------
+    SystemExit
+        If it does not begin.
+    """
+    command = [sys.executable, "-m", "seewhy", "studio", str(folder), "--no-browser", "--port", "0"]
+    with log.open("w", encoding="utf-8") as written:
+        process = subprocess.Popen(command, stdout=written, stderr=subprocess.STDOUT)
+    try:
+        yield _address(process, log)
+    finally:
+        process.terminate()
+        process.wait(timeout=60)
+
+
+def _address(process: subprocess.Popen[bytes], log: Path) -> str:
+    ends = time.monotonic() + _LONGEST
+    while time.monotonic() < ends and process.poll() is None:
+        found = re.search(r"http://\S+", log.read_text(encoding="utf-8"))
+        if found is not None:
+            return found[0].rstrip("/")
+        time.sleep(0.1)
+    raise SystemExit(f"the studio did not begin: {log.read_text(encoding='utf-8').strip()}")
