@@ -187,6 +187,12 @@ WRONG: dict[str, tuple[str, str, str]] = {
         'converse = "toching"',
         "domain.toml:35: converse = 'toching' is no relation; did you mean 'touching'?",
     ),
+    "converse one way": (
+        'converse = "touching"',
+        'converse = "above"',
+        "domain.toml:35: 'above' is the converse of 'touching', but has no converse; write "
+        "converse = 'touching' in [things.relations.above]",
+    ),
     "word of two relations": (
         '"over"',
         '"next to"',

@@ -13,7 +13,7 @@ import pytest
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge import nearest_instances
 from seewhy.knowledge.change import ChangeFinder
-from seewhy.knowledge.grounding_size import grounding_size
+from seewhy.knowledge.grounding_size import grounding_size, large_grounding
 from seewhy.knowledge.language import Knowledge, read_knowledge, read_literal
 from seewhy.knowledge.reasoner import Reasoner, Verdict
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
@@ -468,3 +468,16 @@ def test_a_sort_called_things_is_one_like_others() -> None:
 def test_things_are_counted_in_what_grows() -> None:
     known = read_knowledge("#sort a = things. #static p(a, a, a). p(X, Y, Z) if a(X), a(Y), a(Z).")
     assert grounding_size(known.with_things(10)).instances == 1000
+
+
+def test_relations_that_things_show_are_counted_in_what_grows() -> None:
+    known = read_knowledge(
+        "#sort a = things.\n#static near(a, a). #static far(a, a).\n#static red(a).\n"
+        "far(X, Y) if near(X, Y).",
+        file="k.al",
+    )
+    assert grounding_size(known.with_things(10)).instances == 100 + 10 + 100
+    seen = read_knowledge("#sort a = things.\n#static near(a, a).", file="k.al").with_things(100)
+    assert large_grounding(seen) == (
+        "k.al:2:1: 'near(a, a)' has up to 10,000 instances; every question waits for them"
+    )

@@ -244,6 +244,12 @@ def _relation(
             f"{place.at(*here, 'converse')}: converse = '{table.converse}' is no relation; "
             f"{did_you_mean(table.converse, things.relations)}"
         )
+    if table.converse is not None and (back := things.relations[table.converse].converse) != key:
+        has = "no converse" if back is None else f"converse = '{back}'"
+        raise DomainError(
+            f"{place.at(*here, 'converse')}: '{table.converse}' is the converse of '{key}', but has "
+            f"{has}; write converse = '{key}' in [things.relations.{table.converse}]"
+        )
     return Relation(key=key, **table.model_dump())
 
 

@@ -37,7 +37,7 @@ class GroundingSize:
     Attributes
     ----------
     instances : int
-        The instances of all axioms, fluents and actions.
+        The instances of all axioms, fluents and actions, and of what is seen of things.
     largest : str
         What has most of them, with its place, as errors begin.
     """
@@ -51,8 +51,9 @@ class GroundingSize:
 
 
 def grounding_size(knowledge: Knowledge) -> GroundingSize:
-    """Return how many instances the axioms, fluents and actions may have.
+    """Return how many instances the axioms, fluents and actions may have, and what things show.
 
+    What no axiom concludes about things is seen of them: of a relation, every pair is grounded.
     Every variable counts with all members of its smallest sort, whatever else is asked of it:
     there are never more instances, and there may be far fewer.
 
@@ -68,20 +69,27 @@ def grounding_size(knowledge: Knowledge) -> GroundingSize:
     "knowledge.al:2:1: 'lt(A, B) if n(A), n(B), A < B.' has up to 160,000 instances"
     """
     signature = knowledge.signature
-    changing = [
+    concluded = {axiom.head.predicate for axiom in knowledge.axioms}
+    given = [
         predicate
         for predicate in signature.predicates.values()
-        if predicate.kind.is_fluent or predicate.kind.is_action
+        if predicate.kind.is_fluent
+        or predicate.kind.is_action
+        or (predicate.name not in concluded and _is_about_things(predicate, signature))
     ]
     return _size(
         [
             *(
                 (_instances(predicate, signature), predicate.location, predicate)
-                for predicate in changing
+                for predicate in given
             ),
             *_axioms(knowledge.axioms, signature),
         ]
     )
+
+
+def _is_about_things(predicate: Predicate, signature: Signature) -> bool:
+    return any(signature.sorts[sort].of_things for sort in predicate.sorts)
 
 
 def large_grounding(knowledge: Knowledge) -> str | None:
