@@ -149,7 +149,7 @@ def show_people(project: Project, people: range) -> None:
 def splits_of_people(project: Project) -> dict[str, set[str]]:
     found: dict[str, set[str]] = {}
     for name, row in project.labels().rows.items():
-        found.setdefault(row["group"], set()).add(row["split"])
+        found.setdefault(row.get("group", name), set()).add(row["split"])
     return found
 
 

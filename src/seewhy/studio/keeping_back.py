@@ -105,6 +105,8 @@ def keep_back(project: Project, *, who: str, pattern: str | None = None) -> None
 def suggested_pattern(project: Project) -> str:
     """The expression that the names of the labelled pictures suggest; empty where they do not."""
     labels = project.labels()
+    if any(row.get("group") for row in labels.rows.values()):
+        return ""
     named = ((name, labels.value(name, CLASS) or "") for name in labels.of)
     return SUGGESTED if suggested_groups(named) else ""
 

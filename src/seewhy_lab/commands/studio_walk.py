@@ -1,13 +1,14 @@
 """Walk through the studio with a browser: from a folder of pictures to an answer that is doubted.
 
     python -m seewhy_lab studio_walk --pictures hands/pool --features fingers.csv --test hands/test
-        --stops 100 150 200 --out runs/walk
+        --stops 100 150 --out runs/walk
 
 Pictures lie in a folder a class, with a table class → features; or they are a dataset. The studio sees
 them as one flat folder that says nothing of them. A browser begins, labels by keyboard in the order
 in which the studio shows them, trains at every stop, evaluates, asks and doubts. Clicks and keys are
 counted. A person's time is an estimate: 2 seconds a picture of which all that is proposed is right,
-4 one that is changed, 3 a click, 0.3 a character that is typed.
+4 one that is changed, 3 a click, 0.3 a character that is typed. What was walked is kept: the same
+command goes on where it was interrupted, and trains no number of labels twice.
 """
 
 from __future__ import annotations
@@ -17,14 +18,16 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
+from playwright.sync_api import sync_playwright
+
 from seewhy.agent.agent import Agent
 from seewhy.domain.tables import CLASS
-from seewhy_lab.walk.person import Person, Step
+from seewhy_lab.walk.camera import Camera
+from seewhy_lab.walk.diary import read_steps, table, write_steps
+from seewhy_lab.walk.person import Person
 from seewhy_lab.walk.serving import running_studio
 from seewhy_lab.walk.truth import Truth, flat_folder, read_truth
-from seewhy_lab.walk.walking import Asked, Walk
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+from seewhy_lab.walk.walking import Asked, Walk, picture_of_class
 
 
 def options_of(arguments: Sequence[str] | None = None) -> argparse.Namespace:
@@ -39,74 +42,86 @@ def options_of(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--test", type=Path, help="pictures of others, looked at once at the end")
     parser.add_argument("--stops", type=int, nargs="+", default=[100], help="labels, then train")
     parser.add_argument("--subject", default="the picture", help="what a picture shows")
+    parser.add_argument("--asked", help="the class that is asked for; the middle one")
     parser.add_argument("--pace", type=float, default=2.0, help="seconds a picture at least")
-    parser.add_argument("--group", default="", help="which part of a name says what belongs together")
-    parser.add_argument("--out", type=Path, required=True, help="a new folder")
-    parser.add_argument("--screenshots", type=Path, help="where pictures of the pages are put")
+    parser.add_argument("--out", type=Path, required=True, help="the walk; new, or interrupted")
+    parser.add_argument("--screenshots", type=Path, help="where small pictures of the pages go")
     return parser.parse_args(arguments)
 
 
-def accuracy(model: Path, test: Truth) -> tuple[int, int]:
-    """How many pictures a model gives their class, and how many there are."""
-    agent = Agent.load(model)
+def chromium() -> str:
+    """Where the browser is."""
+    found = shutil.which("chromium") or shutil.which("chromium-browser")
+    if found is None:
+        raise SystemExit("there is no Chromium; apt install chromium")
+    return found
+
+
+def accuracy(model: Path, test: Truth) -> str:
+    """How many pictures a model gives their class."""
     names = sorted(test.files)
-    said = agent.classify_all([test.files[name] for name in names])
+    said = Agent.load(model).classify_all([test.files[name] for name in names])
     right = sum(
         one.label == test.values[name][CLASS] for one, name in zip(said, names, strict=True)
     )
-    return right, len(names)
+    return f"{right} of {len(names)} right, {100 * right / len(names):.1f} %"
 
 
-def told(steps: Sequence[Step]) -> list[str]:
-    """The table of the walk."""
-    lines = ["| step | clicks | keys | characters | person, min | the machine's, min |"]
-    lines.append("|---|---|---|---|---|---|")
-    for step in steps:
-        did = step.effort
-        labels = f", {did.confirmed} confirmed, {did.changed} changed" if did.confirmed else ""
-        lines.append(
-            f"| {step.what}{labels} | {did.clicks} | {did.keys} | {did.characters} "
-            f"| {did.seconds / 60:.1f} | {step.machine / 60:.1f} |"
-        )
-    return lines
+def walked(walk: Walk, options: argparse.Namespace, others: Truth) -> tuple[str, Asked]:
+    """Walk all the way; return what the pages Evaluate and Ask said."""
+    diary = options.out / "steps.json"
+    steps = walk.person.steps
+    steps.extend(read_steps(diary))
+    scenes = walk.project / "scenes.csv"
+    if scenes.is_file():
+        walk.labels = len(scenes.read_text(encoding="utf-8").splitlines()) - 1
+        walk.person.page.goto(walk.address)
+    else:
+        walk.begin(options.subject)
+    for stop in options.stops:
+        if walk.model_of(stop).is_dir():
+            continue
+        if walk.labels < stop:
+            walk.label(stop, pace=options.pace)
+            write_steps(diary, steps)
+        walk.train(keep=stop == options.stops[0])
+        write_steps(diary, steps)
+        print(f"trained on {stop} labels", flush=True)
+    evaluated = walk.evaluate()
+    classes = walk.truth.classes
+    label = options.asked or classes[len(classes) // 2]
+    asked = walk.ask(picture_of_class(others, label), label)
+    write_steps(diary, steps)
+    return evaluated, asked
 
 
 def main() -> None:
     """Walk, and print what it took."""
-    from playwright.sync_api import sync_playwright
-
     options = options_of()
     truth = read_truth(options.pictures, table=options.features)
     test = read_truth(options.test, table=options.features) if options.test else None
-    project = flat_folder(truth, options.out / "photos")
-    models: list[tuple[int, Path]] = []
-    asked: Asked | None = None
+    project = options.out / "photos"
+    if not project.is_dir():
+        flat_folder(truth, project)
+    problems: list[str] = []
     with running_studio(project, options.out / "studio.log") as address, sync_playwright() as used:
-        browser = used.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        browser = used.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
         page = browser.new_page(viewport={"width": 1280, "height": 800})
         page.set_default_timeout(120_000)
-        problems: list[str] = []
-        page.on("console", lambda m: problems.append(m.text) if m.type == "error" else None)
-        walk = Walk(Person(page), address, project, truth)
-        walk.begin(options.subject)
-        for stop in options.stops:
-            walk.label(stop, pace=options.pace)
-            models.append((stop, walk.train(keep=stop == options.stops[0])))
-            print(f"labels {stop}: trained", flush=True)
-        evaluated = walk.evaluate()
-        print(f"the page Evaluate: {evaluated}")
-        others = test or truth
-        label = truth.classes[len(truth.classes) // 2]
-        picture = next(f for n, f in sorted(others.files.items()) if others.values[n][CLASS] == label)
-        asked = walk.ask(picture, label)
+        page.on("console", lambda said: problems.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda problem: problems.append(str(problem)))
+        look = Camera(page, options.screenshots) if options.screenshots else lambda name: None
+        walk = Walk(Person(page), address, project, truth, look=look)
+        evaluated, asked = walked(walk, options, test or truth)
         browser.close()
-    print(*told(walk.person.steps), sep="\n")
-    print(asked)
-    print("errors of the browser:", problems)
+    print(*table(walk.person.steps), sep="\n")
+    print(f"the page Evaluate says: {evaluated}")
+    print(f"asked of {asked.picture}: {asked.question}", asked.answer, sep="\n")
+    print(asked.flipped, asked.offered, asked.taken, sep="\n")
+    print("errors of the browser:", *problems or ["none"])
     if test is not None:
-        for stop, model in models:
-            right, count = accuracy(model, test)
-            print(f"{stop} labels: {right} of {count} right, {100 * right / count:.1f} %")
+        for stop in options.stops:
+            print(f"{stop} labels: {accuracy(walk.model_of(stop), test)}")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from seewhy_lab.walk.labelling import label_until
 from seewhy_lab.walk.person import Person
 from seewhy_lab.walk.truth import Truth
 
-__all__ = ["Asked", "Walk"]
+__all__ = ["Asked", "Walk", "picture_of_class"]
 
 _LONGEST_JOB = 3_600_000
 """Milliseconds that a training may take."""
@@ -51,14 +51,26 @@ class Walk:
         Its folder.
     truth : Truth
         What the person knows.
+    look : callable
+        Is told the name of a page when there is something to be seen on it.
     """
 
-    def __init__(self, person: Person, address: str, project: Path, truth: Truth) -> None:
+    def __init__(
+        self,
+        person: Person,
+        address: str,
+        project: Path,
+        truth: Truth,
+        *,
+        look: Callable[[str], object] = lambda name: None,
+    ) -> None:
+        self.look = look
         self.person = person
         self.address = address
         self.project = project
         self.truth = truth
         self.labels = 0
+        """How many pictures are labelled; those of an interrupted walk are there already."""
 
     def begin(self, subject: str) -> None:
         """Name what there is to say; the page Label follows."""
@@ -73,6 +85,7 @@ class Walk:
                 person.write("[name=classes]", ", ".join(truth.classes))
                 lines = (f"{name}: {', '.join(values)}" for name, values in truth.features.items())
                 person.write("[name=features]", "\n".join(lines))
+            self.look("begin")
             person.click("text=Write the domain")
             person.page.wait_for_selector("#workbench")
 
@@ -80,14 +93,19 @@ class Walk:
         """Label in the order that the studio gives."""
         person = self.person
         with person.step(f"Label: {self.labels + 1} to {count}"):
-            if self.labels:
-                person.click("nav[aria-label=Pages] >> text=Label")
+            if person.page.locator("#workbench").count() == 0:
+                self._go("Label")
                 person.page.wait_for_selector("#workbench")
             label_until(person, self.truth, count=count, done=self.labels, pace=pace)
             self.labels = count
+        self.look("label")
 
-    def train(self, *, keep: bool) -> Path:
-        """Train from the page Train, and wait; return where a copy of the model lies.
+    def model_of(self, labels: int) -> Path:
+        """Where the model of so many labels is copied to."""
+        return self.project.with_name(f"model_{labels}")
+
+    def train(self, *, keep: bool) -> None:
+        """Train from the page Train, wait, and copy the model.
 
         Parameters
         ----------
@@ -96,24 +114,29 @@ class Walk:
         """
         person = self.person
         with person.step(f"Train: on {self.labels} labels"):
-            person.click("nav[aria-label=Pages] >> text=Train")
+            self._go("Train")
             if keep:
                 person.click("text=Keep a quarter for evaluation")
+                person.page.wait_for_selector("text=kept for evaluation")
             person.click("main button:text-is('Train')")
+            person.page.wait_for_selector("#now .stage")
+            self.look("train")
             self._wait("#now")
-        copied = self.project.with_name(f"{self.project.name}_model_{self.labels}")
-        shutil.copytree(self.project / "model", copied)
-        return copied
+        shutil.copytree(self.project / "model", self.model_of(self.labels))
 
     def evaluate(self) -> str:
         """Evaluate on what was kept; return what the page's first row says."""
         person = self.person
         with person.step("Evaluate"):
-            person.click("nav[aria-label=Pages] >> text=Evaluate")
+            self._go("Evaluate")
             person.click("main button:has-text('Evaluate')")
             self._wait("#now")
             row = person.page.locator("main table tbody tr").first
-            return " ".join(row.inner_text().split())
+            figures = " ".join(row.inner_text().split())
+        self.look("evaluate")
+        self._go("Rules")
+        self.look("rules")
+        return figures
 
     def ask(self, picture: Path, label: str) -> Asked:
         """Send a picture, ask why, flip a feature, and say that it is wrong."""
@@ -121,7 +144,7 @@ class Walk:
         page = person.page
         question = f"why is it {label}?"
         with person.step("Ask: send a picture, ask why"):
-            person.click("nav[aria-label=Pages] >> text=Ask")
+            self._go("Ask")
             person.click("summary:has-text('Another picture')")
             page.set_input_files("input[name=file]", str(picture))
             person.effort.clicks += 2
@@ -129,8 +152,9 @@ class Walk:
             page.wait_for_selector(f".name:has-text('{picture.stem}')")
             person.write("#question", question)
             person.press("Enter")
-            page.wait_for_selector("#answer .answer .tree")
+            page.wait_for_selector(f"#answer .asked:has-text('{question}')")
             answer = page.locator("#answer .text").inner_text()
+        self.look("ask")
         with person.step("Ask: flip a feature"):
             person.click("#what-if .pill:has(input:not(:checked))")
             page.wait_for_selector("#what-if .switch.changed")
@@ -145,6 +169,9 @@ class Walk:
             taken = page.locator("#bench .note p").first.inner_text()
         return Asked(picture.name, question, answer, flipped, offered, taken)
 
+    def _go(self, title: str) -> None:
+        self.person.click(f"nav[aria-label=Pages] >> text={title}")
+
     def _wait(self, running: str) -> None:
         """Wait until a job has ended that the page shows."""
         page = self.person.page
@@ -156,6 +183,7 @@ class Walk:
             raise SystemExit(problem.first.inner_text())
 
 
-def picture_of_class(truth: Truth, label: str, among: Sequence[str]) -> Path:
-    """The first picture of a class."""
-    return truth.files[next(name for name in among if truth.values[name][CLASS] == label)]
+def picture_of_class(truth: Truth, label: str) -> Path:
+    """The first picture of a class, in the order of the names."""
+    named = (name for name in sorted(truth.files) if truth.values[name][CLASS] == label)
+    return truth.files[next(named)]

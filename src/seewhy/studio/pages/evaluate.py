@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Annotated, Any
 
-from fastapi import APIRouter, HTTPException, Query, Request, Response
+from fastapi import APIRouter, Form, HTTPException, Query, Request, Response
 from fastapi.responses import FileResponse, RedirectResponse
 
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.errors import SeeWhyError
 from seewhy.studio.jobs import FINISHED, Job, jobs_of
-from seewhy.studio.keeping_back import keep_back, kept
+from seewhy.studio.keeping_back import keep_back, kept, suggested_pattern
 from seewhy.studio.labelling import pictures_of
 from seewhy.studio.pages.page import Page
 from seewhy.studio.project import Project
@@ -98,6 +98,7 @@ def show(request: Request, start: Annotated[int, Query(ge=0, le=1_000_000)] = 0)
         done=done,
         found=found,
         start=start,
+        suggested=suggested_pattern(project),
         tiles=TILES,
         counts=kept(project.labels()),
         **shown,
@@ -135,11 +136,11 @@ def stop(request: Request) -> Response:
 
 
 @router.post("/evaluate/keep-back")
-def keep(request: Request) -> Response:
+def keep(request: Request, together: Annotated[str, Form(max_length=200)] = "") -> Response:
     """Keep a quarter of the labelled pictures; the model has to be trained again without them."""
     project = studio_of(request).project
     project.domain()
-    keep_back(project, who=who_of(request))
+    keep_back(project, who=who_of(request), pattern=together)
     return RedirectResponse("/train", 303)
 
 

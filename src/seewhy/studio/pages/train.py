@@ -6,14 +6,15 @@ import shutil
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Form, Request, Response
 from fastapi.responses import RedirectResponse
 
 from seewhy.data.training_needs import require_feature_labels, require_two_classes
 from seewhy.errors import SeeWhyError
 from seewhy.studio.jobs import FINISHED, Job, jobs_of
-from seewhy.studio.keeping_back import keep_back, kept, place
+from seewhy.studio.keeping_back import keep_back, kept, place, suggested_pattern
 from seewhy.studio.labels import LABEL
 from seewhy.studio.pages.page import Page
 from seewhy.studio.project import Project
@@ -67,6 +68,7 @@ def show(request: Request) -> Response:
         ready=_ready(project, jobs),
         job=jobs[0] if jobs else None,
         jobs=jobs[:SHOWN],
+        suggested=suggested_pattern(project),
     )
 
 
@@ -112,11 +114,11 @@ def anew(request: Request) -> Response:
 
 
 @router.post("/train/keep-back")
-def keep(request: Request) -> Response:
+def keep(request: Request, together: Annotated[str, Form(max_length=200)] = "") -> Response:
     """Keep a quarter of the labelled pictures for evaluation."""
     project = studio_of(request).project
     project.domain()
-    keep_back(project, who=who_of(request))
+    keep_back(project, who=who_of(request), pattern=together)
     return RedirectResponse(PAGE.path, 303)
 
 
