@@ -159,8 +159,8 @@ class ProjectModel:
 
     def _following(self, agent: Agent) -> Agent:
         """The agent as it is when it knows what the project's files say."""
-        own = read_text(self.project.model_folder / "domain" / KNOWLEDGE) or ""
-        before = texts_of(agent.known, own)
+        trained_with = read_text(self.project.model_folder / "domain" / KNOWLEDGE) or ""
+        before = texts_of(agent.known, trained_with)
         texts = {**before, KNOWLEDGE: self._knowledge()}
         for edit in self._learned_edits():
             try:
