@@ -127,7 +127,7 @@ def test_what_takes_too_long_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ReasoningError) as error:
         [ChangeFinder(reasoner).smallest(before, label) for label in CLASSES]
     assert str(error.value) == (
-        "knowledge.al:14:1: 'kind(P, high) if picture(P), on(X, Y).' has up to 4 instances; the "
-        "search for the smallest change took longer than 0 s; give its sorts fewer members, or "
-        "write it with fewer variables"
+        "knowledge.al:5:1: 'colour(block, hue)' has up to 6 instances; the search for the smallest "
+        "change took longer than 0 s; give its sorts fewer members, or write it with fewer "
+        "variables"
     )

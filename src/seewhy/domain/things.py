@@ -247,8 +247,8 @@ def _relation(
     if table.converse is not None and (back := things.relations[table.converse].converse) != key:
         has = "no converse" if back is None else f"converse = '{back}'"
         raise DomainError(
-            f"{place.at(*here, 'converse')}: '{table.converse}' is the converse of '{key}', but has "
-            f"{has}; write converse = '{key}' in [things.relations.{table.converse}]"
+            f"{place.at(*here, 'converse')}: '{table.converse}' is the converse of '{key}', but "
+            f"has {has}; write converse = '{key}' in [things.relations.{table.converse}]"
         )
     return Relation(key=key, **table.model_dump())
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import clingo
 
-from seewhy.knowledge.axiom import AxiomKind, Literal
+from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.bounded_control import SOLVING_SECONDS, BoundedControl, out_of_time
 from seewhy.knowledge.ground import key_of, text_of
 from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
@@ -90,7 +90,6 @@ class ChangeFinder:
         self.schema = reasoner.schema
         self.occurrence = occurrence
         self._is_stratified = is_stratified(reasoner.knowledge)
-        self._has_defaults = any(a.kind is AxiomKind.DEFAULT for a in reasoner.knowledge.axioms)
         self._constraints = 0
         self._literals: dict[str, int] = {}
         self._goals: dict[_Goal, str] = {}
@@ -107,8 +106,9 @@ class ChangeFinder:
 
     @cached_property
     def _size(self) -> GroundingSize:
-        size = grounding_size(self.reasoner.knowledge)
-        return size.times(2) if self._is_stratified and self._has_defaults else size
+        knowledge = self.reasoner.knowledge
+        size = grounding_size(knowledge)
+        return size.times(2) if self._is_stratified and knowledge.has_defaults else size
 
     def _literal(self, atom: str) -> int:
         """The solver literal of an atom; those that were found once are not looked for again."""
@@ -121,7 +121,7 @@ class ChangeFinder:
     def _program(self) -> str:
         schema, knowledge = self.schema, self.reasoner.knowledge
         lines = [program_text(knowledge, schema, exceptions=True)]
-        if self._is_stratified and self._has_defaults:
+        if self._is_stratified and knowledge.has_defaults:
             lines += [
                 without_exceptions(knowledge, schema),
                 f"{_EXCEPTED} :- exception(I, V).",

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 from clingo import ast
@@ -43,6 +44,11 @@ class Knowledge:
     signature: Signature
     axioms: tuple[Axiom, ...]
     file: str
+
+    @cached_property
+    def has_defaults(self) -> bool:
+        """Whether an axiom of it is a default, which may have exceptions."""
+        return any(axiom.kind is AxiomKind.DEFAULT for axiom in self.axioms)
 
     @property
     def without_change(self) -> Knowledge:

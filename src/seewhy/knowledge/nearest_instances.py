@@ -167,8 +167,8 @@ def _solved(
                 key = (name.name, tuple(map(text_of, values.arguments)))
                 instances.setdefault(key, set()).update(p.number for p in places)
     found: dict[str, list[_Instance]] = {axiom.identifier: [] for _, axiom, _ in candidates}
-    for (identifier, values), satisfied in instances.items():
-        found[identifier].append((values, frozenset(satisfied)))
+    for (identifier, given), satisfied in instances.items():
+        found[identifier].append((given, frozenset(satisfied)))
     return found
 
 

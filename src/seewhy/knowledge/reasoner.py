@@ -11,7 +11,7 @@ from typing import Literal as OneOf
 import clingo
 
 from seewhy.knowledge.answer_set import AnswerSet, answer_set_of
-from seewhy.knowledge.axiom import Axiom, AxiomKind
+from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.batch import SCENES, Batch, Outcome
 from seewhy.knowledge.grounding import Grounding, Search
 from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
@@ -89,7 +89,6 @@ class Reasoner:
         self._decisions: dict[FeatureVector, Decision] = {}
         self._answer_sets: dict[FeatureVector, tuple[AnswerSet, ...]] = {}
         self._believed: dict[FeatureVector, frozenset[clingo.Symbol]] = {}
-        self._has_defaults = any(a.kind is AxiomKind.DEFAULT for a in knowledge.axioms)
 
     @cached_property
     def _size(self) -> GroundingSize:
@@ -180,7 +179,7 @@ class Reasoner:
 
     def _decision_of(self, outcome: Outcome | None) -> Decision | None:
         """The decision of an outcome; None where the solver has to tell."""
-        if outcome is None or (outcome.contradictory and self._has_defaults):
+        if outcome is None or (outcome.contradictory and self.knowledge.has_defaults):
             return None
         if outcome.contradictory:
             return Decision(None, Verdict.CONTRADICTION)
@@ -190,7 +189,7 @@ class Reasoner:
         plain = self._plain
         assumed = plain.assume(vector)
         believed = plain.believed_classes([*assumed, plain.strict])
-        if believed is None and self._has_defaults:
+        if believed is None and self.knowledge.has_defaults:
             believed = self._believed_with_exceptions(vector)
         if believed is not None:
             return _decision(believed)
@@ -302,7 +301,7 @@ class Reasoner:
         exceptions = explaining.with_predicate("exception", 2)
         assumed = [*explaining.assume(vector), explaining.strict]
         yield [*assumed, *self._no_exceptions]
-        if self._has_defaults:
+        if self.knowledge.has_defaults:
             for chosen in filter(None, self.minimal_exceptions(vector)):
                 yield [*assumed, *(lit if s in chosen else -lit for s, lit in exceptions.items())]
 
