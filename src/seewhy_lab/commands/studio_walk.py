@@ -7,8 +7,8 @@ Pictures lie in a folder a class, with a table class → features; or they are a
 sees them as one flat folder that says nothing of them. A browser begins, labels by keyboard in the
 order in which the studio shows them, trains at every stop, evaluates, asks and doubts. Clicks and
 keys are counted. A person's time is an estimate: 2 seconds a picture of which all that is proposed
-is right, 4 one that is changed, 3 a click, 0.3 a character that is typed. What was walked is kept: the same
-command goes on where it was interrupted, and trains no number of labels twice.
+is right, 4 one that is changed, 3 a click, 0.3 a character that is typed. What was walked is kept:
+the same command goes on where it was interrupted, and trains no number of labels twice.
 """
 
 from __future__ import annotations
