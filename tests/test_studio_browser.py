@@ -19,6 +19,9 @@ from seewhy.studio.pages import PAGES
 from seewhy.studio.project import Project
 from seewhy.studio.serving import bound_socket
 from seewhy.studio.site import site
+from seewhy_lab.walk.labelling import label_until
+from seewhy_lab.walk.person import Person
+from seewhy_lab.walk.truth import Truth
 from studio_builder import FRUIT, embed, pictures, with_domain
 from studio_tiles import tiles_project
 
@@ -147,7 +150,8 @@ def test_a_key_that_comes_while_news_are_exchanged_is_not_lost(
     page.evaluate("""() => {
       window.stayed = true;
       document.addEventListener("htmx:afterSwap", (event) => {
-        if (document.body.dataset.pressed || !event.detail.pathInfo.requestPath.startsWith("/label/news")) return;
+        const asked = event.detail.pathInfo.requestPath;
+        if (document.body.dataset.pressed || !asked.startsWith("/label/news")) return;
         document.body.dataset.pressed = "yes";
         document.body.dispatchEvent(new KeyboardEvent("keydown", {key: "2", bubbles: true}));
       });
@@ -158,6 +162,29 @@ def test_a_key_that_comes_while_news_are_exchanged_is_not_lost(
     until(project, {"c.png": {"colour": "red"}})
     page.wait_for_selector("button[value='colour=red'].chosen")
     assert page.evaluate("window.stayed")  # the page was not left for it
+    page.goto("about:blank")  # it asks for news, and the server ends first
+
+
+def test_somebody_who_knows_labels_every_picture(
+    page: Page, address: str, project: Project
+) -> None:
+    known = {
+        name: {"colour": colour, "round": "yes", "class": label}
+        for name, (colour, label) in zip(
+            ("a.png", "b.png", "c.png", "d.png", "e.png", "f.png"),
+            3 * [("red", "good"), ("green", "spoilt")],
+            strict=True,
+        )
+    }
+    person = Person(page)
+    page.goto(f"{address}/label")
+    with person.step("label"):
+        said = label_until(person, Truth(known, {}), count=6, done=0, pace=0.2)
+    until(project, known)
+    assert sorted(labelled.picture for labelled in said) == sorted(known)
+    assert person.effort.confirmed + person.effort.changed == 6
+    assert person.effort.keys == sum(labelled.keys for labelled in said)
+    page.goto("about:blank")
 
 
 def test_a_contact_sheet_by_keyboard(page: Page, address: str, project: Project) -> None:

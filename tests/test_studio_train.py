@@ -183,9 +183,7 @@ def test_an_expression_that_cannot_be_meant_keeps_nothing(
     client: TestClient, project: Project, pattern: str, said: str
 ) -> None:
     label_all(project)
-    answered = client.post(
-        "/train/keep-back", data={"csrf": csrf_of(client), "together": pattern}
-    )
+    answered = client.post("/train/keep-back", data={"csrf": csrf_of(client), "together": pattern})
     assert answered.status_code == 422
     assert said in answered.text
     assert kept(project.labels()) == {"train": 8}

@@ -3,12 +3,12 @@
     python -m seewhy_lab studio_walk --pictures hands/pool --features fingers.csv --test hands/test
         --stops 100 150 --out runs/walk
 
-Pictures lie in a folder a class, with a table class → features; or they are a dataset. The studio sees
-them as one flat folder that says nothing of them. A browser begins, labels by keyboard in the order
-in which the studio shows them, trains at every stop, evaluates, asks and doubts. Clicks and keys are
-counted. A person's time is an estimate: 2 seconds a picture of which all that is proposed is right,
-4 one that is changed, 3 a click, 0.3 a character that is typed. What was walked is kept: the same
-command goes on where it was interrupted, and trains no number of labels twice.
+Pictures lie in a folder a class, with a table class → features; or they are a dataset. The studio
+sees them as one flat folder that says nothing of them. A browser begins, labels by keyboard in the
+order in which the studio shows them, trains at every stop, evaluates, asks and doubts. Clicks and
+keys are counted. A person's time is an estimate: 2 seconds a picture of which all that is proposed
+is right, 4 one that is changed, 3 a click, 0.3 a character that is typed. What was walked is kept:
+the same command goes on where it was interrupted, and trains no number of labels twice.
 """
 
 from __future__ import annotations
@@ -60,9 +60,9 @@ def chromium() -> str:
 def accuracy(model: Path, test: Truth) -> str:
     """How many pictures a model gives their class."""
     names = sorted(test.files)
-    said = Agent.load(model).classify_all([test.files[name] for name in names])
+    agent = Agent.load(model)
     right = sum(
-        one.label == test.values[name][CLASS] for one, name in zip(said, names, strict=True)
+        agent.classify(test.files[name]).label == test.values[name][CLASS] for name in names
     )
     return f"{right} of {len(names)} right, {100 * right / len(names):.1f} %"
 
@@ -108,9 +108,11 @@ def main() -> None:
         browser = used.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
         page = browser.new_page(viewport={"width": 1280, "height": 800})
         page.set_default_timeout(120_000)
-        page.on("console", lambda said: problems.append(said.text) if said.type == "error" else None)
+        page.on(
+            "console", lambda said: problems.append(said.text) if said.type == "error" else None
+        )
         page.on("pageerror", lambda problem: problems.append(str(problem)))
-        look = Camera(page, options.screenshots) if options.screenshots else lambda name: None
+        look = Camera(page, options.screenshots) if options.screenshots else str
         walk = Walk(Person(page), address, project, truth, look=look)
         evaluated, asked = walked(walk, options, test or truth)
         browser.close()

@@ -1,4 +1,4 @@
-"""Labels pictures by keyboard, in the order in which the studio shows them, as somebody who knows."""
+"""Labels pictures by keyboard, in the order of the studio, as somebody who knows."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ _COUNT = """() => {
   if (body.dataset.answered) return;
   body.dataset.answered = 0;
   document.addEventListener("htmx:afterSettle", (event) => {
-    if (!event.detail.pathInfo?.requestPath?.startsWith("/label/news")) body.dataset.answered = Number(body.dataset.answered) + 1;
+    if (event.detail.pathInfo?.requestPath?.startsWith("/label/news")) return;
+    body.dataset.answered = Number(body.dataset.answered) + 1;
   });
 }"""
 
@@ -55,7 +56,9 @@ class Labelled:
     keys: int
 
 
-def label_until(person: Person, truth: Truth, *, count: int, done: int, pace: float) -> list[Labelled]:
+def label_until(
+    person: Person, truth: Truth, *, count: int, done: int, pace: float
+) -> list[Labelled]:
     """Label pictures on the page Label until there are ``count`` of them.
 
     Parameters

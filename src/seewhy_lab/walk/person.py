@@ -1,4 +1,4 @@
-"""Somebody at a browser: what is clicked, pressed and typed is counted, and what it takes a person."""
+"""Somebody at a browser: what is clicked, pressed and typed is counted, and the time for it."""
 
 from __future__ import annotations
 

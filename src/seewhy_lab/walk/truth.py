@@ -9,9 +9,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from seewhy.data.importers.picture_files import ENDINGS
 from seewhy.domain.tables import CLASS
 from seewhy.errors import SeeWhyError
-from seewhy.data.importers.picture_files import ENDINGS
 
 __all__ = ["Truth", "flat_folder", "read_truth"]
 
@@ -27,8 +27,8 @@ class Truth:
     files : mapping of str to Path
         Name of a picture → where it lies.
     table : str
-        The text of a table class → features, as the page Begin takes it; empty where the features do
-        not follow from the class.
+        The text of a table class → features, as the page Begin takes it; empty where the
+        features do not follow from the class.
     """
 
     values: Mapping[str, Mapping[str, str]]

@@ -52,7 +52,7 @@ class Walk:
     truth : Truth
         What the person knows.
     look : callable
-        Is told the name of a page when there is something to be seen on it.
+        Is called with the name of a page when there is something to be seen on it.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class Walk:
         project: Path,
         truth: Truth,
         *,
-        look: Callable[[str], object] = lambda name: None,
+        look: Callable[[str], object] = str,
     ) -> None:
         self.look = look
         self.person = person
@@ -119,7 +119,7 @@ class Walk:
                 person.click("text=Keep a quarter for evaluation")
                 person.page.wait_for_selector("text=kept for evaluation")
             person.click("main button:text-is('Train')")
-            person.page.wait_for_selector("#now .stage")
+            person.page.wait_for_selector(".job .stage")
             self.look("train")
             self._wait("#now")
         shutil.copytree(self.project / "model", self.model_of(self.labels))
@@ -152,7 +152,7 @@ class Walk:
             page.wait_for_selector(f".name:has-text('{picture.stem}')")
             person.write("#question", question)
             person.press("Enter")
-            page.wait_for_selector(f"#answer .asked:has-text('{question}')")
+            page.wait_for_selector("#answer .asked:has-text('why is')")
             answer = page.locator("#answer .text").inner_text()
         self.look("ask")
         with person.step("Ask: flip a feature"):
