@@ -8,7 +8,6 @@ choice that is settled by an assumption, so that a program is grounded once for 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from functools import lru_cache
 
@@ -23,7 +22,8 @@ UNKNOWN = "unknown__"
 """The term that stands for a feature whose value was not seen."""
 CONTRADICTORY = "contradictory__"
 """What is true in :func:`without_exceptions` where the beliefs contradict each other."""
-_WITHOUT = "without_exceptions__("
+_RENAMED = {"holds": "without_exceptions__", "conflict": CONTRADICTORY}
+_STRICTLY = ":- strict, conflict."
 
 
 def program_text(
@@ -60,7 +60,7 @@ def program_text(
         "conflict(L) :- holds(L), holds(-L).",
         "conflict :- conflict(L).",
         "{ strict }.",
-        ":- strict, conflict.",
+        _STRICTLY,
     ]
     for axiom in knowledge.axioms:
         lines += axiom_rules(axiom, knowledge.signature, exceptions=exceptions, firings=firings)
@@ -73,8 +73,21 @@ def without_exceptions(knowledge: Knowledge, schema: SceneSchema) -> str:
     It is the program without exceptions, its beliefs renamed, over the same features. Of
     stratified knowledge, a scene needs exceptions where :data:`CONTRADICTORY` is true.
     """
-    lines = program_text(knowledge, schema).replace(":- strict, conflict.", "")
-    return re.sub(r"\bconflict\b", CONTRADICTORY, re.sub(r"\bholds\(", _WITHOUT, lines))
+    lines: list[str] = []
+    rename = _Rename()
+    ast.parse_string(
+        program_text(knowledge, schema).replace(f"{_STRICTLY}\n", ""),
+        lambda statement: lines.append(str(rename.visit(statement))),
+    )
+    return "\n".join(lines) + "\n"
+
+
+class _Rename(ast.Transformer):
+    """Renames the program's atoms, and none of the names of the domain that stand in them."""
+
+    def visit_SymbolicAtom(self, atom: ast.AST) -> ast.AST:  # noqa: N802
+        name = _RENAMED.get(atom.symbol.name)
+        return atom if name is None else atom.update(symbol=atom.symbol.update(name=name))
 
 
 def body_text(axiom: Axiom, signature: Signature) -> str:
