@@ -25,6 +25,8 @@ os.environ["OMP_NUM_THREADS"] = "1"
 os.environ["LOKY_MAX_CPU_COUNT"] = "1"
 # Nothing that a test makes is found by the next one, or by who runs the tests.
 os.environ["SEEWHY_CACHE"] = ""
+# A slow machine must not put lines of progress between what tests expect.
+os.environ["SEEWHY_PROGRESS_SECONDS"] = "3600"
 
 from PIL import Image, ImageDraw
 

@@ -908,8 +908,8 @@ def test_what_needed_an_action_is_told_to_the_goal(delivered: Run) -> None:
 
 REFUSED = {
     "": (
-        "the question is empty; ask for instance: what is your plan? · what did you do? · what "
-        "is your goal?"
+        "the question is empty; ask for instance: what is your plan? · what did you do? · how "
+        "many actions did you do?"
     ),
     "where is Harry?": "'where is Harry?' is not understood; ask for instance: where is Bob? · "
     "where is a desk? · where is a printer?",

@@ -308,7 +308,7 @@ SHELVES = {
         "I know of nothing inside or on the trunk; I have not looked there."
     ),
     "was the can of you full at step 0?": (
-        "Yes, the can of me was full. I saw at step 0 that the can of me was full."
+        "Yes, my can was full. I saw at step 0 that my can was full."
     ),
     "was the watering can empty at step 0?": "No, the watering can was not empty. That is usual.",
 }

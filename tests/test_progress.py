@@ -10,7 +10,7 @@ from time import monotonic, sleep
 import pytest
 from rich.progress import Progress
 
-from seewhy.cli.plain_progress import telling_plainly
+from seewhy.cli.plain_progress import SECONDS_NAMED, telling_plainly
 from seewhy.cli.screen import progress
 from seewhy.files.progress_file import PROGRESS_FILE, read_progress
 
@@ -32,6 +32,20 @@ def test_without_a_terminal_long_work_is_told_in_lines() -> None:
     assert re.fullmatch(
         r"looking at pictures: \d+ of 900(, \d:\d\d:\d\d left)? \(since \d:\d\d:\d\d\)", told[-1]
     )
+
+
+@pytest.mark.parametrize(
+    ("named", "lines"), [("0.05", True), ("3600", False), ("soon", False), ("-1", False)]
+)
+def test_the_environment_says_how_often(
+    monkeypatch: pytest.MonkeyPatch, named: str, lines: bool
+) -> None:
+    monkeypatch.setenv(SECONDS_NAMED, named)
+    told = Event()
+    with Progress(disable=True) as bars:
+        bars.update(bars.add_task("looking at pictures", total=900), completed=120)
+        with telling_plainly(bars, lambda _: told.set()):
+            assert told.wait(20.0 if lines else 1.5) is lines
 
 
 def test_another_process_reads_of_it_in_the_file_that_is_named(

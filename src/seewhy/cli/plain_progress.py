@@ -13,10 +13,13 @@ from rich.progress import Progress, Task
 
 from seewhy.files.progress_file import PROGRESS_FILE, Stage, write_progress
 
-__all__ = ["SECONDS", "telling_plainly"]
+__all__ = ["SECONDS", "SECONDS_NAMED", "telling_plainly"]
 
 SECONDS = 10.0
 """Between two lines; work that is over sooner says nothing."""
+
+SECONDS_NAMED = "SEEWHY_PROGRESS_SECONDS"
+"""The environment's name for another number of seconds; no number above 0 is passed over."""
 
 _LOOKS = 1.0
 """Seconds between two looks at the work."""
@@ -27,10 +30,11 @@ _SHOWN = 4
 
 @contextmanager
 def telling_plainly(
-    bars: Progress, tell: Callable[[str], None], *, seconds: float = SECONDS
+    bars: Progress, tell: Callable[[str], None], *, seconds: float | None = None
 ) -> Iterator[None]:
     """Tell of work while it goes on; in the file that the environment names instead, if it does."""
     ended = Event()
+    seconds = _seconds_named() if seconds is None else seconds
     named = os.environ.get(PROGRESS_FILE)
     file = Path(named) if named else None
     look = min(_LOOKS, seconds)
@@ -53,6 +57,14 @@ def telling_plainly(
     finally:
         ended.set()
         thread.join()
+
+
+def _seconds_named() -> float:
+    try:
+        seconds = float(os.environ.get(SECONDS_NAMED, SECONDS))
+    except ValueError:
+        return SECONDS
+    return seconds if seconds > 0 else SECONDS
 
 
 def _stages(bars: Progress) -> list[Stage]:

@@ -58,7 +58,7 @@ def small_png(content: bytes, *, width: int) -> bytes:
     >>> len(drawn.getvalue()) > MOST_BYTES >= len(small_png(drawn.getvalue(), width=300))
     True
     """
-    with Image.open(BytesIO(content)) as opened:
+    with Image.open(BytesIO(content), formats=["PNG"]) as opened:
         image = opened.convert("RGB")
     image.thumbnail((width, image.height), Image.Resampling.LANCZOS)
     small = b""
