@@ -466,9 +466,9 @@ def test_the_page_counts_the_axioms_rightly() -> None:
     telling = sum(head in DOMAIN.beliefs for head in heads)
     conventions = len(heads) - facts - classifying - telling
     sizes = Counter(len(conditions(name)) for name in DECIDED)
-    assert f"{classifying} axioms classify" in page
-    assert f"{conventions} are conventions" in page
-    assert f"{facts} are facts" in page
-    assert f"{telling} say" in page
+    assert f"| {classifying} | classify" in page
+    assert f"| {conventions} | are conventions" in page
+    assert f"| {facts} | are facts" in page
+    assert f"| {telling} | say" in page
     more = len(DECIDED) - sizes[1] - sizes[2]
     assert f"{sizes[1]} rest on one feature, {sizes[2]} on two, {more} on three or more" in page

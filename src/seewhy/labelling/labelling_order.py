@@ -135,10 +135,10 @@ def labelling_order(
 
     Examples
     --------
-    >>> components = np.array([[1, 0], [1, 0.1], [0.1, 1], [0, 1]], dtype=np.float32)
-    >>> order = labelling_order(landscape(components), {}, [0], count=3)
+    >>> components = np.array([[1, 0], [1, 0.1], [0.1, 1]], dtype=np.float32)
+    >>> order = labelling_order(landscape(components), {}, [0], count=2)
     >>> [found.place for found in order]
-    [2, 1, 3]
+    [2, 1]
     """
     total = len(pictures.directions)
     known = np.zeros(total, dtype=bool)

@@ -91,7 +91,7 @@ def suppose(agent: Agent, scene: Classification, shows: Sequence[str]) -> Suppos
     >>> then.was, then.changed
     ('unstable', ('base', 'block_displaced'))
     >>> sorted(change.says for change in then.smallest if change.label == "unstable")
-    [('displace a block',), ('make it lean to one side',)]
+    [('displace a block',)]
     """
     seen = agent.domain.named(scene.vector)
     given = named_values(agent.domain, shows) if shows else seen

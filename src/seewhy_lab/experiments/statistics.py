@@ -165,6 +165,8 @@ def _wilcoxon(apart: NDArray[np.float64]) -> float:
     from scipy.stats import permutation_test, rankdata, wilcoxon
 
     differing = apart[apart != 0.0]
+    if len(differing) == 1:
+        return 1.0  # one sign tells nothing, and is no sample to permute
     if len(apart) > _FEW or len(np.unique(np.abs(differing))) == len(apart):
         return float(wilcoxon(apart).pvalue)
 
