@@ -102,9 +102,7 @@ def test_nothing_is_found_where_nothing_is(agent: ThingAgent) -> None:
     assert reply.reply.value == 0
 
 
-def test_the_surest_are_read_where_there_are_more_than_the_most(
-    shelf: Shelf, tmp_path: Path
-) -> None:
+def test_the_surest_are_read_where_there_are_more_than_the_most(shelf: Shelf) -> None:
     agent = ThingAgent.load(shelf.model)
     scenes = Dataset.load(shelf.data, agent.domain).scenes
     two = [Image.open(scene.picture) for scene in scenes if len(scene.things) == 4][:2]
