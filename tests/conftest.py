@@ -155,11 +155,14 @@ def draw_tile(colour: str, is_round: str, number: int, *, size: int = 64) -> Ima
 
 
 def write_domain(folder: Path, **texts: str) -> Path:
-    """Write the domain of tiles; ``texts`` replace its files (without their endings)."""
+    """Write the domain of tiles; ``texts`` replace its files (without their endings).
+
+    Line ends stay as the texts have them.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     files = {"domain": DOMAIN, "knowledge": KNOWLEDGE, "questions": QUESTIONS, **texts}
     for name, ending in (("domain", "toml"), ("knowledge", "al"), ("questions", "toml")):
-        (folder / f"{name}.{ending}").write_text(files[name], encoding="utf-8")
+        (folder / f"{name}.{ending}").write_text(files[name], encoding="utf-8", newline="")
     return folder
 
 
