@@ -15,6 +15,9 @@ from seewhy.domain.domain import Domain
 from seewhy.new_domain.from_names import NamedDomain, domain_from_names
 from seewhy.perception.picture import read_picture
 from seewhy.studio.access import AccessRules
+from seewhy.studio.proposing import Proposer
+
+HTMX = {"HX-Request": "true"}
 
 RULES = AccessRules(frozenset({"testserver"}), "", 400_000)
 
@@ -49,3 +52,28 @@ def csrf_of(client: TestClient) -> str:
     found = re.search(r'name="csrf" value="([0-9a-f]+)"', client.get("/begin").text)
     assert found
     return found[1]
+
+
+class Browser:
+    """A client that knows its session's text, and waits for the proposals."""
+
+    def __init__(self, client: TestClient) -> None:
+        self.client = client
+        self.csrf = csrf_of(client)
+
+    @property
+    def proposer(self) -> Proposer:
+        return self.client.app.state.studio.proposer  # type: ignore[attr-defined,no-any-return]
+
+    def post(self, path: str, *, part: bool = True, **fields: object) -> str:
+        answered = self.client.post(
+            path, data={"csrf": self.csrf, **fields}, headers=HTMX if part else {}
+        )
+        assert answered.status_code == 200, answered.text
+        assert self.proposer.settle(120)
+        return answered.text
+
+    def get(self, path: str, *, part: bool = False) -> str:
+        answered = self.client.get(path, headers=HTMX if part else {})
+        assert answered.status_code == 200
+        return answered.text
