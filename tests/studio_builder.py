@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +16,9 @@ from seewhy.domain.domain import Domain
 from seewhy.new_domain.from_names import NamedDomain, domain_from_names
 from seewhy.perception.picture import read_picture
 from seewhy.studio.access import AccessRules
+from seewhy.studio.job_process import CODE, OUTPUT
+from seewhy.studio.jobs import JOB
+from seewhy.studio.project import Project
 from seewhy.studio.proposing import Proposer
 
 HTMX = {"HX-Request": "true"}
@@ -44,6 +48,20 @@ def pictures(folder: Path, count: int = 6) -> Path:
 def with_domain(folder: Path, named: NamedDomain = FRUIT) -> Path:
     """Write a domain into the project's folder."""
     domain_from_names(named, folder / "fruit", data=str(folder))
+    return folder
+
+
+def ended_job(
+    project: Project, task: str, output: str = "", *, asked: Mapping[str, Any] | None = None
+) -> Path:
+    """Enter a job that has printed this and ended well; return the folder of its files."""
+    folder = project.folder / ".jobs" / f"{task}-{len(project.record.all())}"
+    folder.mkdir(parents=True)
+    (folder / OUTPUT).write_text(output)
+    (folder / CODE).write_text("0")
+    process = {"process": 0, "began": ""}
+    body = {"task": task, "folder": folder.name, **process, "asked": dict(asked or {})}
+    project.record.add(JOB, body, who="Ada")
     return folder
 
 

@@ -212,17 +212,18 @@
     if (thing !== undefined && thing !== sheet().dataset.chosen) choose(thing);
   });
 
-  // A box that had the focus has it again after an exchange; so has one that was drawn just now.
-  let focused;
+  // The box that is chosen has the focus after an exchange, unless Tab has gone on meanwhile.
+  let gone;
   document.addEventListener("htmx:beforeSwap", () => {
-    focused = document.activeElement?.closest("#boxes .box")?.dataset.thing;
+    const focused = document.activeElement?.closest("#boxes .box")?.dataset.thing;
+    gone = focused === sheet()?.dataset.chosen ? undefined : focused;
   });
   document.addEventListener("htmx:afterSettle", () => {
     scaleLetters();
     const chosen = sheet()?.dataset.chosen;
     if (pending && groupOf(pending.thing)) show(groupOf(pending.thing), pending.box);
     if (chosen === undefined || ![document.body, null].includes(document.activeElement)) return;
-    (groupOf(focused) || groupOf(chosen))?.focus({ preventScroll: true });
+    (groupOf(gone) || groupOf(chosen))?.focus({ preventScroll: true });
   });
 
   window.addEventListener("resize", scaleLetters);
