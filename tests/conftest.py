@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pytest
 
@@ -38,6 +38,9 @@ from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception import fitting_extractor, fitting_eyes, parallel
 from seewhy.perception.course import Course
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
 
 DOMAIN = """\
 [domain]
@@ -316,3 +319,32 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
         return Result(exit_.value.code or 0, captured.out, captured.err)  # type: ignore[arg-type]
 
     return run
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Browser]:
+    from playwright.sync_api import sync_playwright
+
+    from studio_browsing import CHROMIUM
+
+    with sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def page(chromium: Browser) -> Iterator[Page]:
+    context = chromium.new_context(viewport={"width": 1280, "height": 800})
+    page = context.new_page()
+    page.set_default_timeout(60_000)
+    problems: list[str] = []
+    page.on("console", lambda said: problems.append(said.text) if said.type == "error" else None)
+    page.on("pageerror", lambda problem: problems.append(str(problem)))
+    yield page
+    context.close()
+    # A refused script or style (Content-Security-Policy) is an error of the console; so is an
+    # answer that says what was wrong with a form, which is meant. The page may ask for news once
+    # more when the server has ended.
+    meant = ("422", "ERR_CONNECTION_REFUSED")
+    assert [said for said in problems if not any(word in said for word in meant)] == []
