@@ -337,3 +337,17 @@ def test_a_laboratory_without_its_libraries_says_which(
     assert result.err.startswith("seewhy: ")
     assert result.err.endswith(f"structure_stability/domain.toml: {said}")
     assert not (tmp_path / "out").exists()
+
+
+def test_things_from_the_source_of_a_domain_that_has_none(
+    domain: Domain, source: Path, tmp_path: Path
+) -> None:
+    old = source.read_text()
+    assert "\n    return " in old
+    source.write_text(old.rstrip() + ", [{'thing': 'a'}], []\n")
+    with pytest.raises(DomainError) as problem:
+        make_dataset(domain, tmp_path / "out", count=1, size=16, workers=1)
+    assert str(problem.value) == (
+        f"{domain.folder}/domain.toml: the source '{source.name}' must give no things: "
+        "domain.toml has no [things], got 1 things"
+    )

@@ -30,8 +30,14 @@ def make(
     count: Annotated[int, typer.Option("--count", min=1, help="How many pictures.")] = 2500,
     seed: Seed = 0,
     size: Annotated[
-        int, typer.Option("--size", min=16, max=1024, help="Side of a picture in pixels.")
-    ] = 112,
+        int | None,
+        typer.Option(
+            "--size",
+            min=16,
+            max=1024,
+            help="Longer side of a picture in pixels; source_size of domain.toml where left out.",
+        ),
+    ] = None,
     workers: Annotated[
         int, typer.Option("--workers", min=-1, help="Processes to use; -1: one per core.")
     ] = -1,
@@ -75,6 +81,8 @@ def make(
     say(f"{made.count} pictures in {made.folder}")
     for part in say_shares(loaded, made.classes):
         say(f"  {part}")
+    if made.determined is None:
+        return
     say(
         f"  {percent(made.determined)} of them have an outcome that their features determine "
         "(the best that any classifier over the features can do)"

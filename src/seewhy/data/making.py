@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections import Counter
 from collections.abc import Callable
@@ -12,17 +11,18 @@ from pathlib import Path
 from pydantic import TypeAdapter, ValidationError
 
 from seewhy.data.dataset import TABLE
+from seewhy.data.made_picture import Annotation, check_annotation
+from seewhy.data.made_tables import made_annotations, write_made_tables
 from seewhy.data.picture_source import draw_picture, load_source
 from seewhy.domain.domain import Domain
-from seewhy.errors import DatasetError, DomainError
-from seewhy.files.csv_text import csv_text
+from seewhy.errors import DatasetError
 from seewhy.files.locks import sole_writer
 from seewhy.files.whole_files import put_all_on_disk, whole_file, write_whole
 from seewhy.knowledge.scene import FeatureVector
 
 MADE = "made.json"
 
-_NOTE: TypeAdapter[tuple[dict[str, str], str]] = TypeAdapter(tuple[dict[str, str], str])
+_NOTE: TypeAdapter[Annotation] = TypeAdapter(Annotation)
 
 
 @dataclass(frozen=True)
@@ -35,15 +35,16 @@ class MadeDataset:
     count : int
     classes : dict of str to float
         Class → its share of the pictures.
-    determined : float
+    determined : float or None
         The share of pictures whose class is the most frequent one of their feature vector: the
-        best that any classifier over the features can do on these pictures.
+        best that any classifier over the features can do on these pictures. None where the domain
+        has no classes.
     """
 
     folder: Path
     count: int
     classes: dict[str, float]
-    determined: float
+    determined: float | None
 
 
 def make_dataset(
@@ -52,16 +53,17 @@ def make_dataset(
     *,
     count: int,
     seed: int = 0,
-    size: int = 112,
+    size: int | None = None,
     workers: int = -1,
     test_share: float = 1 / 3,
     on_progress: Callable[[int], None] | None = None,
 ) -> MadeDataset:
-    """Write ``count`` pictures and their scenes.csv to ``folder``.
+    """Write ``count`` pictures and their tables to ``folder``.
 
     Every picture depends on ``seed`` and its own number only, so that the files are the same
     whatever the number of workers, and an interrupted call goes on where it was. Every third
-    picture (``test_share``) is marked ``split = test``.
+    picture (``test_share``) is marked ``split = test``. Their longer side has ``size`` pixels;
+    where that is left out, as many as ``source_size`` under ``[pictures]`` of domain.toml says.
 
     Raises
     ------
@@ -82,17 +84,20 @@ def make_dataset(
     """
     folder = Path(folder)
     load_source(domain)
+    size = domain.pictures.source_size if size is None else size
     with sole_writer(folder / TABLE):
         rows = _make_rows(
             domain, folder, count, seed=seed, size=size, workers=workers, on_progress=on_progress
         )
         put_all_on_disk()  # the pictures, before a table says that they are there
-        _write_table(folder, domain, rows, test_share)
+        write_made_tables(folder, domain, rows, test_share)
         images = folder / "images"
         for leftover in (*images.glob("*.json"), *images.glob(".??????-new.*")):
             leftover.unlink()
-    vectors = [domain.vector(dict(features)) for features, _ in rows]
-    labels = [label for _, label in rows]
+    if not domain.classes:
+        return MadeDataset(folder, count, {}, None)
+    vectors = [domain.vector(dict(row.features)) for row in rows]
+    labels = [str(row.label) for row in rows]
     shares = {name: labels.count(name) / count for name in domain.classes}
     return MadeDataset(folder, count, shares, determined_share(vectors, labels))
 
@@ -106,7 +111,7 @@ def _make_rows(
     size: int,
     workers: int,
     on_progress: Callable[[int], None] | None,
-) -> list[tuple[dict[str, str], str]]:
+) -> list[Annotation]:
     """Make the pictures that are not there; return the annotation of all."""
     from joblib import Parallel, delayed  # what else is here is used where no picture is made
 
@@ -114,16 +119,16 @@ def _make_rows(
     (folder / "images").mkdir(parents=True, exist_ok=True)
     _check_settings(folder, settings)
     write_whole(folder / MADE, json.dumps(settings))
-    known = _rows_of(folder, domain)
+    known = made_annotations(folder, domain)
     tasks = (
         delayed(_make_picture)(
             str(domain.source), domain.folder, folder, seed, index, size, known.get(index)
         )
         for index in range(count)
     )
-    rows: list[tuple[dict[str, str], str]] = []
+    rows: list[Annotation] = []
     for row in Parallel(n_jobs=workers, return_as="generator", batch_size=8)(tasks):
-        _check_annotation(domain, *row)
+        check_annotation(domain, row)
         rows.append(row)
         if on_progress is not None:
             on_progress(len(rows))
@@ -144,20 +149,6 @@ def determined_share(vectors: list[FeatureVector], labels: list[str]) -> float:
     return sum(max(by_class.values()) for by_class in counts.values()) / len(labels)
 
 
-def _check_annotation(domain: Domain, features: dict[str, str], label: str) -> None:
-    """Raise a DomainError if a source annotates in other words than its domain."""
-    known = {key: feature.values for key, feature in domain.features.items()}
-    if label in domain.classes and features.keys() == known.keys():
-        wrong = [f"{key} = {value}" for key, value in features.items() if value not in known[key]]
-    else:
-        wrong = [f"class {label}, features {', '.join(features)}"]
-    if wrong:
-        raise DomainError(
-            f"{domain.folder / 'domain.toml'}: the source '{domain.source}' must give values of "
-            f"{', '.join(known)} and a class among {', '.join(domain.classes)}, got {wrong[0]}"
-        )
-
-
 def _check_settings(folder: Path, settings: dict[str, object]) -> None:
     made = folder / MADE
     if made.is_file():
@@ -173,26 +164,6 @@ def _check_settings(folder: Path, settings: dict[str, object]) -> None:
         )
 
 
-def _rows_of(folder: Path, domain: Domain) -> dict[int, tuple[dict[str, str], str]]:
-    """The annotation of pictures that an earlier call with the same settings finished."""
-    if not (folder / TABLE).is_file():
-        return {}
-    with (folder / TABLE).open(newline="", encoding="utf-8") as stream:
-        try:
-            return {
-                int(Path(row["image"]).stem): (
-                    {key: row[key] for key in domain.features},
-                    row["class"],
-                )
-                for row in csv.DictReader(stream)
-            }
-        except (csv.Error, KeyError, TypeError, ValueError):
-            raise DatasetError(
-                f"{folder / TABLE}: is not as it was made; delete it and the pictures are "
-                "annotated again, or choose another folder"
-            ) from None
-
-
 def _make_picture(
     source: str,
     home: Path,
@@ -200,8 +171,8 @@ def _make_picture(
     seed: int,
     index: int,
     size: int,
-    known: tuple[dict[str, str], str] | None,
-) -> tuple[dict[str, str], str]:
+    known: Annotation | None,
+) -> Annotation:
     """Make one picture unless it is there already; return its annotation.
 
     The annotation lies beside the picture until the table is written.
@@ -215,14 +186,14 @@ def _make_picture(
     noted = _noted(note)
     if noted is not None and _is_picture(picture):
         return noted
-    pixels, features, label = draw_picture(source, home, seed=seed, index=index, size=size)
-    write_whole(note, json.dumps([features, label]), durable=False)
+    pixels, made = draw_picture(source, home, seed=seed, index=index, size=size)
+    write_whole(note, json.dumps(made), durable=False)
     with whole_file(picture, durable=False) as temporary:
         Image.fromarray(pixels).save(temporary, compress_level=4)
-    return features, label
+    return made
 
 
-def _noted(note: Path) -> tuple[dict[str, str], str] | None:
+def _noted(note: Path) -> Annotation | None:
     """The annotation that lies beside a picture; None where it is not whole."""
     try:
         return _NOTE.validate_json(note.read_bytes())
@@ -240,22 +211,3 @@ def _is_picture(file: Path) -> bool:
     except (OSError, SyntaxError, ValueError):
         return False
     return True
-
-
-def _write_table(
-    folder: Path, domain: Domain, rows: list[tuple[dict[str, str], str]], test_share: float
-) -> None:
-    lines = []
-    for index, (features, label) in enumerate(rows):
-        # Spread evenly: every third for a third, whatever the count.
-        is_test = int((index + 1) * test_share) > int(index * test_share)
-        lines.append(
-            [
-                f"images/{index:06d}.png",
-                label,
-                *(features[key] for key in domain.features),
-                "test" if is_test else "train",
-            ]
-        )
-    columns = ["image", "class", *domain.features, "split"]
-    write_whole(folder / TABLE, csv_text(columns, lines))

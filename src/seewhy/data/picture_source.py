@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Protocol, TypeGuard
 
 from seewhy.data.laboratory import LABORATORY, not_there, of_laboratory, without_module
+from seewhy.data.made_picture import Annotation, annotation_of
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
 
@@ -20,12 +21,12 @@ from seewhy.errors import DomainError
 class Draw(Protocol):
     """Makes one picture: uint8 of shape (height, width, 3), its feature values, its class.
 
-    The longer side is ``size``. The picture must depend on the arguments only.
+    Where the domain has things, they and their relations follow, as in
+    :class:`seewhy.data.made_picture.Annotation`. The longer side is ``size``. The picture must
+    depend on the arguments only.
     """
 
-    def __call__(
-        self, *, seed: int, index: int, size: int
-    ) -> tuple[Any, Mapping[str, str], str]: ...
+    def __call__(self, *, seed: int, index: int, size: int) -> tuple[Any, ...]: ...
 
 
 class Depict(Protocol):
@@ -214,7 +215,7 @@ def _no_source(source: str, folder: Path, wanted: str, why: str) -> str:
 
 def draw_picture(
     source: str, folder: Path, *, seed: int, index: int, size: int
-) -> tuple[Any, dict[str, str], str]:
+) -> tuple[Any, Annotation]:
     """Make one picture.
 
     Raises
@@ -223,8 +224,8 @@ def draw_picture(
         If the source fails; the text names the picture.
     """
     try:
-        picture, features, label = load_draw(source, folder)(seed=seed, index=index, size=size)
-        return picture, dict(features), label
+        picture, *said = load_draw(source, folder)(seed=seed, index=index, size=size)
+        return picture, annotation_of(*said)
     except DomainError:
         raise
     except Exception as problem:

@@ -94,6 +94,13 @@ class PictureTable(StrictTable):
         description="The side, in pixels, of the square that every picture becomes for networks "
         "that grow; a backbone has a side of its own.",
     )
+    source_size: int = Field(
+        default=112,
+        ge=16,
+        le=1024,
+        description="The longer side, in pixels, of the pictures that `seewhy data make` makes "
+        "with the domain's source.",
+    )
     fit: OneOf["pad", "stretch"] = Field(
         default="pad",
         description="How a picture that is not square becomes one: `pad` adds a border and keeps "

@@ -96,7 +96,7 @@ def given_variations(domain: Domain) -> dict[str, Any]:
     >>> given_variations(load_domain("structure_stability"))
     {'flip': True, 'shift': 0.06}
     """
-    stated = domain.pictures.model_dump(exclude={"size", "fit", "standard", "drawn"})
+    stated = domain.pictures.model_dump(exclude={"size", "source_size", "fit", "standard", "drawn"})
     return {name: value for name, value in stated.items() if value is not None}
 
 

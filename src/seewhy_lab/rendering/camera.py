@@ -15,6 +15,8 @@ __all__ = ["Camera", "develop"]
 class Camera:
     """Rays through places of the frame, which are counted in pixels from its upper left corner.
 
+    `shape` is its height and its width.
+
     Parameters
     ----------
     aim : sequence of float, length 3
@@ -27,7 +29,9 @@ class Camera:
     lens : float
         Vertical angle of view, in radians.
     size : int
-        Side of the frame in pixels.
+        Height of the frame in pixels.
+    width : int, optional
+        Its width; as its height where left out.
 
     Examples
     --------
@@ -47,9 +51,10 @@ class Camera:
         elevation: float,
         lens: float,
         size: int,
+        width: int | None = None,
     ) -> None:
         level = math.cos(elevation)
-        self._size = size
+        self.shape: tuple[int, int] = (size, size if width is None else width)
         self._half = math.tan(lens / 2.0)
         self._right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
         self._back = np.array(
@@ -60,8 +65,9 @@ class Camera:
 
     def rays(self, rows: Array, columns: Array) -> Array:
         """Directions, shape (n, 3), through the given places."""
-        right = (2.0 * columns / self._size - 1.0)[:, None]
-        up = (1.0 - 2.0 * rows / self._size)[:, None]
+        height, width = self.shape
+        right = (2.0 * columns / height - width / height)[:, None]
+        up = (1.0 - 2.0 * rows / height)[:, None]
         rays: Array = self._half * (right * self._right + up * self._up) - self._back
         return rays
 
@@ -69,7 +75,7 @@ class Camera:
 def develop(
     light: Array, rng: np.random.Generator, *, exposure: float, vignette: float, noise: float
 ) -> NDArray[np.uint8]:
-    """From linear light, shape (size, size, 3), to the picture.
+    """From linear light, shape (height, width, 3), to the picture.
 
     `vignette` is what the corners lose of their light, as a share; `noise` is the spread of the
     grain, as a share of white.
@@ -81,9 +87,10 @@ def develop(
     >>> develop(grey, rng, exposure=1.0, vignette=0.0, noise=0.0)[0, 0].tolist()
     [136, 136, 136]
     """
-    size = light.shape[0]
-    axis = (np.arange(size, dtype=np.float32) + 0.5) / size * 2.0 - 1.0
-    radius = axis[:, None] ** 2 + axis[None, :] ** 2
+    down, across = (
+        (np.arange(size, dtype=np.float32) + 0.5) / size * 2.0 - 1.0 for size in light.shape[:2]
+    )
+    radius = down[:, None] ** 2 + across[None, :] ** 2
     light = light * (exposure * (1.0 - vignette * radius / 2.0))[..., None]
     # A lens is never quite sharp.
     padded = np.pad(light, ((1, 1), (0, 0), (0, 0)), mode="edge")

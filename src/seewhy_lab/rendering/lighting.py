@@ -106,27 +106,27 @@ def visible(scene: Scene, hits: Hits, lights: Array, turn: Array, *, asks: int =
     return [result[kind] for kind in range(len(lights)) for result in (arrives, possible)]
 
 
-def share(values: list[Array], label: Array, size: int) -> list[Array]:
+def share(values: list[Array], label: Array, shape: tuple[int, int]) -> list[Array]:
     """Sums images over a tile around each pixel, over pixels with the same label only."""
-    padded = np.pad(label.reshape(size, size), 2, constant_values=-2)
-    sources = [np.pad(value.reshape(size, size), 2) for value in values]
-    labels = label.reshape(size, size)
-    sums = [np.zeros((size, size), np.float32) for _ in values]
+    padded = np.pad(label.reshape(shape), 2, constant_values=-2)
+    sources = [np.pad(value.reshape(shape), 2) for value in values]
+    labels = label.reshape(shape)
+    sums = [np.zeros(shape, np.float32) for _ in values]
     for row in range(TILE):
         for column in range(TILE):
-            window = (slice(row, row + size), slice(column, column + size))
+            window = (slice(row, row + shape[0]), slice(column, column + shape[1]))
             same = padded[window] == labels
             for total, source in zip(sums, sources, strict=True):
                 total += source[window] * same
     return [total.ravel() for total in sums]
 
 
-def nearest_alike(label: Array, fine: Array, pixel: Array, size: int) -> Array:
+def nearest_alike(label: Array, fine: Array, pixel: Array, shape: tuple[int, int]) -> Array:
     """For each ray on an edge the pixel nearby that shows the same face; -1 where none does."""
-    padded = np.pad(label.reshape(size, size), 1, constant_values=-2)
-    row, column = pixel // size, pixel % size
+    padded = np.pad(label.reshape(shape), 1, constant_values=-2)
+    row, column = np.divmod(pixel, shape[1])
     found = np.full(len(fine), -1)
     for down, across in _AROUND:
         same = (found < 0) & (padded[row + 1 + down, column + 1 + across] == fine)
-        found[same] = pixel[same] + down * size + across
+        found[same] = pixel[same] + down * shape[1] + across
     return found

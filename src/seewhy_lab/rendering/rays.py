@@ -38,9 +38,17 @@ class Scene:
         self._flat_sides = kind == mujoco.mjtGeom.mjGEOM_BOX
 
     def cast(
-        self, origin: Array, directions: Array, *, normals: bool = False
+        self,
+        origin: Array,
+        directions: Array,
+        *,
+        normals: bool = False,
+        group: int | None = None,
     ) -> tuple[Array, Array, Array]:
-        """The geom hit (-1: none), the distance in units of the direction, and the normal."""
+        """The geom hit (-1: none), the distance in units of the direction, and the normal.
+
+        With `group` only those geoms are met that are in that group, 0 to 5, and can move.
+        """
         count = len(directions)
         geom = np.empty(count, np.int32)
         distance = np.empty(count)
@@ -50,8 +58,8 @@ class Scene:
             self.data,
             origin,
             np.ascontiguousarray(directions).ravel(),
-            None,
-            1,
+            None if group is None else np.eye(6, dtype=np.uint8)[group],
+            group is None,
             -1,
             geom,
             distance,

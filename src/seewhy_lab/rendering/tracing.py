@@ -53,17 +53,21 @@ def trace(
     *,
     shade: Shade,
     background: Background,
-    size: int,
+    asks: int | None = None,
 ) -> Array:
-    """The light that reaches each pixel, linear, shape (size, size, 3).
+    """The light that reaches each pixel, linear, shape (height, width, 3).
 
-    `lights` has shape (kinds, 16, 3): for each kind the points that its light comes from.
+    `lights` has shape (kinds, 16, 3): for each kind the points that its light comes from. `asks`
+    is how many of them a pixel asks; more where the picture is large, if it is left out.
     """
-    pixels = size * size
-    rows, columns = np.divmod(np.arange(pixels), size)
+    shape = camera.shape
+    pixels = shape[0] * shape[1]
+    if asks is None:
+        asks = 1 if max(shape) <= _SMALL else 4
+    rows, columns = np.divmod(np.arange(pixels), shape[1])
     coarse_rays = camera.rays(rows + 0.5, columns + 0.5)
     coarse = scene.look(camera.eye, coarse_rays)
-    on_edge = _on_edge(coarse.label.reshape(size, size))
+    on_edge = _on_edge(coarse.label.reshape(shape))
     pixel = np.repeat(on_edge, _SUBSAMPLES)
     within = np.tile(_ROTATED_GRID, (len(on_edge), 1))
     fine_rays = camera.rays(rows[pixel] + within[:, 0], columns[pixel] + within[:, 1])
@@ -71,7 +75,7 @@ def trace(
 
     # A ray on an edge takes its light from a pixel nearby that shows the same face; only those
     # that find none ask the lights themselves.
-    alike = lighting.nearest_alike(coarse.label, fine.label, pixel, size)
+    alike = lighting.nearest_alike(coarse.label, fine.label, pixel, shape)
     alone = np.flatnonzero(alike < 0)
     seen = lighting.visible(
         scene,
@@ -81,9 +85,9 @@ def trace(
             np.concatenate([rows, rows[pixel[alone]]]),
             np.concatenate([columns, columns[pixel[alone]]]),
         ),
-        asks=1 if size <= _SMALL else 4,
+        asks=asks,
     )
-    shared = lighting.share([values[:pixels] for values in seen], coarse.label, size)
+    shared = lighting.share([values[:pixels] for values in seen], coarse.label, shape)
 
     hits = coarse.followed_by(fine)
     hit = hits.geom >= 0
@@ -100,11 +104,11 @@ def trace(
     colour = np.zeros((len(hits.geom), 3), np.float32)
     colour[hit] = shade(hits.take(np.flatnonzero(hit)), shares)
     empty = hits.geom < 0
-    place = np.stack([columns, rows], axis=1) * (2.0 / size) - 1.0
+    place = np.stack([columns, rows], axis=1) * (2.0 / shape[1], 2.0 / shape[0]) - 1.0
     colour[empty] = background(
         np.concatenate([coarse_rays, fine_rays])[empty],
         np.concatenate([place, place[pixel]])[empty],
     )
     picture = colour[:pixels]
     picture[on_edge] = colour[pixels:].reshape(-1, _SUBSAMPLES, 3).mean(axis=1)
-    return picture.reshape(size, size, 3)
+    return picture.reshape(*shape, 3)

@@ -14,3 +14,5 @@
 #static right(thing, thing).
 #static in_front(thing, thing).
 #static behind(thing, thing).
+#static on(thing, thing).
+#static under(thing, thing).

@@ -144,7 +144,6 @@ def render(built: Built, view: View, *, size: int = 96) -> NDArray[np.uint8]:
         lights,
         shade=lambda hits, shares: _shade(built, hits, camera.eye, *shares),
         background=lambda rays, _: np.full((len(rays), 3), 0.7 * decor.fill + 0.25, np.float32),
-        size=size,
     )
     rng = np.random.default_rng([decor.texture, 1])
     return develop(light, rng, exposure=decor.exposure, vignette=decor.vignette, noise=decor.noise)

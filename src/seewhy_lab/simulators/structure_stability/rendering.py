@@ -45,6 +45,5 @@ def render(structure: Structure, view: View, *, size: int = 112) -> NDArray[np.u
         np.stack([lamp, sky]),
         shade=colour,
         background=lambda rays, across: background(rays, across, view),
-        size=size,
     )
     return develop(light, rng, exposure=view.exposure, vignette=view.vignette, noise=view.noise)

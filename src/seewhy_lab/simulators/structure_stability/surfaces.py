@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from seewhy_lab.rendering.edges import rounded
 from seewhy_lab.rendering.rays import Hits, Scene
 from seewhy_lab.rendering.texture import waves
 from seewhy_lab.rendering.vectors import Array, along, column, unit
@@ -48,23 +49,6 @@ def _albedo(hits: Hits, structure: Structure, view: View) -> Array:
     return np.asarray(np.clip(colour, 0.004, 0.95))
 
 
-def _rounded(hits: Hits, scene: Scene) -> Array:
-    """The normals, bent outwards near the edges of a geom as though these were rounded.
-
-    Of shape (3, n), as everything in `shade`: numpy is much faster along the last axis.
-    """
-    bent = np.empty((3, len(hits.geom)), np.float32)
-    for number, rotation in enumerate(scene.rotation.astype(np.float32)):
-        rows = np.flatnonzero(hits.geom == number)
-        at = hits.local.take(rows, 0).T
-        flat = rotation.T @ hits.normal.take(rows, 0).astype(np.float32).T
-        begins = scene.half[number][:, None] - _BEVEL
-        over = np.clip((np.abs(at) - begins) / _BEVEL, 0.0, 1.0)
-        over[hits.face[rows], np.arange(len(rows))] = 0.0
-        bent[:, rows] = rotation @ (flat + 0.9 * over * over * np.sign(at))
-    return unit(bent)
-
-
 def shade(
     hits: Hits,
     scene: Scene,
@@ -79,7 +63,7 @@ def shade(
 
     `lit` and `open_sky` say which part of the lamp and of the sky a point sees, shape (n,).
     """
-    normal = _rounded(hits, scene)
+    normal = rounded(hits, scene, radius=_BEVEL)
     point = np.ascontiguousarray(hits.point.T, dtype=np.float32)
     lamp = column(view.lamp)
     lamp_colour, table = column(view.lamp_colour), column(view.table)
