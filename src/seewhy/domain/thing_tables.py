@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated
 from typing import Literal as OneOf
 
@@ -33,6 +34,17 @@ def _with_two_things(text: str) -> str:
         raise ValueError(f"must have the slots {{0}} and {{1}} and no others, got '{text}'")
     return text
 
+
+def _beside_the_domain(name: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*\.onnx", name):
+        raise ValueError(
+            f"must be the name of an ONNX file in this folder, such as 'boxes.onnx', got '{name}'; "
+            "what lies elsewhere is not read, and Python functions are given in Python"
+        )
+    return name
+
+
+OnnxFile = Annotated[str, AfterValidator(_beside_the_domain)]
 
 RelationClause = Annotated[str, AfterValidator(_with_two_things)]
 
@@ -149,6 +161,11 @@ class ThingsTable(StrictTable):
     words: tuple[Word, ...] = Field(
         default=(),
         description="Other nouns, in the singular, for any of them, as in `object`.",
+    )
+    detector: OnnxFile | None = Field(
+        default=None,
+        description="An ONNX file of this folder that finds the boxes of things; where left out, "
+        "a detector is trained on annotated boxes.",
     )
     features: dict[Key, ThingFeatureTable] = Field(
         min_length=1,

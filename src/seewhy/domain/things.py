@@ -87,6 +87,8 @@ class Things:
         Nouns for any of them, in the singular, ``one`` first.
     features : mapping of str to ThingFeature
     relations : mapping of str to Relation
+    detector : str or None
+        A file of the domain's folder that finds them.
 
     Examples
     --------
@@ -105,6 +107,7 @@ class Things:
     words: tuple[str, ...]
     features: Mapping[str, ThingFeature]
     relations: Mapping[str, Relation]
+    detector: str | None = None
 
     @property
     def seen(self) -> tuple[str, ...]:
@@ -149,6 +152,7 @@ def read_things(table: ThingsTable, knowledge: Knowledge, place: KeyPlace) -> Th
         words=_each_once((table.one, *table.words)),
         features=MappingProxyType(features),
         relations=MappingProxyType(relations),
+        detector=table.detector,
     )
     _check_words(things, place)
     return things
