@@ -242,7 +242,7 @@ def value(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
     """Which value a feature has."""
     facts = [binding.meaning for binding in bindings if binding.role == "fact"]
     # "How wide?" names a value, and asks for the feature.
-    named = roles(bindings, "feature") or [stated(fact).feature for fact in facts]
+    named = roles(bindings, "feature") or [stated(fact).feature or "" for fact in facts]
     features = dict.fromkeys(named)
     if len(features) != 1:
         return
