@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -10,10 +11,24 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-__all__ = ["running_studio"]
+__all__ = ["chromium", "running_studio"]
 
 _LONGEST = 120.0
 """Seconds until it says where it is."""
+
+
+def chromium() -> str:
+    """Where the browser is.
+
+    Raises
+    ------
+    SystemExit
+        If there is none.
+    """
+    found = shutil.which("chromium") or shutil.which("chromium-browser")
+    if found is None:
+        raise SystemExit("there is no Chromium; apt install chromium")
+    return found
 
 
 @contextmanager
