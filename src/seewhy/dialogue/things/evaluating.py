@@ -19,6 +19,7 @@ from seewhy.dialogue.things.query import (
     Apart,
     Between,
     Compares,
+    Concluded,
     Condition,
     Description,
     Extreme,
@@ -27,6 +28,7 @@ from seewhy.dialogue.things.query import (
     Nearest,
     Not,
     Numbered,
+    PartOf,
     Ranked,
     Reference,
     References,
@@ -190,6 +192,15 @@ class Evaluation:
             case HasValue(feature=feature, value=value):
                 surely = self.with_value[feature].get(value, 0)
                 return Fits(surely, surely | self.without_value[feature])
+            case Concluded(conclusion=conclusion):
+                so = self.scene.concluded.get(conclusion, 0) & self.everything
+                # Of a scene of which nothing was concluded, nothing is known.
+                return Fits(so, self.everything if self.scene.conclusions is None else so)
+            case PartOf(group=group):
+                so = 0
+                for numbers in self.scene.groups.get(group, ()):
+                    so |= sum(1 << number for number in numbers)
+                return Fits(so, self.everything if self.scene.conclusions is None else so)
             case Related(to=to):
                 return self._toward(to, condition)
             case Shares(other=to) | Compares(than=to) | Is(one=to):

@@ -20,6 +20,7 @@ from seewhy.dialogue.things.query import (
     Nearest,
     Not,
     Numbered,
+    PartOf,
     Reference,
     References,
     Related,
@@ -221,6 +222,17 @@ def _numbered(bindings: Bindings) -> Bindings | None:
     return (Binding("one", Reference(described)),)
 
 
+def _counted_off(bindings: Bindings) -> Bindings | None:
+    """Things by their numbers: "cards 1, 2 and 3"."""
+    found = []
+    for number in meanings(bindings, "number"):
+        if not isinstance(number, int) or number < 1:
+            return None
+        described = Description(_conditions(bindings), Numbered(number))
+        found.append(Binding("one", Reference(described)))
+    return tuple(found)
+
+
 PHRASES: dict[str, Fold] = {
     "apart": _apart,
     "else": _apart,
@@ -235,6 +247,7 @@ PHRASES: dict[str, Fold] = {
     "kind_of": _kind_of,
     "standing": _standing,
     "stood_to": _stood_to,
+    "carried": _stood_to,
     "either_kind": _either_kind,
     "best": _picked,
     "verb_and_one": _standing,
@@ -247,6 +260,11 @@ PHRASES: dict[str, Fold] = {
     "amid": _between,
     "beyond": _beyond,
     "itself": _is,
+    "fallen_without": _standing,
+    "not_happening": _not,
+    "some_thing": lambda _: (Binding("described", Description()),),
+    "counted_off": _counted_off,
+    "in_group": lambda bindings: _condition(PartOf(str(_one(bindings, "group")))),
     "near": _nearest,
     "far": _farthest,
     "picked": _picked,
