@@ -47,10 +47,10 @@ def _read_atom(
 
     The same atoms come again in one answer set after another.
     """
-    text = str(atom)  # one call of clingo, where every argument would be two or three
-    if text.startswith("holds("):
+    if atom.match("holds", 1):
         return "holds", atom.arguments[0], None
-    plain = _PLAIN_INSTANCE.fullmatch(text)
+    # As text it is one call of clingo, where every argument would be two or three.
+    plain = _PLAIN_INSTANCE.fullmatch(str(atom))
     if plain is not None:
         kind, identifier, values = plain.groups()
         return kind, None, (identifier, tuple(values.removesuffix(",").split(",")))
