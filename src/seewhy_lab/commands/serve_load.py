@@ -19,7 +19,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-import httpx
+import httpx2
 import numpy as np
 
 from seewhy_lab.walk.serving import running_server
@@ -39,7 +39,7 @@ async def ask_all(
     statuses: Counter[int] = Counter()
     seconds: list[float] = []
 
-    async def ask(client: httpx.AsyncClient) -> None:
+    async def ask(client: httpx2.AsyncClient) -> None:
         for _ in left:
             began = time.perf_counter()
             try:
@@ -49,8 +49,8 @@ async def ask_all(
                 statuses[NO_ANSWER] += 1
             seconds.append(time.perf_counter() - began)
 
-    async with httpx.AsyncClient(
-        base_url=address, timeout=120, limits=httpx.Limits(max_connections=clients)
+    async with httpx2.AsyncClient(
+        base_url=address, timeout=120, limits=httpx2.Limits(max_connections=clients)
     ) as client:
         await asyncio.gather(*(ask(client) for _ in range(clients)))
     return statuses, seconds
