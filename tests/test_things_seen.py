@@ -250,3 +250,26 @@ def test_boxes_are_in_pixels_of_the_picture_however_large_it_is(agent: ThingAgen
     box = reading.things[0].box
     assert (box.left, box.top, box.right, box.bottom) == pytest.approx((800, 600, 1100, 900))
     assert reading.things[0].values["colour"].value == "red"
+
+
+def test_a_detector_of_ones_own_finds_what_it_finds(shelf: Shelf, tmp_path: Path) -> None:
+    domain = load_domain(shelf.domain)
+    dataset = Dataset.load(shelf.data, domain)
+    asked: list[object] = []
+
+    def find(picture: np.ndarray) -> tuple[list[list[int]], list[float]]:
+        asked.append(picture)
+        return [[0, 0, 60, 60], [70, 60, 150, 120]], [0.9, 0.8]
+
+    with pytest.MonkeyPatch.context() as patch:
+        _quickly(patch)
+        agent = ThingAgent(domain).fit(dataset, detector=find)
+    assert len(asked) == 36  # each picture to train on judges it
+    agent.save(tmp_path / "model")
+    picture = dataset.scenes[0].picture
+    again = ThingAgent.load(tmp_path / "model", detector=find)
+    assert len(again.trained.look([picture])[0].boxes) <= 2
+    alone = ThingAgent.load(tmp_path / "model")
+    with pytest.raises(ModelError, match="give it as detector=… in Python, or boxes with --things"):
+        alone.read(picture)
+    assert len(alone.read(picture, boxes=[BoundingBox(0, 0, 60, 60)]).things) == 1

@@ -21,12 +21,14 @@ from seewhy.knowledge.reasoner import Reasoner
 from seewhy.perception.backbones import EMBEDDED, NONE
 from seewhy.perception.course import Course
 from seewhy.perception.things.boxes import Boxes, in_order
+from seewhy.perception.things.given_detector import OnnxDetector, as_detector
 
 if TYPE_CHECKING:
     from seewhy.agent.things.thing_seeing import Picture
     from seewhy.data.dataset import Dataset
     from seewhy.data.thing import BoundingBox
     from seewhy.perception.things.detector import Detector
+    from seewhy.perception.things.given_detector import Find
 
 __all__ = ["ThingAgent"]
 
@@ -107,7 +109,7 @@ class ThingAgent:
         self,
         dataset: Dataset,
         *,
-        detector: Detector | None = None,
+        detector: Detector | Find | None = None,
         checkpoints: Path | None = None,
         on_progress: Callable[[Any], None] | None = None,
     ) -> Self:
@@ -117,8 +119,10 @@ class ThingAgent:
         ----------
         dataset : Dataset
             With ``things.csv``.
-        detector : Detector, optional
-            One's own, which finds the boxes; without it, one is trained on those annotated.
+        detector : Detector or callable, optional
+            One's own, which finds the boxes (see
+            :data:`~seewhy.perception.things.given_detector.Find`); without it the domain's, and
+            where it has none, one that is trained on annotated boxes.
         checkpoints, on_progress : optional
             How the training is run; see :class:`~seewhy.perception.course.Course`.
 
@@ -131,10 +135,18 @@ class ThingAgent:
 
         course = Course(checkpoints=checkpoints, on_progress=on_progress)
         scenes, self.seeing = fitted_seeing(
-            dataset, self.settings, detector=detector, course=course
+            dataset,
+            self.settings,
+            detector=self._detector() if detector is None else as_detector(detector),
+            course=course,
         )
         self.trained_on = frozenset(scenes.picture_digests())
         return self
+
+    def _detector(self) -> Detector | None:
+        """The domain's own detector, where it names one."""
+        name = self.things.detector
+        return None if name is None else OnnxDetector(self.domain.folder / name)
 
     # Reading ----------------------------------------------------------------------------------
 
@@ -234,16 +246,24 @@ class ThingAgent:
 
     @classmethod
     def load(
-        cls, folder: Path | str, *, device: str = "auto", detector: Detector | None = None
+        cls, folder: Path | str, *, device: str = "auto", detector: Detector | Find | None = None
     ) -> Self:
         """Read a model.
+
+        Parameters
+        ----------
+        folder : Path or str
+        device : str
+        detector : Detector or callable, optional
+            One's own, where the model was trained with it.
 
         Raises
         ------
         ModelError
             If the folder is incomplete, was edited, or was made by another version.
         """
-        model = read_thing_model(Path(folder), device=device, detector=detector)
+        own = None if detector is None else as_detector(detector)
+        model = read_thing_model(Path(folder), device=device, detector=own)
         seeing = model.seeing
         agent = cls(
             seeing.domain, seed=model.seed, eyes=seeing.eyes.eyes.backbone.name, device=device

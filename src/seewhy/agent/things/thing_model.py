@@ -6,7 +6,7 @@ import shutil
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -27,11 +27,13 @@ from seewhy.files.json_file import Strict
 from seewhy.perception.domain_options import seen_values
 from seewhy.perception.eyes import Eyes
 from seewhy.perception.things.detector import CentreDetector, Detector, Trust
+from seewhy.perception.things.given_detector import NoDetector, OnnxDetector
 from seewhy.perception.things.thing_eyes import ThingEyes
 
 __all__ = ["ThingModel", "read_thing_model", "write_thing_model"]
 
 _THINGS, _WHOLE = "things", "whole"
+_ONNX = "detector.onnx"
 
 Digest = Annotated[str, Field(pattern=r"^[0-9a-f]{1,128}$")]
 
@@ -61,7 +63,7 @@ class ThingManifest(Strict):
     seewhy: str
     domain: str
     seed: Annotated[int, Field(ge=0, lt=2**63)]
-    detector: Annotated[str, Field(pattern="^(centre map|given)$")]
+    detector: Literal["centre map", "onnx", "given"]
     trust: Trust
     whole: tuple[str, ...]
     trained_on: frozenset[Digest]
@@ -86,9 +88,13 @@ def write_thing_model(model: ThingModel, folder: Path) -> None:
         for part in (_THINGS, _WHOLE)[: 2 if seeing.whole else 1]:
             (temporary / part).mkdir()
         seeing.eyes.save(temporary / _THINGS)
-        found_here = isinstance(seeing.detector, CentreDetector)
+        kind = "given"
         if isinstance(seeing.detector, CentreDetector):
+            kind = "centre map"
             seeing.detector.save(temporary / _THINGS)
+        elif isinstance(seeing.detector, OnnxDetector):
+            kind = "onnx"
+            shutil.copyfile(seeing.detector.file, temporary / _THINGS / _ONNX)
         if seeing.whole is not None:
             seeing.whole.save(temporary / _WHOLE)
         fields: dict[str, Any] = {
@@ -96,7 +102,7 @@ def write_thing_model(model: ThingModel, folder: Path) -> None:
             "seewhy": version("seewhy"),
             "domain": seeing.domain.name,
             "seed": model.seed,
-            "detector": "centre map" if found_here else "given",
+            "detector": kind,
             "trust": seeing.trust.model_dump(mode="json"),
             "whole": [] if seeing.whole is None else list(seeing.whole.values),
             "trained_on": sorted(model.trained_on),
@@ -115,12 +121,12 @@ def read_thing_model(
     device : str
         Where eyes compute.
     detector : Detector, optional
-        Of one's own; needed where the model was trained with one.
+        Of one's own; needed to find things where the model was trained with a function.
 
     Raises
     ------
     ModelError
-        If the folder is missing, incomplete, edited, or of another format, or needs a detector.
+        If the folder is missing, incomplete, edited, or of another format.
     """
     settle_folder(folder)
     manifest = read_manifest(folder, ThingManifest, number=THINGS_FORMAT)
@@ -146,29 +152,31 @@ def read_thing_model(
             f"{folder}: what sees knows other relations than the model's domain; train it again"
         )
     if detector is None:
-        if manifest.detector == "given":
-            raise ModelError(
-                f"{folder}: the model was trained with a detector of its own; give it as "
-                "detector=… in Python, or boxes with --things"
-            )
-        detector = CentreDetector.load(folder / _THINGS)
+        detector = _detector(folder / _THINGS, manifest.detector)
     seeing = ThingSeeing(domain, eyes, detector, manifest.trust, whole)
     return ThingModel(seeing, manifest.seed, manifest.trained_on)
 
 
+def _detector(folder: Path, kind: str) -> Detector:
+    if kind == "onnx":
+        return OnnxDetector(folder / _ONNX)
+    return CentreDetector.load(folder) if kind == "centre map" else NoDetector()
+
+
 def _files(manifest: ThingManifest) -> tuple[str, ...]:
     """The files that such a model has."""
-    found_here = manifest.detector == "centre map"
+    kind = manifest.detector
     parts = [
         *(f"domain/{name}" for name in FILES),
-        *(f"{_THINGS}/{name}.{kind}" for name in ("eyes", "things") for kind in _KINDS),
-        *(f"{_THINGS}/detector.{kind}" for kind in _KINDS if found_here),
-        *(f"{_WHOLE}/eyes.{kind}" for kind in _KINDS if manifest.whole),
+        *(f"{_THINGS}/{name}.{ending}" for name in ("eyes", "things") for ending in _ENDINGS),
+        *(f"{_THINGS}/detector.{ending}" for ending in _ENDINGS if kind == "centre map"),
+        *([f"{_THINGS}/{_ONNX}"] if kind == "onnx" else []),
+        *(f"{_WHOLE}/eyes.{ending}" for ending in _ENDINGS if manifest.whole),
     ]
     return tuple(parts)
 
 
-_KINDS = ("json", "safetensors")
+_ENDINGS = ("json", "safetensors")
 
 
 def _domain(folder: Path, manifest: ThingManifest) -> Domain:
