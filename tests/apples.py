@@ -7,6 +7,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from conftest import write_domain
 from seewhy.agent.agent import Agent
 from seewhy.domain.domain import Domain
 from seewhy.knowledge.scene import FeatureVector
@@ -93,11 +94,7 @@ VECTORS: tuple[FeatureVector, ...] = tuple(
 
 def write_apples(folder: Path, *, knowledge: str = KNOWLEDGE) -> Path:
     """Write the domain; line ends stay as ``knowledge`` has them."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "domain.toml").write_text(DOMAIN, encoding="utf-8")
-    (folder / "knowledge.al").write_bytes(knowledge.encode())
-    (folder / "questions.toml").write_text(QUESTIONS, encoding="utf-8")
-    return folder
+    return write_domain(folder, domain=DOMAIN, knowledge=knowledge, questions=QUESTIONS)
 
 
 def write_apple_pictures(folder: Path, *, times: int = 2) -> Path:

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pytest
 
@@ -38,6 +38,9 @@ from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception import fitting_extractor, fitting_eyes, parallel
 from seewhy.perception.course import Course
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
 
 DOMAIN = """\
 [domain]
@@ -155,11 +158,14 @@ def draw_tile(colour: str, is_round: str, number: int, *, size: int = 64) -> Ima
 
 
 def write_domain(folder: Path, **texts: str) -> Path:
-    """Write the domain of tiles; ``texts`` replace its files (without their endings)."""
+    """Write the domain of tiles; ``texts`` replace its files (without their endings).
+
+    Line ends stay as the texts have them.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     files = {"domain": DOMAIN, "knowledge": KNOWLEDGE, "questions": QUESTIONS, **texts}
     for name, ending in (("domain", "toml"), ("knowledge", "al"), ("questions", "toml")):
-        (folder / f"{name}.{ending}").write_text(files[name], encoding="utf-8")
+        (folder / f"{name}.{ending}").write_text(files[name], encoding="utf-8", newline="")
     return folder
 
 
@@ -313,3 +319,32 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
         return Result(exit_.value.code or 0, captured.out, captured.err)  # type: ignore[arg-type]
 
     return run
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Browser]:
+    from playwright.sync_api import sync_playwright
+
+    from studio_browsing import CHROMIUM
+
+    with sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def page(chromium: Browser) -> Iterator[Page]:
+    context = chromium.new_context(viewport={"width": 1280, "height": 800})
+    page = context.new_page()
+    page.set_default_timeout(60_000)
+    problems: list[str] = []
+    page.on("console", lambda said: problems.append(said.text) if said.type == "error" else None)
+    page.on("pageerror", lambda problem: problems.append(str(problem)))
+    yield page
+    context.close()
+    # A refused script or style (Content-Security-Policy) is an error of the console; so is an
+    # answer that says what was wrong with a form, which is meant. The page may ask for news once
+    # more when the server has ended.
+    meant = ("422", "ERR_CONNECTION_REFUSED")
+    assert [said for said in problems if not any(word in said for word in meant)] == []

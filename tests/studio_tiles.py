@@ -10,11 +10,9 @@ from fastapi.testclient import TestClient
 
 from seewhy.studio.project import Project
 from seewhy.studio.site import site
-from studio_builder import RULES, csrf_of, embed
+from studio_builder import HTMX, RULES, csrf_of, embed
 
 __all__ = ["HTMX", "csrf_of", "keys_of", "studio_of", "text_of", "tiles_project"]
-
-HTMX = {"HX-Request": "true"}
 
 
 def tiles_project(folder: Path, *, data: Path, domain: Path, model: Path | None) -> Path:

@@ -8,7 +8,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from exports_builder import draw, draw_all, imported, notes_of, pack, rows_of, write
@@ -225,12 +225,13 @@ def test_spellings_of_one_class_become_one(tmp_path: Path) -> None:
 
 
 @given(st.text())
+@example("IF")
 def test_every_name_can_stand_in_the_knowledge(text: str) -> None:
     value, feature = valid_name(text), predicate_name(text)
     knowledge = read_knowledge(
         f"#sort shown. #sort values_of = {{{value}, another}}. "
-        f"#static {feature}_(shown, values_of). #static known_as(shown). "
-        f"known_as(S) if {feature}_(S, {value})."
+        f"#static {feature}(shown, values_of). #static known_as(shown). "
+        f"known_as(S) if {feature}(S, {value})."
     )
     assert value in knowledge.signature.members("values_of")
     assert valid_name(value) == value

@@ -2,42 +2,26 @@
 
 from __future__ import annotations
 
-import importlib.util
-import json
-import shutil
-import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import pytest
-import uvicorn
 
-from seewhy.studio.access import AccessRules
 from seewhy.studio.pages import PAGES
 from seewhy.studio.project import Project
-from seewhy.studio.serving import bound_socket
-from seewhy.studio.site import site
 from seewhy_lab.walk.labelling import label_until
 from seewhy_lab.walk.person import Person
 from seewhy_lab.walk.truth import Truth
-from studio_builder import FRUIT, embed, pictures, with_domain
+from studio_browsing import NEEDS_CHROMIUM, hindrances, served
+from studio_builder import FRUIT, pictures, with_domain
 from studio_tiles import tiles_project
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-AXE = Path(__file__).parent / "axe" / "axe.min.js"
-
-pytestmark = [
-    pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium (apt install chromium)"),
-    pytest.mark.skipif(
-        importlib.util.find_spec("playwright") is None,
-        reason="playwright is not installed (pip install 'seewhy[dev]')",
-    ),
-]
+pytestmark = NEEDS_CHROMIUM
 
 PATHS = [
     *(page.path for page in PAGES),
@@ -48,16 +32,6 @@ PATHS = [
 ]
 
 
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Browser]:
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as started:
-        browser = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield browser
-        browser.close()
-
-
 @pytest.fixture
 def project(tmp_path: Path) -> Project:
     return Project(with_domain(pictures(tmp_path / "fruit"), FRUIT))
@@ -66,36 +40,6 @@ def project(tmp_path: Path) -> Project:
 @pytest.fixture
 def address(project: Project) -> Iterator[str]:
     yield from served(project)
-
-
-def served(project: Project) -> Iterator[str]:
-    """Show a project from a thread; yield its address."""
-    listening = bound_socket("127.0.0.1", 0)
-    rules = AccessRules(frozenset({"127.0.0.1"}), "", 10_000_000)
-    config = uvicorn.Config(site(project, rules=rules, embed=embed), log_level="error")
-    server = uvicorn.Server(config)
-    thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]}, daemon=True)
-    thread.start()
-    yield f"http://127.0.0.1:{listening.getsockname()[1]}"
-    server.should_exit = True
-    thread.join(timeout=20)
-
-
-@pytest.fixture
-def page(chromium: Browser) -> Iterator[Page]:
-    context = chromium.new_context(viewport={"width": 1280, "height": 800})
-    page = context.new_page()
-    page.set_default_timeout(60_000)
-    problems: list[str] = []
-    page.on("console", lambda said: problems.append(said.text) if said.type == "error" else None)
-    page.on("pageerror", lambda problem: problems.append(str(problem)))
-    yield page
-    context.close()
-    # A refused script or style (Content-Security-Policy) is an error of the console; so is an
-    # answer that says what was wrong with a form, which is meant. The page may ask for news once
-    # more when the server has ended.
-    meant = ("422", "ERR_CONNECTION_REFUSED")
-    assert [said for said in problems if not any(word in said for word in meant)] == []
 
 
 def until(project: Project, expected: dict[str, dict[str, str]]) -> None:
@@ -239,19 +183,6 @@ def test_everybody_can_use_every_page(chromium: Browser, project: Project, schem
                     found[f"{path} at {width}"] = problems
             context.close()
     assert found == {}
-
-
-def hindrances(shown: Page, width: int) -> list[str]:
-    """What keeps somebody from using a page: by axe-core, and that it is too wide."""
-    shown.add_script_tag(path=str(AXE))
-    judged: dict[str, Any] = shown.evaluate("axe.run()")
-    problems = [
-        f"{problem['id']}: {json.dumps(problem['nodes'][0]['html'])}"
-        for problem in judged["violations"]
-    ]
-    if shown.evaluate("document.documentElement.scrollWidth") > width:
-        problems.append(f"wider than {width} pixels")
-    return problems
 
 
 @pytest.mark.parametrize(("scheme", "width"), [("light", 1280), ("dark", 390)])

@@ -10,12 +10,10 @@ import pytest
 from fastapi.testclient import TestClient
 
 from seewhy.data.dataset import Dataset
+from seewhy.revision.edit import Edit
 from seewhy.studio.project import Project
-from seewhy.studio.proposing import Proposer
 from seewhy.studio.site import site
-from studio_builder import FRUIT, RULES, TABLED, csrf_of, embed, pictures, with_domain
-
-HTMX = {"HX-Request": "true"}
+from studio_builder import FRUIT, HTMX, RULES, TABLED, Browser, embed, pictures, with_domain
 
 
 @pytest.fixture
@@ -26,31 +24,6 @@ def project(tmp_path: Path) -> Project:
 @pytest.fixture
 def tabled(tmp_path: Path) -> Project:
     return Project(with_domain(pictures(tmp_path / "fruit"), TABLED))
-
-
-class Browser:
-    """A client that knows its session's text, and waits for the proposals."""
-
-    def __init__(self, client: TestClient) -> None:
-        self.client = client
-        self.csrf = csrf_of(client)
-
-    @property
-    def proposer(self) -> Proposer:
-        return self.client.app.state.studio.proposer  # type: ignore[attr-defined,no-any-return]
-
-    def post(self, path: str, *, part: bool = True, **fields: object) -> str:
-        answered = self.client.post(
-            path, data={"csrf": self.csrf, **fields}, headers=HTMX if part else {}
-        )
-        assert answered.status_code == 200, answered.text
-        assert self.proposer.settle(120)
-        return answered.text
-
-    def get(self, path: str, *, part: bool = False) -> str:
-        answered = self.client.get(path, headers=HTMX if part else {})
-        assert answered.status_code == 200
-        return answered.text
 
 
 @pytest.fixture
@@ -138,6 +111,28 @@ def test_undo_has_no_end_and_can_be_undone(browser: Browser, project: Project) -
         browser.post("/label/redo")
         assert project.labels().values("b.png") == expected
     assert "nothing was taken back" in browser.post("/label/redo")
+
+
+def test_a_revision_of_the_rules_is_taken_back_by_the_same_key(
+    browser: Browser, project: Project
+) -> None:
+    knowledge = project.folder / "fruit" / "knowledge.al"
+    before = knowledge.read_text()
+    browser.post("/label/set", picture="a.png", choice="colour=red")
+    project.revise([Edit("knowledge.al", 0, "", "% said by Ada\n")], why="a remark", who="Ada")
+    text = browser.post("/label/undo")
+    assert "taken back: knowledge.al: a remark" in text
+    assert knowledge.read_text() == before
+    assert "brought back: knowledge.al: a remark" in browser.post("/label/redo")
+    assert knowledge.read_text() == "% said by Ada\n" + before
+    browser.post("/label/undo")
+    browser.post("/label/undo")
+    assert rows(project) == []
+    # What another program wrote is not undone by a key.
+    knowledge.write_text("% by an editor\n" + before)
+    project.refresh()
+    assert "nothing is left to take back" in browser.post("/label/undo")
+    assert knowledge.read_text().startswith("% by an editor")
 
 
 def test_after_a_new_label_nothing_is_brought_back(browser: Browser, project: Project) -> None:

@@ -10,6 +10,7 @@ import pytest
 from fastapi.testclient import TestClient
 
 from conftest import Run
+from lamp_domain import write_lamps
 from seewhy.studio.access import AccessRules
 from seewhy.studio.jobs import JOB, jobs_of
 from seewhy.studio.project import Project
@@ -17,52 +18,10 @@ from seewhy.studio.robot_runs import run_of
 from seewhy.studio.site import site
 from studio_builder import RULES, csrf_of, embed, pictures
 
-LAMPS = """\
-#sort lamp = {desk, door}.
-#fluent basic lit(lamp).
-#fluent basic broken(lamp).
-#action press(lamp).
-press(L) causes lit(L).
-impossible press(L) if broken(L).
-"""
-PLANNING = """\
-[planning]
-name = "lamps"
-title = "Lamps"
-
-[things]
-desk = "the desk lamp"
-door = "the door lamp"
-
-[fluents.lit]
-say = "{0} is lit"
-deny = "{0} is dark"
-
-[fluents.broken]
-say = "{0} is broken"
-deny = "{0} is whole"
-
-[actions.press]
-do = "press {0}"
-did = "pressed {0}"
-
-[[sensing]]
-literal = "lit(L)"
-where = "lamp(L)"
-
-[[sensing]]
-literal = "broken(L)"
-where = "lamp(L)"
-"""
-
 
 @pytest.fixture
 def lamps(tmp_path: Path) -> Path:
-    folder = tmp_path / "lamps"
-    folder.mkdir()
-    (folder / "knowledge.al").write_text(LAMPS)
-    (folder / "planning.toml").write_text(PLANNING)
-    return folder
+    return write_lamps(tmp_path / "lamps")
 
 
 @pytest.fixture

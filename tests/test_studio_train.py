@@ -6,6 +6,7 @@ import os
 import signal
 import time
 from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -13,11 +14,13 @@ from fastapi.testclient import TestClient
 
 from seewhy.errors import SeeWhyError
 from seewhy.studio import jobs as jobs_module
-from seewhy.studio.jobs import FAILED, FINISHED, INTERRUPTED, JOB, Job, Jobs, jobs_of
+from seewhy.studio.jobs import FAILED, FINISHED, INTERRUPTED, JOB, RUNNING, Job, Jobs, jobs_of
 from seewhy.studio.keeping_back import keep_back, kept, place, suggested_pattern
+from seewhy.studio.pages import train
 from seewhy.studio.processes import began
 from seewhy.studio.project import Project
 from seewhy.studio.site import site
+from seewhy.studio.time_left import time_left
 from studio_builder import RULES, csrf_of, embed, pictures, with_domain
 
 
@@ -208,6 +211,63 @@ def test_a_quarter_of_each_class_is_kept_and_what_comes_later_too(project: Proje
     assert sum(kept(labels).values()) == 12
     assert before.items() <= dict(labels.rows).items()
     assert len(project.dataset().of_split("train")) == kept(labels)["train"]
+
+
+def trained(began: str, ended: str = "", **asked: object) -> Job:
+    """A training of the 1st of January, which ended well if it ended."""
+    state = FINISHED if ended else RUNNING
+    ends = f"2026-01-01T{ended}:00.000+00:00" if ended else ""
+    starts = f"2026-01-01T{began}:00.000+00:00"
+    return Job(1, "train", state, "", "Ada", starts, ends, asked, Path())
+
+
+@pytest.mark.parametrize(
+    ("now", "before", "said"),
+    [
+        (trained("11:00", pictures=60), [], ""),
+        (trained("11:00", pictures=60), [trained("10:00", "10:02")], ""),
+        (trained("11:00"), [trained("10:00", "10:02", pictures=60)], ""),
+        (trained("11:00", pictures=60), [trained("10:00", "10:00", pictures=60)], ""),
+        (
+            trained("11:00", pictures=60, went_on=True),
+            [trained("10:00", "10:02", pictures=60)],
+            "",
+        ),
+        (
+            trained("11:00", pictures=60),
+            [
+                trained("10:30", "10:31", pictures=60, went_on=True),
+                trained("10:00", "10:04", pictures=120),
+            ],
+            "About 1:00 left in all: the last training took 4:00 for 120 pictures",
+        ),
+        (
+            trained("10:00", pictures=60),
+            [trained("09:00", "09:02", pictures=60)],
+            "It takes longer than was to be expected",
+        ),
+    ],
+)
+def test_how_long_all_of_it_takes_is_told_where_it_is_known(
+    now: Job, before: list[Job], said: str
+) -> None:
+    told = time_left(now, before, now=datetime(2026, 1, 1, 11, 1, tzinfo=UTC))
+    assert told.startswith(said)
+    assert bool(told) == bool(said)
+
+
+def test_the_page_says_how_long_all_of_it_takes(
+    client: TestClient, project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(train, "time_left", lambda job, before: f"{job.state}, {len(before)} more")
+    for _ in range(2):
+        jobs_of(project).start("train", program(project, WAITS), [], who="Ada")
+        until(lambda: says(project, "waits"))
+        said = client.get("/train/state").text
+        assert said.count("running, ") == 1
+        jobs_of(project).stop("train")
+        ended(project)
+    assert "running, 1 more" in said
 
 
 def test_without_labels_the_page_says_what_is_missing(client: TestClient) -> None:

@@ -67,3 +67,19 @@ KnownShare = Annotated[
         help="The share of pictures like those of training that is answered; 1: every picture is.",
     ),
 ]
+Host = Annotated[
+    str, typer.Option("--host", help="The address to listen at; 0.0.0.0: all of the machine.")
+]
+Port = Annotated[int, typer.Option("--port", min=0, max=65535, help="0: any that is free.")]
+Token = Annotated[
+    str | None,
+    typer.Option(
+        "--token",
+        envvar="SEEWHY_TOKEN",
+        help="What who asks has to send; made up where others than this machine may ask.",
+    ),
+]
+AllowHost = Annotated[
+    list[str] | None,
+    typer.Option("--allow-host", help="A name by which the server is called, too."),
+]

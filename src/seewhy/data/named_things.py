@@ -14,7 +14,7 @@ from seewhy.errors import DomainError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["named_scene"]
+__all__ = ["named_scene", "supposed"]
 
 
 def named_scene(
@@ -127,17 +127,19 @@ def supposed(
     Raises
     ------
     DomainError, DatasetError
-        If one is no such assignment, or names what there is not.
+        As :func:`named_scene` does, and if a thing is taken away that is not there.
 
     Examples
     --------
     >>> from seewhy.domain.domain import load_domain
-    >>> domain = load_domain("tabletop")
-    >>> vector, _ = named_scene(domain, ["cup.colour=red", "left=cup,book"])
-    >>> other = supposed(domain, vector, ["cup", "book"], ["cup.colour=blue", "-thing=book"])
-    >>> shown = dict(zip(domain.schema.features, other))
-    >>> shown["colour(thing1)"], shown["thing(thing2)"], shown["left(thing1,thing2)"]
-    ('blue', 'no', None)
+    >>> tabletop = load_domain("tabletop")
+    >>> cup, _ = named_scene(tabletop, ["cup.colour=red"])
+    >>> painted = supposed(tabletop, cup, ["cup"], ["cup.colour=blue"])
+    >>> dict(zip(tabletop.schema.features, painted))["colour(thing1)"]
+    'blue'
+    >>> gone = supposed(tabletop, cup, ["cup"], ["-thing=cup"])
+    >>> dict(zip(tabletop.schema.features, gone))["thing(thing1)"]
+    'no'
     """
     things, schema = domain.things, domain.schema
     assert things is not None, "the domain has no things"

@@ -13,7 +13,7 @@ from seewhy.data.thing import RELATIONS, THINGS
 from seewhy.data.thing_tables import cells_of_relations, cells_of_things
 from seewhy.files.whole_files import write_whole
 
-__all__ = ["write_tables"]
+__all__ = ["text_of_table", "write_tables"]
 
 
 def write_tables(dataset: Dataset, folder: Path | str | None = None) -> None:
@@ -49,10 +49,17 @@ def write_tables(dataset: Dataset, folder: Path | str | None = None) -> None:
         tables[THINGS] = cells_of_things(named, dataset.domain.things)
     # That of the pictures comes last: where it stands, the others do.
     for name, cells in reversed(tables.items()):
-        write_whole(target / name, _text(cells))
+        write_whole(target / name, text_of_table(cells))
 
 
-def _text(cells: Mapping[str, Sequence[str | None]]) -> str:
+def text_of_table(cells: Mapping[str, Sequence[str | None]]) -> str:
+    """The text of a table: column → its cells, None for an empty one.
+
+    Examples
+    --------
+    >>> text_of_table({"image": ["a.png"], "thing": [None]})
+    'image,thing\\na.png,\\n'
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(cells)

@@ -39,7 +39,7 @@ def splits(labels: Labels, groups: Mapping[str, str] | None = None) -> dict[str,
 
     Examples
     --------
-    >>> from seewhy.studio.labels import Label
+    >>> from seewhy.studio.label import Label
     >>> said = {f"{n}.png": {"class": Label("good", "Ada", "", "typed", n)} for n in range(8)}
     >>> sorted(splits(Labels(said)).values())
     ['test', 'test', 'train', 'train', 'train', 'train', 'train', 'train']

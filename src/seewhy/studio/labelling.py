@@ -10,9 +10,11 @@ from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.errors import SeeWhyError
 from seewhy.labelling.following import Following
+from seewhy.studio.drawn_things import BOXES
 from seewhy.studio.labels import LABEL, REASONS
 from seewhy.studio.project import Project
 from seewhy.studio.record import UNDO, Entry
+from seewhy.studio.writing import FILES
 from seewhy.text.nearest import did_you_mean
 
 __all__ = [
@@ -25,8 +27,8 @@ __all__ = [
     "take_back_last",
 ]
 
-KINDS = (LABEL, REASONS, "boxes")
-"""Kinds of entries that the page Label makes, and takes back."""
+KINDS = (LABEL, REASONS, BOXES)
+"""Kinds of entries that the page Label makes, and takes back; revisions of rules, too."""
 
 _following: WeakKeyDictionary[Project, Following] = WeakKeyDictionary()
 
@@ -99,24 +101,33 @@ def reasons_with(project: Project, picture: str, feature: str) -> list[str]:
 
 
 def take_back_last(project: Project, *, who: str) -> Entry | None:
-    """Take back the last thing that was done to labels; None where nothing is left."""
-    entries = project.record.holding(*KINDS)
-    if not entries:
-        return None
-    project.take_back(entries[-1].number, who=who)
-    return entries[-1]
+    """Take back the last thing that was done to labels or rules; None where nothing is left.
+
+    Raises
+    ------
+    SeeWhyError
+        If something that came later builds on it.
+    """
+    entry = next(filter(_is_act, reversed(project.record.holding())), None)
+    if entry is not None:
+        project.take_back(entry.number, who=who)
+    return entry
 
 
 def last_undone(project: Project) -> Entry | None:
-    """The last undoing of what was done to labels, if nothing was done to them since."""
+    """The last undoing of what was done to labels or rules, if nothing was done to them since."""
     by_number = {entry.number: entry for entry in project.record.all()}
-    for entry in reversed(project.record.holding(*KINDS, UNDO)):
-        if entry.kind != UNDO:
+    for entry in reversed(project.record.holding(*KINDS, FILES, UNDO)):
+        if _is_act(entry):
             return None
-        undone = by_number[entry.takes_back or 0]
-        if undone.kind in KINDS:
+        if entry.kind == UNDO and _is_act(by_number[entry.takes_back or 0]):
             return entry
     return None
+
+
+def _is_act(entry: Entry) -> bool:
+    """Whether somebody did it here; what another program wrote has whole files."""
+    return entry.kind in KINDS or (entry.kind == FILES and "files" not in entry.body)
 
 
 def bring_back(project: Project, undoing: Entry, *, who: str) -> Entry:
@@ -127,9 +138,8 @@ def bring_back(project: Project, undoing: Entry, *, who: str) -> Entry:
 
 def pictures_of(entry: Entry) -> tuple[str, ...]:
     """The pictures that an entry is about."""
-    return tuple(
-        picture for key in ("values", "reasons", "boxes") for picture in entry.body.get(key, ())
-    )
+    keys = ("values", "reasons", "boxes", "related")
+    return tuple(dict.fromkeys(name for key in keys for name in entry.body.get(key, ())))
 
 
 def _following_of(project: Project) -> Following:

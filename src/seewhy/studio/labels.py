@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
+from seewhy.studio.drawn_things import BOXES, PictureThings, fold_boxes
+from seewhy.studio.label import Label
 from seewhy.studio.record import Entry
 
-__all__ = ["LABEL", "REASONS", "ROWS", "Label", "Labels", "labels_of"]
+__all__ = ["LABEL", "REASONS", "ROWS", "Labels", "labels_of"]
 
 LABEL = "label"
 """Body: ``values``, picture → feature or ``class`` → value (None: nobody knows), and ``how``.
@@ -23,29 +27,6 @@ ROWS = "rows"
 
 
 @dataclass(frozen=True)
-class Label:
-    """The value of a feature, or the class, of one picture.
-
-    Attributes
-    ----------
-    value : str
-    who, at : str
-        By whom and when, as the record has it.
-    how : str
-        ``typed``, ``confirmed`` (it was proposed), ``sheet`` (many at once), ``follows`` (from the
-        class), ``corrected`` (an answer was wrong), or ``table`` (it stood in scenes.csv).
-    entry : int
-        The number of the record's entry.
-    """
-
-    value: str
-    who: str
-    at: str
-    how: str
-    entry: int
-
-
-@dataclass(frozen=True)
 class Labels:
     """All that is annotated.
 
@@ -57,11 +38,14 @@ class Labels:
         Picture → features.
     rows : mapping of str to mapping
         Picture → ``split`` and ``group``.
+    drawn : mapping of str to PictureThings
+        Picture → the things in it.
     """
 
     of: Mapping[str, Mapping[str, Label]] = field(default_factory=dict)
     reasons: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     rows: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    drawn: Mapping[str, PictureThings] = field(default_factory=dict)
 
     def value(self, picture: str, name: str) -> str | None:
         """The value of a feature, or the class, of a picture; None where nobody said it."""
@@ -71,6 +55,27 @@ class Labels:
     def values(self, picture: str) -> dict[str, str]:
         """Feature or ``class`` → value, of those that somebody said."""
         return {name: label.value for name, label in self.of.get(picture, {}).items()}
+
+    def drawn_in(self, picture: str) -> PictureThings:
+        """The things in a picture."""
+        return self.drawn.get(picture, PictureThings())
+
+    def is_complete(self, picture: str, domain: Domain) -> bool:
+        """Whether everything is said of a picture that the domain asks for.
+
+        Of a domain with things some have to be drawn, and each needs all its features.
+        """
+        said = self.of.get(picture, {})
+        if not (
+            all(name in said for name in domain.features) and (CLASS in said or not domain.classes)
+        ):
+            return False
+        if domain.things is None:
+            return True
+        things = self.drawn_in(picture).things.values()
+        return bool(things) and all(
+            domain.things.features.keys() <= thing.values.keys() for thing in things
+        )
 
 
 def labels_of(entries: Iterable[Entry]) -> Labels:
@@ -85,6 +90,7 @@ def labels_of(entries: Iterable[Entry]) -> Labels:
     of: dict[str, dict[str, Label]] = {}
     reasons: dict[str, tuple[str, ...]] = {}
     rows: dict[str, Mapping[str, str]] = {}
+    drawn: dict[str, PictureThings] = {}
     for entry in entries:
         if entry.kind == LABEL:
             for key, how in (("values", entry.body["how"]), ("follows", "follows")):
@@ -96,7 +102,9 @@ def labels_of(entries: Iterable[Entry]) -> Labels:
             }
         elif entry.kind == ROWS:
             rows |= entry.body["rows"]
-    return Labels(of, reasons, rows)
+        elif entry.kind == BOXES:
+            drawn = fold_boxes(drawn, entry)
+    return Labels(of, reasons, rows, drawn)
 
 
 def _say(found: dict[str, Label], values: Mapping[str, str | None], entry: Entry, how: str) -> None:

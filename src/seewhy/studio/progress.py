@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from seewhy.domain.tables import CLASS
+from seewhy.domain.things import Things
 from seewhy.evaluation.advice import Shown, few_pictures
 from seewhy.evaluation.share import Share
+from seewhy.studio.drawn_things import PictureThings, counted
 from seewhy.studio.project import Project
 from seewhy.studio.proposing import Proposals
 
@@ -49,21 +52,27 @@ class Progress:
     ----------
     pictures, complete : int
         All pictures, and those of which everything is said.
+    things : int
+        Things that are drawn.
     questions : tuple of QuestionProgress
+        Of pictures.
+    of_things : tuple of QuestionProgress
     advice : tuple of str
         As ``seewhy evaluate`` gives it, with figures of heads on pictures kept out.
     """
 
     pictures: int
     complete: int
+    things: int
     questions: tuple[QuestionProgress, ...]
+    of_things: tuple[QuestionProgress, ...]
     advice: tuple[str, ...]
 
     @property
     def differs(self) -> bool:
         """Whether pictures of two classes are labelled, so that there is something to learn."""
-        classes = next(question for question in self.questions if question.name == CLASS)
-        return sum(value.labelled > 0 for value in classes.values) > 1
+        classes = next((one.values for one in self.questions if one.name == CLASS), ())
+        return sum(value.labelled > 0 for value in classes) > 1
 
     @property
     def recognised(self) -> Share | None:
@@ -77,15 +86,14 @@ def progress_of(project: Project, proposals: Proposals) -> Progress:
     """Count what is labelled."""
     domain, labels = project.domain(), project.labels()
     there = set(project.pictures())
-    names = {CLASS: tuple(domain.classes)} | {
-        key: feature.values for key, feature in domain.features.items()
-    }
+    names = {key: feature.values for key, feature in domain.features.items()}
+    if domain.classes:
+        names = {CLASS: tuple(domain.classes), **names}
     counts: dict[str, Counter[str]] = {name: Counter() for name in names}
-    complete = 0
+    complete = sum(labels.is_complete(picture, domain) for picture in there)
     for picture, said in labels.of.items():
         if picture not in there:
             continue
-        complete += all(name in said for name in names)
         for name, label in said.items():
             if name in counts:
                 counts[name][label.value] += 1
@@ -107,7 +115,26 @@ def progress_of(project: Project, proposals: Proposals) -> Progress:
         for value in question.values
     )
     sentences = tuple(f"{sentence[:1].upper()}{sentence[1:]}" for sentence in advice)
-    return Progress(len(there), complete, questions, sentences if complete else ())
+    drawn = [here for picture, here in labels.drawn.items() if picture in there]
+    return Progress(
+        pictures=len(there),
+        complete=complete,
+        things=sum(len(here.things) for here in drawn),
+        questions=questions,
+        of_things=_of_things(domain.things, drawn),
+        advice=sentences if complete else (),
+    )
+
+
+def _of_things(
+    things: Things | None, drawn: Sequence[PictureThings]
+) -> tuple[QuestionProgress, ...]:
+    found = []
+    for key, feature in ({} if things is None else things.features).items():
+        counts = counted(drawn, key)
+        values = tuple(ValueProgress(value, counts[value], None) for value in feature.values)
+        found.append(QuestionProgress(key, feature.name, counts.total(), values))
+    return tuple(found)
 
 
 def _recognised(proposals: Proposals, name: str, place: int) -> Share | None:

@@ -11,13 +11,17 @@ from seewhy.data.dataset import TABLE, Dataset
 from seewhy.data.importers.annotation import Notes
 from seewhy.data.importers.folder_files import FolderFiles
 from seewhy.data.importers.picture_files import is_picture_name
+from seewhy.data.thing import THINGS
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.domain.tables import CLASS
+from seewhy.domain.things import Things
 from seewhy.errors import DomainError, KnowledgeError, RevisionError, SeeWhyError
 from seewhy.revision.edit import KNOWLEDGE, Edit
+from seewhy.studio.drawn_things import BOXES, require_possible
 from seewhy.studio.labels import LABEL, REASONS, ROWS, Labels, labels_of
 from seewhy.studio.record import Entry, Record
 from seewhy.studio.revised_domain import revised_domain
+from seewhy.studio.thing_writing import changes_in_tables, things_tables
 from seewhy.studio.writing import (
     FILES,
     changed_outside,
@@ -167,7 +171,8 @@ class Project:
 
     def dataset(self) -> Dataset:
         """The dataset as the command line sees it."""
-        return Dataset.load(self.folder, self.domain())
+        with self._lock:
+            return Dataset.load(self.folder, self.domain())
 
     # What is done -----------------------------------------------------------------------------
 
@@ -232,7 +237,8 @@ class Project:
         self.on_change()
 
     def _require_without(self, number: int) -> None:
-        """Refuse to take back what a later revision builds on."""
+        """Refuse to take back what a later revision, or a later box, builds on."""
+        self._require_boxes_without(number)
         before = self.record.holding(FILES)
         after = self.record.holding(FILES, but=number)
         if after == before:
@@ -244,6 +250,19 @@ class Project:
                 f"entry {number} cannot be taken back: {problem}; take back first what was "
                 "revised later"
             ) from None
+
+    def _require_boxes_without(self, number: int) -> None:
+        domain = self._usable_domain()
+        if domain is None or domain.things is None:
+            return
+        known = self.labels()
+        without = labels_of(self.record.holding(but=number))
+        try:
+            for picture, here in without.drawn.items():
+                if here != known.drawn_in(picture):
+                    require_possible(picture, here, domain.things)
+        except SeeWhyError as problem:
+            raise SeeWhyError(f"entry {number} cannot be taken back: {problem}") from None
 
     def _require_readable(self, texts: Mapping[str, str]) -> None:
         folder = self.domain_folder
@@ -265,10 +284,18 @@ class Project:
             return
         for name, text in folder_texts(self.record.holding(FILES)).items():
             write_text(folder / name, text, record=self.record, name=name)
-        labels, domain = self.labels(), self._usable_domain()
-        if domain is not None and (labels.of or labels.rows):
-            text = scenes_table(labels, domain)
-            write_text(self.folder / TABLE, text, record=self.record, name=TABLE)
+        domain = self._usable_domain()
+        if domain is None:
+            return
+        labels, record = self.labels(), self.record
+        if labels.of or labels.rows or labels.drawn or record.written(TABLE):
+            write_text(self.folder / TABLE, scenes_table(labels, domain), record=record, name=TABLE)
+        if domain.things is None:
+            return
+        for name, text in things_tables(labels.drawn, domain.things).items():
+            is_said = name == THINGS or any(here.related for here in labels.drawn.values())
+            if (labels.drawn and is_said) or record.written(name):
+                write_text(self.folder / name, text, record=record, name=name)
 
     def _take_in_changes(self, *, who: str = _OUTSIDE, why: str = "changed outside") -> None:
         """Note what another program wrote, so that nothing of it is written over."""
@@ -289,6 +316,8 @@ class Project:
             texts = {TABLE: scenes_table(self.labels(), domain)}
             if changed_outside(table, texts, record=self.record, name=TABLE):
                 self._take_in_table()
+        if domain is not None and domain.things is not None:
+            self._take_in_things(domain, domain.things)
 
     def _take_in_table(self) -> None:
         dataset, labels = self.dataset(), self.labels()
@@ -319,6 +348,18 @@ class Project:
             self.record.add(ROWS, {"rows": rows}, who=_OUTSIDE)
         if reasons:
             self.record.add(REASONS, {"reasons": reasons}, who=_OUTSIDE)
+
+    def _take_in_things(self, domain: Domain, things: Things) -> None:
+        drawn = self.labels().drawn
+        texts = things_tables(drawn, things)
+        if not any(
+            changed_outside(self.folder / name, texts, record=self.record, name=name)
+            for name in texts
+        ):
+            return
+        body = changes_in_tables(self.folder, self.pictures(), domain, drawn)
+        if body is not None:
+            self.record.add(BOXES, body, who=_OUTSIDE)
 
 
 def _texts_in(folder: Path) -> dict[str, str]:

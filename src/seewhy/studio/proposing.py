@@ -206,10 +206,9 @@ class Proposer:
             return
         names, heads = lesson.names, lesson.heads
         domain, labels = self._project.domain(), self._project.labels()
-        values = {
-            CLASS: tuple(domain.classes),
-            **{key: feature.values for key, feature in domain.features.items()},
-        }
+        values = {key: feature.values for key, feature in domain.features.items()}
+        if domain.classes:
+            values = {CLASS: tuple(domain.classes), **values}
         targets = {name: _targets(labels, names, name, known) for name, known in values.items()}
         probabilities = {
             name: heads.probabilities(name, targets[name], values=len(known))
@@ -220,7 +219,7 @@ class Proposer:
         order = labelling_order(
             lesson.lie,
             probabilities,
-            [row for row, name in enumerate(names) if _is_labelled(labels, name, domain)],
+            [row for row, name in enumerate(names) if labels.is_complete(name, domain)],
             count=AHEAD,
             disputed=_disputed(names, by_rules, probabilities, values),
         )
@@ -326,12 +325,6 @@ def _targets(
     places = {value: place for place, value in enumerate(values)}
     said = (labels.value(picture, name) for picture in pictures)
     return np.array([places.get(value or "", -1) for value in said], dtype=np.int64)
-
-
-def _is_labelled(labels: Labels, picture: str, domain: Domain) -> bool:
-    """Whether everything is said of a picture that there is to say."""
-    said = labels.of.get(picture, {})
-    return CLASS in said and all(name in said for name in domain.features)
 
 
 def _disputed(

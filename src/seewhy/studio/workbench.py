@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.new_domain.words import plain_words
-from seewhy.studio.labels import Label, Labels
+from seewhy.studio.label import Label
+from seewhy.studio.labels import Labels
 from seewhy.studio.proposing import Proposals
 
-__all__ = ["Choice", "Question", "Workbench", "is_complete", "question_names", "workbench"]
+__all__ = [
+    "RESERVED",
+    "Choice",
+    "Question",
+    "Workbench",
+    "letters_of",
+    "question",
+    "question_names",
+    "value_keys",
+    "workbench",
+]
 
 RESERVED = frozenset("ursax")
 """Letters that do something else than to lead to a feature: undo, redo, sheet, all, boxes."""
@@ -108,22 +120,12 @@ class Workbench:
             if question.proposed is not None
         }
 
-    @property
-    def is_complete(self) -> bool:
-        """Whether everything is said."""
-        return all(question.label is not None for question in self.questions)
-
 
 def question_names(domain: Domain, *, class_first: bool) -> tuple[str, ...]:
-    """The features and the class, in the order in which they are asked for."""
+    """The features and the class, where there is one, in the order in which they are asked for."""
     features = tuple(domain.features)
-    return (CLASS, *features) if class_first else (*features, CLASS)
-
-
-def is_complete(labels: Labels, picture: str, domain: Domain) -> bool:
-    """Whether everything is said of a picture."""
-    said = labels.of.get(picture, {})
-    return CLASS in said and all(name in said for name in domain.features)
+    classes = (CLASS,) if domain.classes else ()
+    return (*classes, *features) if class_first else (*features, *classes)
 
 
 def workbench(
@@ -149,41 +151,78 @@ def workbench(
         The question at hand; the first that is open where it is none.
     """
     names = question_names(domain, class_first=class_first)
-    letters = _letters(names)
+    letters = {CLASS: "c"} | letters_of(
+        [name for name in names if name != CLASS], taken={"c", *RESERVED}
+    )
     said = labels.of.get(picture, {})
     if at not in names:
-        at = next((name for name in names if name not in said), names[0])
+        at = next((name for name in names if name not in said), next(iter(names), ""))
     questions = []
     for name in names:
         values = tuple(domain.classes) if name == CLASS else domain.features[name].values
-        label = said.get(name)
-        shares = proposals.of(picture, name)
-        shown = _shown(values, shares, label)
-        best = next(iter(shares), None) if label is None else None
+        found = question(
+            name,
+            "class" if name == CLASS else domain.features[name].name,
+            values,
+            key=letters[name],
+            label=said.get(name),
+            shares=proposals.of(picture, name),
+        )
         rules = proposals.by_rules.get(picture) if name == CLASS else None
+        best = found.proposed
+        disputed = rules is not None and best is not None and rules != best.value
         questions.append(
-            Question(
-                name=name,
-                words="class" if name == CLASS else domain.features[name].name,
-                key=letters[name],
-                choices=tuple(
-                    Choice(
-                        value,
-                        plain_words(value),
-                        key,
-                        shares.get(value),
-                        chosen=label is not None and label.value == value,
-                        proposed=value == best,
-                    )
-                    for value, key in zip(shown, value_keys(shown), strict=True)
-                ),
-                others=tuple(value for value in values if value not in shown),
-                label=label,
-                rules=rules if rules is not None and best is not None and rules != best else None,
+            replace(
+                found,
+                rules=rules if disputed else None,
                 is_reason=name in labels.reasons.get(picture, ()),
             )
         )
     return Workbench(picture, tuple(questions), at)
+
+
+def question(
+    name: str,
+    words: str,
+    values: Sequence[str],
+    *,
+    key: str,
+    label: Label | None,
+    shares: Mapping[str, float] = MappingProxyType({}),
+) -> Question:
+    """Return a question with its values, some of which are proposed where nothing is said.
+
+    Parameters
+    ----------
+    name, words : str
+    values : sequence of str
+    key : str
+        The letter that leads to it.
+    label : Label or None
+        What somebody said.
+    shares : mapping of str to float
+        Value → probability, the most probable first; empty where nothing is proposed.
+    """
+    shown = _shown(values, shares, label)
+    best = next(iter(shares), None) if label is None else None
+    return Question(
+        name=name,
+        words=words,
+        key=key,
+        choices=tuple(
+            Choice(
+                value,
+                plain_words(value),
+                value_key,
+                shares.get(value),
+                chosen=label is not None and label.value == value,
+                proposed=value == best,
+            )
+            for value, value_key in zip(shown, value_keys(shown), strict=True)
+        ),
+        others=tuple(value for value in values if value not in shown),
+        label=label,
+    )
 
 
 def value_keys(values: Sequence[str]) -> list[str]:
@@ -209,17 +248,21 @@ def _shown(
     return tuple(dict.fromkeys(ranked))[:MOST_SHOWN]
 
 
-def _letters(names: Sequence[str]) -> dict[str, str]:
-    """A letter for each question: one of its name's where that is free."""
-    found: dict[str, str] = {CLASS: "c"}
-    taken = {"c", *RESERVED}
+def letters_of(names: Sequence[str], *, taken: Collection[str]) -> dict[str, str]:
+    """A letter for each name: one of its own where that is not taken.
+
+    Examples
+    --------
+    >>> letters_of(["size", "colour"], taken="s")
+    {'size': 'i', 'colour': 'c'}
+    """
+    found: dict[str, str] = {}
+    used = set(taken)
     for name in names:
-        if name == CLASS:
-            continue
         wanted = [letter for letter in name if letter.isascii() and letter.isalpha()]
         letter = next(
-            (one for one in (*wanted, *"abcdefghijklmnopqrstuvwxyz") if one not in taken), ""
+            (one for one in (*wanted, *"abcdefghijklmnopqrstuvwxyz") if one not in used), ""
         )
         found[name] = letter
-        taken.add(letter)
+        used.add(letter)
     return found

@@ -44,11 +44,12 @@ def scenes_table(labels: Labels, domain: Domain) -> str:
     stream = io.StringIO()
     table = csv.writer(stream, lineterminator="\n")
     table.writerow(columns)
-    for picture in sorted({*labels.of, *labels.rows}):
+    drawn = {picture for picture, here in labels.drawn.items() if here.things}
+    for picture in sorted({*labels.of, *labels.rows, *drawn}):
         said = labels.values(picture)
         row = labels.rows.get(picture, {})
         reasons = [name for name in labels.reasons.get(picture, ()) if name in said]
-        if not said and not row:
+        if not said and not row and picture not in drawn:
             continue
         cells = {
             IMAGE: picture,

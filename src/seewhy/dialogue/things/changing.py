@@ -3,6 +3,11 @@
 Changes are looked for in order of how many there are: another value of a thing, another place, a
 relation that holds or not, one thing less, one more. What a question does not speak of cannot
 change its answer, and is left as it is; so the search is exact, within its bound.
+
+:mod:`seewhy.knowledge.change` looks for the smallest change, too, but of other things: it wants a
+literal believed of a scene's features, and asks the reasoner of every candidate. What is wanted
+here is an answer, a number or a colour, for which the knowledge has no literal; changes are moves
+in an order besides; and a question is put to a scene without an answer set.
 """
 
 from __future__ import annotations

@@ -12,29 +12,8 @@ from enum import StrEnum
 from typing import NamedTuple
 
 from seewhy.data.thing_scene import ThingScene
+from seewhy.dialogue.things import query
 from seewhy.dialogue.things.geometry import between, distances
-from seewhy.dialogue.things.query import (
-    All,
-    AnyOf,
-    Apart,
-    Between,
-    Compares,
-    Concluded,
-    Condition,
-    Description,
-    Extreme,
-    HasValue,
-    Is,
-    Nearest,
-    Not,
-    Numbered,
-    PartOf,
-    Ranked,
-    Reference,
-    References,
-    Related,
-    Shares,
-)
 from seewhy.domain.things import Things
 from seewhy.errors import SeeWhyError
 
@@ -67,7 +46,7 @@ class UnclearReferenceError(SeeWhyError, LookupError):
     ``fits`` are those that are so, or may be.
     """
 
-    def __init__(self, reference: Reference, obstacle: Obstacle, fits: Fits) -> None:
+    def __init__(self, reference: query.Reference, obstacle: Obstacle, fits: Fits) -> None:
         super().__init__(obstacle.value)
         self.reference = reference
         self.obstacle = obstacle
@@ -99,7 +78,7 @@ class Evaluation:
     >>> from seewhy.domain.domain import load_domain
     >>> things = load_domain("tabletop").things
     >>> scene = thing_scene(things, [{"colour": "red"}, {"colour": None}], relations={})
-    >>> Evaluation(scene, things).fits(Description((HasValue("colour", "red"),)))
+    >>> Evaluation(scene, things).fits(query.Description((query.HasValue("colour", "red"),)))
     Fits(surely=1, maybe=3)
     """
 
@@ -123,11 +102,11 @@ class Evaluation:
             self.without_value[feature] = unknown
         # By identity: what is asked again is asked of the same objects. They are kept here, so that
         # no others can come to have their identities.
-        self._resolved: dict[int, tuple[Reference, int]] = {}
-        self._held: dict[int, tuple[Condition, Fits]] = {}
-        self._fitting: dict[int, tuple[Description, Fits]] = {}
+        self._resolved: dict[int, tuple[query.Reference, int]] = {}
+        self._held: dict[int, tuple[query.Condition, Fits]] = {}
+        self._fitting: dict[int, tuple[query.Description, Fits]] = {}
 
-    def fits(self, description: Description) -> Fits:
+    def fits(self, description: query.Description) -> Fits:
         """Return the things that fit a description.
 
         Raises
@@ -149,7 +128,7 @@ class Evaluation:
         self._fitting[id(description)] = (description, fits)
         return fits
 
-    def the(self, reference: Reference) -> int:
+    def the(self, reference: query.Reference) -> int:
         """Return the number of the one thing that is referred to.
 
         Raises
@@ -172,7 +151,7 @@ class Evaluation:
         self._resolved[id(reference)] = (reference, number)
         return number
 
-    def holds(self, condition: Condition) -> Fits:
+    def holds(self, condition: query.Condition) -> Fits:
         """Return the things of which a condition holds.
 
         Raises
@@ -187,35 +166,35 @@ class Evaluation:
         self._held[id(condition)] = (condition, found)
         return found
 
-    def _holds(self, condition: Condition) -> Fits:
+    def _holds(self, condition: query.Condition) -> Fits:
         match condition:
-            case HasValue(feature=feature, value=value):
+            case query.HasValue(feature=feature, value=value):
                 surely = self.with_value[feature].get(value, 0)
                 return Fits(surely, surely | self.without_value[feature])
-            case Concluded(conclusion=conclusion):
+            case query.Concluded(conclusion=conclusion):
                 so = self.scene.concluded.get(conclusion, 0) & self.everything
                 # Of a scene of which nothing was concluded, nothing is known.
                 return Fits(so, self.everything if self.scene.conclusions is None else so)
-            case PartOf(group=group):
+            case query.PartOf(group=group):
                 so = 0
                 for numbers in self.scene.groups.get(group, ()):
                     so |= sum(1 << number for number in numbers)
                 return Fits(so, self.everything if self.scene.conclusions is None else so)
-            case Related(to=to):
+            case query.Related(to=to):
                 return self._toward(to, condition)
-            case Shares(other=to) | Compares(than=to) | Is(one=to):
+            case query.Shares(other=to) | query.Compares(than=to) | query.Is(one=to):
                 return self._toward(to, condition)
-            case Apart(one=to):
+            case query.Apart(one=to):
                 everything = Fits(self.everything, self.everything)
                 return everything if to is None else self._toward(to, condition)
-            case Between(first=first, second=second):
+            case query.Between(first=first, second=second):
                 return self._between(first, second)
-            case Not(condition=inner):
+            case query.Not(condition=inner):
                 found = self.holds(inner)
                 return Fits(self.everything & ~found.maybe, self.everything & ~found.surely)
-            case All(conditions=inners):
-                return self.fits(Description(inners))
-            case AnyOf(conditions=inners):
+            case query.All(conditions=inners):
+                return self.fits(query.Description(inners))
+            case query.AnyOf(conditions=inners):
                 surely = maybe = 0
                 for inner in inners:
                     found = self.holds(inner)
@@ -224,26 +203,26 @@ class Evaluation:
                 return Fits(surely, maybe)
         raise TypeError(f"must be a condition, got {condition!r}")
 
-    def toward(self, condition: Condition, number: int) -> Fits:
+    def toward(self, condition: query.Condition, number: int) -> Fits:
         """Return the things that stand to one thing as a condition says."""
         one = 1 << number
         others = self.everything & ~one
         match condition:
-            case Related(relation=relation, inverse=True):
+            case query.Related(relation=relation, inverse=True):
                 return self._stands_to(relation, number)
-            case Related(relation=relation):
+            case query.Related(relation=relation):
                 surely = self.scene.related[relation][number] & self.everything
                 unknown = self.scene.unknown.get(relation)
                 return Fits(surely, surely | unknown[number] & others if unknown else surely)
-            case Shares(feature=feature):
+            case query.Shares(feature=feature):
                 value = self.scene.values[feature][number]
                 if value is None:
                     return Fits(0, others)
                 alike = self.with_value[feature][value] & others
                 return Fits(alike, alike | (self.without_value[feature] & others))
-            case Compares(feature=feature, more=more):
+            case query.Compares(feature=feature, more=more):
                 return self._compared(feature, number, more=more)
-            case Apart():
+            case query.Apart():
                 return Fits(others, others)
             case _:
                 return Fits(one, one)
@@ -258,12 +237,12 @@ class Evaluation:
             maybe |= (related | (unknown[other] >> number & 1 if unknown else 0)) << other
         return Fits(surely, maybe)
 
-    def _toward(self, reference: Reference, condition: Condition) -> Fits:
+    def _toward(self, reference: query.Reference, condition: query.Condition) -> Fits:
         """What stands so to the thing, to some thing, or to every thing that is referred to."""
-        if reference.which is References.THE:
+        if reference.which is query.References.THE:
             return self.toward(condition, self.the(reference))
         fits = self.fits(reference.description)
-        if reference.which is References.SOME:
+        if reference.which is query.References.SOME:
             surely = maybe = 0
             for number in members(fits.maybe):
                 found = self.toward(condition, number)
@@ -296,7 +275,7 @@ class Evaluation:
             surely |= self.with_value[feature].get(other, 0)
         return Fits(surely, surely | self.without_value[feature] if further else surely)
 
-    def _between(self, first: Reference, second: Reference) -> Fits:
+    def _between(self, first: query.Reference, second: query.Reference) -> Fits:
         one, other = self.the(first), self.the(second)
         if self.scene.positions:
             found = between(self.scene.positions, one, other)
@@ -305,24 +284,24 @@ class Evaluation:
         for relation in self.things.relations.values():
             if relation.converse is None or relation.converse == relation.key:
                 continue
-            this = self.toward(Related(relation.key, first), one)
-            that = self.toward(Related(relation.converse, second), other)
+            this = self.toward(query.Related(relation.key, first), one)
+            that = self.toward(query.Related(relation.converse, second), other)
             surely |= this.surely & that.surely
             maybe |= this.maybe & that.maybe
         return Fits(surely, maybe)
 
-    def _selected(self, description: Description, fits: Fits) -> Fits:
-        reference = Reference(description)
+    def _selected(self, description: query.Description, fits: Fits) -> Fits:
+        reference = query.Reference(description)
         if not fits.known:
             raise UnclearReferenceError(reference, Obstacle.UNKNOWN, fits)
         match description.selection:
-            case Extreme(relation=relation, rank=rank, from_end=from_end):
+            case query.Extreme(relation=relation, rank=rank, from_end=from_end):
                 chosen = self._in_order(fits.surely, relation, rank, from_end=from_end)
-            case Ranked(feature=feature, most=most):
+            case query.Ranked(feature=feature, most=most):
                 chosen = self._ranked(fits.surely, feature, most=most)
-            case Nearest(to=to, farthest=farthest):
+            case query.Nearest(to=to, farthest=farthest):
                 chosen = self._nearest(fits.surely, self.the(to), farthest=farthest)
-            case Numbered(number=number):
+            case query.Numbered(number=number):
                 listed = list(members(fits.surely))
                 at = number - 1 if number > 0 else number
                 chosen = 1 << listed[at] if -len(listed) <= at < len(listed) else 0

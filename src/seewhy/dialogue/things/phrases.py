@@ -5,28 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from seewhy.dialogue.grammar import Binding
+from seewhy.dialogue.things import query
 from seewhy.dialogue.things.chart import Fold
-from seewhy.dialogue.things.query import (
-    All,
-    AnyOf,
-    Apart,
-    Between,
-    Compares,
-    Condition,
-    Description,
-    Extreme,
-    HasValue,
-    Is,
-    Nearest,
-    Not,
-    Numbered,
-    PartOf,
-    Reference,
-    References,
-    Related,
-    Shares,
-    references_in,
-)
 
 __all__ = ["PHRASES", "all_of", "meanings", "settled"]
 
@@ -43,93 +23,97 @@ def _one(bindings: Bindings, role: str) -> object | None:
     return found[0] if found else None
 
 
-def _conditions(bindings: Bindings) -> tuple[Condition, ...]:
+def _conditions(bindings: Bindings) -> tuple[query.Condition, ...]:
     return tuple(meanings(bindings, "condition"))  # type: ignore[arg-type]
 
 
-def _condition(condition: Condition) -> Bindings:
+def _condition(condition: query.Condition) -> Bindings:
     return (Binding("condition", condition),)
 
 
-def all_of(conditions: Sequence[Condition]) -> Condition:
+def all_of(conditions: Sequence[query.Condition]) -> query.Condition:
     """Return several conditions as one."""
-    return conditions[0] if len(conditions) == 1 else All(tuple(conditions))
+    return conditions[0] if len(conditions) == 1 else query.All(tuple(conditions))
 
 
-def settled(description: Description, antecedent: Reference | None = None) -> Description:
+def settled(
+    description: query.Description, antecedent: query.Reference | None = None
+) -> query.Description:
     """Return a description in which "other" is other than what it speaks of.
 
     That is the first thing that its conditions refer to, or else what was spoken of before; where
     there is neither, it says nothing.
     """
-    if Apart(None) not in description.conditions:
+    if query.Apart(None) not in description.conditions:
         return description
-    others = [c for c in description.conditions if c != Apart(None)]
-    referred = [one for condition in others for one in references_in(condition)]
+    others = [c for c in description.conditions if c != query.Apart(None)]
+    referred = [one for condition in others for one in query.references_in(condition)]
     anchor = referred[0] if referred else antecedent
-    apart = () if anchor is None else (Apart(anchor),)
-    return Description((*others, *apart), description.selection, description.many)
+    apart = () if anchor is None else (query.Apart(anchor),)
+    return query.Description((*others, *apart), description.selection, description.many)
 
 
 def _apart(_: Bindings) -> Bindings:
-    return _condition(Apart(None))
+    return _condition(query.Apart(None))
 
 
 def _described(bindings: Bindings) -> Bindings:
     many = meanings(bindings, "many")
-    described = Description(_conditions(bindings), many=bool(many and many[-1]))
+    described = query.Description(_conditions(bindings), many=bool(many and many[-1]))
     return (Binding("described", described),)
 
 
 def _any_of(bindings: Bindings) -> Bindings:
-    return _condition(AnyOf(_conditions(bindings)))
+    return _condition(query.AnyOf(_conditions(bindings)))
 
 
 def _all_of(bindings: Bindings) -> Bindings:
-    return _condition(All(_conditions(bindings)))
+    return _condition(query.All(_conditions(bindings)))
 
 
 def _not(bindings: Bindings) -> Bindings:
-    return _condition(Not(all_of(_conditions(bindings))))
+    return _condition(query.Not(all_of(_conditions(bindings))))
 
 
 def _neither(bindings: Bindings) -> Bindings:
-    return _condition(Not(AnyOf(_conditions(bindings))))
+    return _condition(query.Not(query.AnyOf(_conditions(bindings))))
 
 
 def _standing(bindings: Bindings) -> Bindings:
-    return _condition(Related(str(_one(bindings, "relation")), _reference(bindings)))
+    return _condition(query.Related(str(_one(bindings, "relation")), _reference(bindings)))
 
 
 def _stood_to(bindings: Bindings) -> Bindings:
     """What something else stands to: "the thing that the ball is left of"."""
     relation = str(_one(bindings, "relation"))
-    return _condition(Related(relation, _reference(bindings), inverse=True))
+    return _condition(query.Related(relation, _reference(bindings), inverse=True))
 
 
 def _either_kind(bindings: Bindings) -> Bindings:
     """Things of either of two descriptions: "cubes or green balls"."""
-    kinds = [d for d in meanings(bindings, "described") if isinstance(d, Description)]
-    either = AnyOf(tuple(all_of(settled(kind).conditions) for kind in kinds))
-    return (Binding("described", Description((either,), many=any(kind.many for kind in kinds))),)
+    kinds = [d for d in meanings(bindings, "described") if isinstance(d, query.Description)]
+    either = query.AnyOf(tuple(all_of(settled(kind).conditions) for kind in kinds))
+    return (
+        Binding("described", query.Description((either,), many=any(kind.many for kind in kinds))),
+    )
 
 
-def _reference(bindings: Bindings, at: int = 0) -> Reference:
+def _reference(bindings: Bindings, at: int = 0) -> query.Reference:
     found = meanings(bindings, "one")[at]
-    if not isinstance(found, Reference):
+    if not isinstance(found, query.Reference):
         raise TypeError(f"must be a reference, got {found!r}")
     return found
 
 
 def _shares(bindings: Bindings) -> Bindings:
-    return _condition(Shares(str(_one(bindings, "feature")), _reference(bindings)))
+    return _condition(query.Shares(str(_one(bindings, "feature")), _reference(bindings)))
 
 
 def _of_one_feature(bindings: Bindings) -> Bindings | None:
     """Conditions with the feature that they are said of: "made of rubber", not "made of red"."""
     features = set(meanings(bindings, "feature"))
     for condition in _conditions(bindings):
-        if isinstance(condition, HasValue | Shares):
+        if isinstance(condition, query.HasValue | query.Shares):
             features.add(condition.feature)
     if len(features) > 1:
         return None
@@ -151,26 +135,26 @@ def _compares(bindings: Bindings) -> Bindings | None:
     if not isinstance(compared, tuple):
         return None
     feature, more = compared
-    return _condition(Compares(feature, more, _reference(bindings)))
+    return _condition(query.Compares(feature, more, _reference(bindings)))
 
 
 def _between(bindings: Bindings) -> Bindings:
-    return _condition(Between(_reference(bindings), _reference(bindings, 1)))
+    return _condition(query.Between(_reference(bindings), _reference(bindings, 1)))
 
 
 def _beyond(bindings: Bindings) -> Bindings:
-    return _condition(Apart(_reference(bindings)))
+    return _condition(query.Apart(_reference(bindings)))
 
 
 def _kind_of(bindings: Bindings) -> Bindings | None:
     described = _one(bindings, "described")
-    if not isinstance(described, Description):
+    if not isinstance(described, query.Description):
         return None
     return _condition(all_of(settled(described).conditions))
 
 
 def _is(bindings: Bindings) -> Bindings:
-    return _condition(Is(_reference(bindings)))
+    return _condition(query.Is(_reference(bindings)))
 
 
 def _farthest(_: Bindings) -> Bindings:
@@ -182,34 +166,34 @@ def _nearest(_: Bindings) -> Bindings:
 
 
 def _picked(bindings: Bindings) -> Bindings | None:
-    described = _one(bindings, "described") or Description()
-    if not isinstance(described, Description):
+    described = _one(bindings, "described") or query.Description()
+    if not isinstance(described, query.Description):
         return None
     rank, side = _one(bindings, "rank"), _one(bindings, "side")
     extreme, ranked = _one(bindings, "extreme"), _one(bindings, "ranked")
     farthest = _one(bindings, "farthest")
     selection: object = ranked
-    if isinstance(extreme, Extreme) or side is not None:
+    if isinstance(extreme, query.Extreme) or side is not None:
         number = rank if isinstance(rank, int) else 1
-        relation = extreme.relation if isinstance(extreme, Extreme) else str(side)
-        selection = Extreme(relation, abs(number), from_end=number < 0)
+        relation = extreme.relation if isinstance(extreme, query.Extreme) else str(side)
+        selection = query.Extreme(relation, abs(number), from_end=number < 0)
     elif isinstance(rank, int):
-        selection = Numbered(rank)
+        selection = query.Numbered(rank)
     elif farthest is not None:
-        selection = Nearest(_reference(bindings), farthest=bool(farthest))
-    picked = Description(described.conditions, selection, described.many)  # type: ignore[arg-type]
+        selection = query.Nearest(_reference(bindings), farthest=bool(farthest))
+    picked = query.Description(described.conditions, selection, described.many)  # type: ignore[arg-type]
     return (Binding("described", picked),)
 
 
-def _referring(which: References) -> Fold:
+def _referring(which: query.References) -> Fold:
     def fold(bindings: Bindings) -> Bindings | None:
         described = _one(bindings, "described")
-        if not isinstance(described, Description):
+        if not isinstance(described, query.Description):
             return None
         meant = which
-        if which is References.THE and described.many and described.selection is None:
-            meant = References.EVERY  # "the cubes"
-        return (Binding("one", Reference(settled(described), meant)),)
+        if which is query.References.THE and described.many and described.selection is None:
+            meant = query.References.EVERY  # "the cubes"
+        return (Binding("one", query.Reference(settled(described), meant)),)
 
     return fold
 
@@ -218,8 +202,8 @@ def _numbered(bindings: Bindings) -> Bindings | None:
     number = _one(bindings, "number")
     if not isinstance(number, int) or number < 1 or any(meanings(bindings, "many")):
         return None
-    described = Description(_conditions(bindings), Numbered(number))
-    return (Binding("one", Reference(described)),)
+    described = query.Description(_conditions(bindings), query.Numbered(number))
+    return (Binding("one", query.Reference(described)),)
 
 
 def _counted_off(bindings: Bindings) -> Bindings | None:
@@ -228,8 +212,8 @@ def _counted_off(bindings: Bindings) -> Bindings | None:
     for number in meanings(bindings, "number"):
         if not isinstance(number, int) or number < 1:
             return None
-        described = Description(_conditions(bindings), Numbered(number))
-        found.append(Binding("one", Reference(described)))
+        described = query.Description(_conditions(bindings), query.Numbered(number))
+        found.append(Binding("one", query.Reference(described)))
     return tuple(found)
 
 
@@ -262,15 +246,15 @@ PHRASES: dict[str, Fold] = {
     "itself": _is,
     "fallen_without": _standing,
     "not_happening": _not,
-    "some_thing": lambda _: (Binding("described", Description()),),
+    "some_thing": lambda _: (Binding("described", query.Description()),),
     "counted_off": _counted_off,
-    "in_group": lambda bindings: _condition(PartOf(str(_one(bindings, "group")))),
+    "in_group": lambda bindings: _condition(query.PartOf(str(_one(bindings, "group")))),
     "near": _nearest,
     "far": _farthest,
     "picked": _picked,
-    "the": _referring(References.THE),
-    "some": _referring(References.SOME),
-    "every": _referring(References.EVERY),
+    "the": _referring(query.References.THE),
+    "some": _referring(query.References.SOME),
+    "every": _referring(query.References.EVERY),
     "numbered": _numbered,
 }
 """Phrase → what its bindings come to."""

@@ -109,11 +109,15 @@ class Compares:
 
 
 @dataclass(frozen=True)
-class Between:
-    """A thing is between two others."""
+class _OfTwo:
+    """What is said or asked of two things."""
 
     first: Reference
     second: Reference
+
+
+class Between(_OfTwo):
+    """A thing is between two others."""
 
 
 @dataclass(frozen=True)
@@ -138,17 +142,18 @@ class Not:
 
 
 @dataclass(frozen=True)
-class All:
+class _OfConditions:
+    """What several conditions make together."""
+
+    conditions: tuple[Condition, ...]
+
+
+class All(_OfConditions):
     """Every one of some conditions holds."""
 
-    conditions: tuple[Condition, ...]
 
-
-@dataclass(frozen=True)
-class AnyOf:
+class AnyOf(_OfConditions):
     """At least one of some conditions holds."""
-
-    conditions: tuple[Condition, ...]
 
 
 Condition = (
@@ -230,25 +235,25 @@ class Reference:
 
 
 @dataclass(frozen=True)
-class Count:
-    """How many there are."""
+class _OfDescribed:
+    """What is asked of the things that fit a description."""
 
     described: Description
+
+
+class Count(_OfDescribed):
+    """How many there are."""
 
 
 @dataclass(frozen=True)
-class Exists:
+class Exists(_OfDescribed):
     """Whether there is one; with ``denied``, whether there is none."""
 
-    described: Description
     denied: bool = False
 
 
-@dataclass(frozen=True)
-class Which:
+class Which(_OfDescribed):
     """Which things they are."""
-
-    described: Description
 
 
 @dataclass(frozen=True)
@@ -304,11 +309,9 @@ class Describe:
 
 
 @dataclass(frozen=True)
-class Difference:
+class Difference(_OfTwo):
     """In which features two things differ; with ``alike``, which they have in common."""
 
-    first: Reference
-    second: Reference
     alike: bool = False
 
 

@@ -6,30 +6,9 @@ import re
 from collections.abc import Mapping, Sequence
 
 from seewhy.dialogue.lexicon import NUMBERS
+from seewhy.dialogue.things import query
 from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.lexicon import RANKS
-from seewhy.dialogue.things.query import (
-    All,
-    AnyOf,
-    Apart,
-    Between,
-    Compares,
-    Concluded,
-    Condition,
-    Description,
-    Extreme,
-    HasValue,
-    Is,
-    Nearest,
-    Not,
-    Numbered,
-    PartOf,
-    Ranked,
-    Reference,
-    References,
-    Related,
-    Shares,
-)
 from seewhy.domain.wording import join_words
 from seewhy.text.comparison import comparative, superlative
 from seewhy.text.nouns import plural, with_article
@@ -73,7 +52,7 @@ class ThingWords:
     >>> words = ThingWords(Evaluation(scene, things))
     >>> words.name(0), words.name(1)
     ('the small red metal cube', 'the red thing')
-    >>> words.phrase(Description((HasValue("colour", "red"),), many=True))
+    >>> words.phrase(query.Description((query.HasValue("colour", "red"),), many=True))
     'red things'
     """
 
@@ -86,7 +65,7 @@ class ThingWords:
             for number in range(scene.count)
         ]
         said = [self.described(of_one) for of_one in values]
-        self._references: dict[int, tuple[Reference, str]] = {}
+        self._references: dict[int, tuple[query.Reference, str]] = {}
         self._names = [
             f"the {name}" if said.count(name) == 1 else f"the {name} ({self.things.one} {at})"
             for at, name in enumerate(said, start=1)
@@ -133,79 +112,82 @@ class ThingWords:
         """Return that something has a value."""
         return self.things.features[feature].say[value].replace("{it}", subject)
 
-    def counted(self, count: int, description: Description) -> str:
+    def counted(self, count: int, description: query.Description) -> str:
         """Return so many of a description: "three red cubes"."""
         number = "no" if count == 0 else number_word(count)
         return f"{number} {self.phrase(description, many=count != 1)}"
 
-    def reference(self, reference: Reference) -> str:
+    def reference(self, reference: query.Reference) -> str:
         """Return what a reference refers to: the thing by its name, where there is one."""
         known = self._references.get(id(reference))
         if known is None:
             known = self._references[id(reference)] = (reference, self._referred(reference))
         return known[1]
 
-    def _referred(self, reference: Reference) -> str:
-        if reference.which is References.THE:
+    def _referred(self, reference: query.Reference) -> str:
+        if reference.which is query.References.THE:
             try:
                 return self.name(self.evaluation.the(reference))
             except UnclearReferenceError:
                 return f"the {self.phrase(reference.description, many=False)}"
-        if reference.which is References.SOME:
+        if reference.which is query.References.SOME:
             return with_article(self.phrase(reference.description, many=False))
         return f"every {self.phrase(reference.description, many=False)}"
 
-    def phrase(self, description: Description, *, many: bool | None = None) -> str:
+    def phrase(self, description: query.Description, *, many: bool | None = None) -> str:
         """Return a description without an article: "red cubes left of the blue ball"."""
         several = description.many if many is None else many
         adjectives, noun, behind = [], "", []
         for condition in description.conditions:
-            if isinstance(condition, HasValue) and not self._as_noun(condition):
+            if isinstance(condition, query.HasValue) and not self._as_noun(condition):
                 words = self.things.features[condition.feature].words[condition.value]
                 adjectives.append(words[0] if words else f"({condition.value})")
-            elif isinstance(condition, HasValue) and not noun:
+            elif isinstance(condition, query.HasValue) and not noun:
                 noun = self.value(condition.feature, condition.value)
             else:
                 behind.append(self._behind(condition, several))
         noun = noun or self.things.one
         if several:
             noun = self.things.many if noun == self.things.one else plural(noun)
-        if isinstance(description.selection, Nearest):
+        if isinstance(description.selection, query.Nearest):
             behind.append(self._at_distance(description.selection))
         selected = self._selected(description)
         return " ".join(filter(None, [selected, *adjectives, noun, " and ".join(behind)]))
 
-    def _as_noun(self, condition: HasValue) -> bool:
+    def _as_noun(self, condition: query.HasValue) -> bool:
         return bool(self.things.features[condition.feature].nouns[condition.value])
 
-    def _selected(self, description: Description) -> str:
+    def _selected(self, description: query.Description) -> str:
         match description.selection:
-            case Extreme(relation=relation, rank=rank, from_end=from_end):
+            case query.Extreme(relation=relation, rank=rank, from_end=from_end):
                 words = self.things.relations[relation].most or (f"most {relation}",)
                 counted = "" if rank == 1 else RANKS[rank - 1] if rank <= len(RANKS) else str(rank)
                 return " ".join(filter(None, ["last" if from_end else counted, words[0]]))
-            case Ranked(feature=feature, most=most):
+            case query.Ranked(feature=feature, most=most):
                 values = self.things.features[feature].values
                 return superlative(self.value(feature, values[-1 if most else 0]))
-            case Numbered(number=number):
+            case query.Numbered(number=number):
                 return "last" if number < 0 else RANKS[number - 1] if number <= 12 else str(number)
         return ""
 
-    def _at_distance(self, nearest: Nearest) -> str:
+    def _at_distance(self, nearest: query.Nearest) -> str:
         far = "farthest from" if nearest.farthest else "nearest to"
         return f"{far} {self.reference(nearest.to)}"
 
-    def _behind(self, condition: Condition, many: bool) -> str:
+    def _behind(self, condition: query.Condition, many: bool) -> str:
         """A condition behind a noun."""
-        if isinstance(condition, Concluded):
+        if isinstance(condition, query.Concluded):
             say = self.things.conclusions[condition.conclusion].say
             return _relative(say, "{it}", many=many)
-        if isinstance(condition, Related) and not condition.inverse:
+        if isinstance(condition, query.Related) and not condition.inverse:
             relation = self.things.relations[condition.relation]
             if not relation.words:
                 clause = relation.say.replace("{1}", self.reference(condition.to))
                 return _relative(clause, "{0}", many=many)
-        if isinstance(condition, HasValue | PartOf | Not | All | AnyOf | Is):
+        if isinstance(
+            condition,
+            query.HasValue | query.PartOf | query.Not | query.All | query.AnyOf | query.Is,
+        ):
             return f"that {'are' if many else 'is'} {self.predicate(condition, many=many)}"
         return self.predicate(condition, many=many)
 
@@ -216,53 +198,56 @@ class ThingWords:
             return f"{words[0]} {named}"
         return f"such that {self.things.relations[relation].say.format('it', named)}"
 
-    def predicate(self, condition: Condition, *, many: bool = False) -> str:
+    def predicate(self, condition: query.Condition, *, many: bool = False) -> str:
         """Return a condition as it stands behind "is": "red", "left of the blue ball"."""
         match condition:
-            case HasValue(feature=feature, value=value):
+            case query.HasValue(feature=feature, value=value):
                 said = self.value(feature, value)
                 if not self._as_noun(condition):
                     return said
                 return plural(said) if many else with_article(said)
-            case Concluded(conclusion=conclusion):
+            case query.Concluded(conclusion=conclusion):
                 known = self.things.conclusions[conclusion]
                 said = known.say.replace("{it}", "they" if many else "it")
                 return known.words[0] if known.words else f"such that {said}"
-            case PartOf(group=group):
+            case query.PartOf(group=group):
                 return f"part of {with_article(self.things.groups[group].one)}"
-            case Related(relation=relation, to=to, inverse=True):
+            case query.Related(relation=relation, to=to, inverse=True):
                 converse = self.things.relations[relation].converse
                 if converse is not None:
                     return self.predicate_of(converse, self.reference(to))
                 said = self.things.relations[relation].say.format(self.reference(to), "it")
                 return f"such that {said}"
-            case Related(relation=relation, to=to):
+            case query.Related(relation=relation, to=to):
                 return self.predicate_of(relation, self.reference(to))
-            case Shares(feature=feature, other=other):
+            case query.Shares(feature=feature, other=other):
                 name = self.things.features[feature].name
                 return f"of the same {name} as {self.reference(other)}"
-            case Compares(feature=feature, more=more, than=than):
+            case query.Compares(feature=feature, more=more, than=than):
                 values = self.things.features[feature].values
                 word = comparative(self.value(feature, values[-1 if more else 0]))
                 return f"{word} than {self.reference(than)}"
-            case Between(first=first, second=second):
+            case query.Between(first=first, second=second):
                 return f"between {self.reference(first)} and {self.reference(second)}"
-            case Apart(one=one):
+            case query.Apart(one=one):
                 return "" if one is None else f"other than {self.reference(one)}"
-            case Is(one=one):
+            case query.Is(one=one):
                 return self.reference(one)
-            case Not(condition=inner):
+            case query.Not(condition=inner):
                 return f"not {self.predicate(inner, many=many)}"
-            case All(conditions=inners):
+            case query.All(conditions=inners):
                 return self._together(inners, "and", many)
-            case AnyOf(conditions=inners):
+            case query.AnyOf(conditions=inners):
                 return self._together(inners, "or", many)
         raise TypeError(f"must be a condition, got {condition!r}")
 
-    def _together(self, conditions: Sequence[Condition], word: str, many: bool) -> str:
+    def _together(self, conditions: Sequence[query.Condition], word: str, many: bool) -> str:
         if not conditions:
             return self.things.many if many else with_article(self.things.one)
-        if any(isinstance(c, HasValue) and self._as_noun(c) for c in conditions) and word == "and":
-            phrase = self.phrase(Description(tuple(conditions)), many=many)
+        if (
+            any(isinstance(c, query.HasValue) and self._as_noun(c) for c in conditions)
+            and word == "and"
+        ):
+            phrase = self.phrase(query.Description(tuple(conditions)), many=many)
             return phrase if many else with_article(phrase)
         return join_words([self.predicate(c, many=many) for c in conditions], word=word)

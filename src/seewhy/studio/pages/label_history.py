@@ -8,6 +8,7 @@ from typing import Annotated
 from fastapi import APIRouter, Form, Request, Response
 from fastapi.responses import RedirectResponse
 
+from seewhy.studio.entry_words import in_words
 from seewhy.studio.labelling import pictures_of
 from seewhy.studio.progress import progress_of
 from seewhy.studio.record import UNDO, Entry
@@ -45,7 +46,7 @@ def history(request: Request) -> Response:
     done = [
         Done(
             entry,
-            _said(entry),
+            in_words(entry),
             pictures_of(entry)[:_SHOWN_PICTURES],
             max(0, len(pictures_of(entry)) - _SHOWN_PICTURES),
             entry.number in holding,
@@ -70,24 +71,3 @@ def progress(request: Request) -> Response:
         return RedirectResponse("/begin", 303)
     found = progress_of(studio.project, studio.proposer.latest())
     return render(request, "label_progress.html", progress=found)
-
-
-def _said(entry: Entry) -> str:
-    body = entry.body
-    if entry.kind == UNDO:
-        return f"took back {entry.takes_back}"
-    if entry.kind == "label":
-        values = {
-            f"{name} {value}" if value is not None else f"{name} open again"
-            for said in body["values"].values()
-            for name, value in said.items()
-        }
-        shown = ", ".join(sorted(values)[:4]) + (" and more" if len(values) > 4 else "")
-        return f"{body['how']}: {shown}"
-    if entry.kind == "reasons":
-        named = {name for features in body["reasons"].values() for name in features}
-        return f"because of {', '.join(sorted(named)) or 'nothing in particular'}"
-    if entry.kind == "files":
-        named = {*body.get("files", ()), *(edit["file"] for edit in body.get("edits", ()))}
-        return f"{', '.join(sorted(named))}: {body['why']}"
-    return entry.kind

@@ -13,8 +13,8 @@ from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.errors import SeeWhyError
 from seewhy.new_domain.words import plain_words
+from seewhy.studio.label import Label
 from seewhy.studio.labelling import choose
-from seewhy.studio.labels import Label
 from seewhy.studio.rendering import render
 from seewhy.studio.session import who_of
 from seewhy.studio.state import Studio, studio_of
@@ -54,6 +54,9 @@ def show(
     if studio.project.domain_folder is None:
         return RedirectResponse("/begin", 303)
     values = _values(studio.project.domain())
+    if not values:
+        # Nothing is said of whole pictures where all that there is to say is of their things.
+        return RedirectResponse("/label", 303)
     feature = feature if feature in values else next(iter(values))
     value = value if value in values[feature] else values[feature][0]
     which = which if which in WHICH else "open"
@@ -111,7 +114,7 @@ def set_many(
 
 def _values(domain: Domain) -> dict[str, tuple[str, ...]]:
     features = {name: feature.values for name, feature in domain.features.items()}
-    return {CLASS: tuple(domain.classes), **features}
+    return {CLASS: tuple(domain.classes), **features} if domain.classes else features
 
 
 def _ranked(studio: Studio, feature: str, value: str, which: str) -> list[str]:

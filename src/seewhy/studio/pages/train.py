@@ -21,6 +21,7 @@ from seewhy.studio.project import Project
 from seewhy.studio.rendering import render
 from seewhy.studio.session import who_of
 from seewhy.studio.state import studio_of
+from seewhy.studio.time_left import PICTURES, WENT_ON, time_left
 
 __all__ = ["PAGE", "TASK"]
 
@@ -62,11 +63,13 @@ def show(request: Request) -> Response:
     if project.domain_folder is None:
         return render(request, "train.html", ready=None, job=None, jobs=())
     jobs = jobs_of(project).of(TASK)
+    job = jobs[0] if jobs else None
     return render(
         request,
         "train.html",
         ready=_ready(project, jobs),
-        job=jobs[0] if jobs else None,
+        job=job,
+        in_all=time_left(job, jobs[1:]) if job is not None and job.runs else "",
         jobs=jobs[:SHOWN],
         suggested=suggested_pattern(project),
     )
@@ -75,10 +78,12 @@ def show(request: Request) -> Response:
 @router.get("/train/state")
 def state(request: Request) -> Response:
     """How far the training is; when it has ended, the whole page is to be shown."""
-    job = jobs_of(studio_of(request).project).last(TASK)
+    jobs = jobs_of(studio_of(request).project).of(TASK)
+    job = jobs[0] if jobs else None
     if job is None or not job.runs:
         return Response(headers={"HX-Refresh": "true"})
-    return render(request, "_job.html", job=job, address="/train/state")
+    in_all = time_left(job, jobs[1:])
+    return render(request, "_job.html", job=job, address="/train/state", in_all=in_all)
 
 
 @router.post(PAGE.path)
@@ -92,7 +97,12 @@ def begin(request: Request) -> Response:
     folder = project.domain_folder or project.folder
     name = folder.relative_to(project.folder).as_posix()
     arguments = [TASK, name, "--data", ".", "--out", project.model_folder.name]
-    jobs_of(project).start(TASK, "seewhy", arguments, who=who, asked={"domain": domain.name})
+    asked = {
+        "domain": domain.name,
+        PICTURES: kept(project.labels())["train"],
+        WENT_ON: _checkpoints(project).is_dir(),
+    }
+    jobs_of(project).start(TASK, "seewhy", arguments, who=who, asked=asked)
     return RedirectResponse(PAGE.path, 303)
 
 

@@ -12,7 +12,7 @@
 
   function keyOf(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return null;
-    return event.key === "Delete" ? "Backspace" : event.key;
+    return event.key === "Delete" && !target("Delete") ? "Backspace" : event.key;
   }
 
   const target = (key) => document.querySelector(`[data-key="${CSS.escape(key)}"]:not(:disabled)`);
@@ -26,7 +26,7 @@
 
   document.addEventListener("keydown", (event) => {
     const key = keyOf(event);
-    if (key === null || typing(event.target)) return;
+    if (key === null || key === "Tab" || typing(event.target)) return;
     // Enter and space press what has the focus, where somebody has gone there with Tab.
     if (key === "Enter" && event.target.matches("a, button, summary")) return;
     if (busy) {
@@ -65,8 +65,18 @@
 
   function release() {
     busy = false;
-    while (waiting.length && !busy) press(waiting.shift());
+    while (waiting.length && !busy) {
+      const next = waiting.shift();
+      if (typeof next === "string") press(next);
+      else next();
+    }
   }
+
+  // What another script asks for waits in the same row.
+  document.addEventListener("label:do", (event) => {
+    if (busy) waiting.push(event.detail);
+    else event.detail();
+  });
 
   // Only when an answer, or news, have settled do its buttons and links ask in their turn.
   document.addEventListener("htmx:afterSettle", release);
