@@ -45,7 +45,7 @@ async def ask_all(
             try:
                 response = await client.post("/classify", files={"image": ("a.png", content)})
                 statuses[response.status_code] += 1
-            except httpx.HTTPError:
+            except httpx2.HTTPError:
                 statuses[NO_ANSWER] += 1
             seconds.append(time.perf_counter() - began)
 
