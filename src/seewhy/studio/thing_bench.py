@@ -173,7 +173,7 @@ def _at_hand(
     at: str, questions: Collection[Question], relations: Collection[RelationQuestion]
 ) -> str:
     """The one that is asked for, else the first that is open, else the first."""
-    names = [one.name for one in (*questions, *relations)]
+    names = [*(one.name for one in questions), *(one.name for one in relations)]
     if at in names:
         return at
     open_ones = [one.name for one in questions if one.label is None]
