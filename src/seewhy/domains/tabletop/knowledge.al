@@ -20,7 +20,7 @@
 #static above(thing, thing).
 #static beneath(thing, thing).
 #static stands_on_something(thing).
-#static carries(thing).
+#static carries_something(thing).
 #static clear(thing).
 #static falls(thing).
 #static stable(thing).
@@ -36,9 +36,9 @@ beneath(Y, X) if above(X, Y).
 stands_on_something(X) if on(X, Y).
 
 %% what another thing is on carries something
-carries(X) if on(Y, X).
+carries_something(X) if on(Y, X).
 %% a thing is clear when nothing is on it
-clear(X) if thing(X), not carries(X).
+clear(X) if thing(X), not carries_something(X).
 
 %% nothing stays on a ball
 falls(X) if on(X, Y), shape(Y, sphere).
