@@ -8,6 +8,7 @@ from itertools import permutations
 from types import MappingProxyType
 
 from seewhy.data.thing_scene import ThingScene
+from seewhy.dialogue.compared_things import with_things_named
 from seewhy.domain.domain import Domain
 from seewhy.domain.things import CONCLUDED, Things
 from seewhy.domain.wording import say_literal
@@ -128,7 +129,8 @@ class SceneConclusions:
 
         literal = self._literal(key, numbers)
         found = why(reasoner, vector, literal, say=say)
-        return found or why_not(reasoner, vector, literal, say=say)
+        found = found or why_not(reasoner, vector, literal, say=say)
+        return with_things_named(found, called)
 
     def rests_on(self, key: str) -> frozenset[str]:
         """Return the features and relations that are seen, and on which a conclusion rests."""
