@@ -6,6 +6,7 @@ import csv
 import json
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ from PIL import Image
 
 from conftest import Run
 from seewhy.agent.agent import Agent
+from seewhy.agent.things import thing_fitting
 from seewhy.agent.things.thing_agent import ThingAgent
 from seewhy.data.dataset import Dataset
 from seewhy.data.thing import BoundingBox
@@ -45,13 +47,13 @@ def shelf(tmp_path_factory: pytest.TempPathFactory) -> Shelf:
 
 
 def _quickly(patch: pytest.MonkeyPatch) -> None:
-    patch.setattr(fitting_eyes, "_GONE_OVER", 250)
-    patch.setattr(fitting_eyes, "_PASSES", (1, 4))
-    patch.setattr(fitting_eyes, "_AGAIN", 250)
-    patch.setattr(fitting_eyes, "_PASSES_AGAIN", (1, 4))
-    patch.setattr(fitting_eyes, "_VARIATIONS", 200)
-    patch.setattr(fitting_detector, "_VIEWS", 100)
-    patch.setattr(fitting_detector, "_GONE_OVER", 900)
+    patch.setattr(fitting_eyes, "FEW", 20)
+    patch.setattr(fitting_eyes, "_PASSES", (2, 2))
+    patch.setattr(fitting_eyes, "_PASSES_AGAIN", (1, 1))
+    patch.setattr(fitting_eyes, "_VIEWS", (1, 1))
+    patch.setattr(fitting_detector, "FEW", 20)
+    patch.setattr(fitting_detector, "_PASSES", (20, 20))
+    patch.setattr(fitting_detector, "_MOST_VIEWS", 2)
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +69,7 @@ def test_things_are_found_and_read(shelf: Shelf, agent: ThingAgent) -> None:
     assert result.imagined <= 0.1 * total
     for key in ("colour", "form", "size"):
         assert result.features[key].right.value >= 0.9 > result.features[key].majority
-    assert result.relations["left"].right.value >= 0.95
+    assert result.relations["left"].right.value >= 0.9
     assert "right" not in result.relations  # the converse says it already
     assert result.relations["on"].right.value > result.relations["on"].majority
     assert result.classes is not None
@@ -96,7 +98,7 @@ def test_boxes_that_are_given_are_taken(shelf: Shelf, agent: ThingAgent) -> None
 
 
 def test_nothing_is_found_where_nothing_is(agent: ThingAgent) -> None:
-    noise = np.random.default_rng(1).normal(200, 5, (120, 160, 3)).clip(0, 255).astype(np.uint8)
+    noise = np.random.default_rng(1).normal(200, 5, (96, 128, 3)).clip(0, 255).astype(np.uint8)
     reply = agent.ask(Image.fromarray(noise), "how many shapes are there?")
     assert reply.read.reading.things == ()
     assert reply.reply.value == 0
@@ -106,9 +108,9 @@ def test_the_surest_are_read_where_there_are_more_than_the_most(shelf: Shelf) ->
     agent = ThingAgent.load(shelf.model)
     scenes = Dataset.load(shelf.data, agent.domain).scenes
     two = [Image.open(scene.picture) for scene in scenes if len(scene.things) == 4][:2]
-    both = Image.new("RGB", (160, 240))
+    both = Image.new("RGB", (128, 192))
     for at, image in enumerate(two):
-        both.paste(image, (0, 120 * at))
+        both.paste(image, (0, 96 * at))
     reading = agent.read(both)
     assert len(reading.things) <= 5
     assert reading.left_out >= 1
@@ -155,6 +157,9 @@ def test_each_kind_of_model_names_the_other(shelf: Shelf) -> None:
         Agent.load(shelf.model)
     with pytest.raises(DomainError, match="has no things; load it with"):
         ThingAgent(load_domain("structure_stability"))
+    dataset = Dataset.load(shelf.data, load_domain(shelf.domain))
+    with pytest.raises(DatasetError, match=r"train a seewhy\.ThingAgent"):
+        Agent(load_domain(shelf.domain)).fit(dataset)
     with pytest.raises(DomainError, match="see one thing in a picture"):
         ThingAgent(load_domain(shelf.domain), eyes="none")
     with pytest.raises(NotFittedError):
@@ -252,7 +257,9 @@ def test_boxes_are_in_pixels_of_the_picture_however_large_it_is(agent: ThingAgen
     assert reading.things[0].values["colour"].value == "red"
 
 
-def test_a_detector_of_ones_own_finds_what_it_finds(shelf: Shelf, tmp_path: Path) -> None:
+def test_a_detector_of_ones_own_finds_what_it_finds(
+    shelf: Shelf, agent: ThingAgent, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     domain = load_domain(shelf.domain)
     dataset = Dataset.load(shelf.data, domain)
     asked: list[object] = []
@@ -261,11 +268,11 @@ def test_a_detector_of_ones_own_finds_what_it_finds(shelf: Shelf, tmp_path: Path
         asked.append(picture)
         return [[0, 0, 60, 60], [70, 60, 150, 120]], [0.9, 0.8]
 
-    with pytest.MonkeyPatch.context() as patch:
-        _quickly(patch)
-        agent = ThingAgent(domain).fit(dataset, detector=find)
+    monkeypatch.setattr(thing_fitting, "fit_thing_eyes", lambda *_, **__: agent.trained.eyes)
+    monkeypatch.setattr(thing_fitting, "fit_eyes", lambda *_, **__: SimpleNamespace(eyes=None))
+    taught = ThingAgent(domain).fit(dataset, detector=find)
     assert len(asked) == 36  # each picture to train on judges it
-    agent.save(tmp_path / "model")
+    taught.save(tmp_path / "model")
     picture = dataset.scenes[0].picture
     again = ThingAgent.load(tmp_path / "model", detector=find)
     assert len(again.trained.look([picture])[0].boxes) <= 2

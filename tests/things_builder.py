@@ -100,6 +100,7 @@ untidy(P) if picture(P), form(X, ball), on(X, Y).
 
 COLOURS = {"red": (200, 40, 40), "blue": (40, 60, 200)}
 SIDES = {"small": 14, "large": 26}
+WIDTH, HEIGHT = 128, 96
 
 Row = tuple[str, str, str, tuple[float, float, float, float]]
 
@@ -117,7 +118,7 @@ def draw_shapes(things: Sequence[Row], *, seed: int = 0, dark: bool = False) -> 
     """Draw shapes where their boxes are."""
     generator = np.random.default_rng(seed)
     level = 90 if dark else 200
-    noise = generator.normal(level, 5, (120, 160, 3)).clip(0, 255).astype(np.uint8)
+    noise = generator.normal(level, 5, (HEIGHT, WIDTH, 3)).clip(0, 255).astype(np.uint8)
     image = Image.fromarray(noise)
     pen = ImageDraw.Draw(image)
     for colour, form, _, box in things:
@@ -133,13 +134,13 @@ def random_things(
     things: list[Row] = []
     on: list[tuple[int, int]] = []
     across = 4.0
-    while len(things) < most and across < 130:
+    while len(things) < most and across < WIDTH - 24:
         colour, form, size = _lots(generator)
         side = SIDES[size]
         across += float(generator.uniform(2, 24))
-        if across + side > 158:
+        if across + side > WIDTH - 2:
             break
-        down = float(generator.uniform(78, 112 - side * 0.2))
+        down = float(generator.uniform(64, HEIGHT - 6 - side * 0.2))
         things.append((colour, form, size, (across, down - side, across + side, down)))
         if form == "box" and generator.random() < 0.4 and len(things) < most:
             other, shape, extent = _lots(generator)

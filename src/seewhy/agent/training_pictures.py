@@ -63,6 +63,11 @@ def scenes_to_train_on(dataset: Dataset, domain: Domain, *, without: Sequence[st
         some feature, or if a class to leave out is none of the domain's.
     """
     require_same_domain(dataset, domain)
+    if domain.things is not None:
+        raise DatasetError(
+            f"{dataset.folder}: the domain '{domain.name}' has several things in a picture, which "
+            "an Agent does not see; train a seewhy.ThingAgent ('seewhy train' does)"
+        )
     scenes = dataset.of_split("train").without_classes(without)
     require_two_classes(scenes)
     require_feature_labels(scenes)
