@@ -158,6 +158,14 @@ def test_what_is_supposed_is_concluded_anew(tabletop: Domain, stacks: ThingScene
     assert reply.text.startswith("If the large purple rubber sphere were a cube, ")
 
 
+def test_no_thing_more_than_the_most_is_tried(tabletop: Domain) -> None:
+    small = tabletop.with_most_things(2)
+    full = scene_of(small, (THINGS[4], THINGS[0]), {"on": [(0, 1)]})
+    reply = ask(small, full, "would anything fall?", "what would make the answer yes?")
+    assert reply.text.startswith("If the large red rubber cube were a sphere, the answer would be ")
+    assert reply.text.endswith("One thing more was not tried.")
+
+
 def test_of_a_scene_of_which_nothing_was_concluded(tabletop: Domain) -> None:
     things = tabletop.things
     assert things is not None
