@@ -18,7 +18,7 @@ from safetensors.torch import load, save
 
 from conftest import draw_tile
 from seewhy.agent.agent import Agent
-from seewhy.agent.model import _digest, _digest_of
+from seewhy.agent.manifest_file import _digest, _digest_of
 from seewhy.errors import ModelError, SeeWhyError
 
 JSON = (

@@ -17,6 +17,7 @@ logging.getLogger(__name__).addHandler(logging.NullHandler())  # who uses SeeWhy
 
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent
+    from seewhy.agent.things.thing_agent import ThingAgent
     from seewhy.classification import classify_pictures
     from seewhy.data.dataset import Dataset
     from seewhy.data.thing_scene import ThingScene, thing_scene
@@ -35,6 +36,7 @@ __all__ = [
     "Node",
     "Reply",
     "SeeWhyError",
+    "ThingAgent",
     "ThingAnswerer",
     "ThingReply",
     "ThingScene",
@@ -53,6 +55,7 @@ _HOMES = {
     "Node": "seewhy.knowledge.justification",
     "Reply": "seewhy.dialogue.reply",
     "SeeWhyError": "seewhy.errors",
+    "ThingAgent": "seewhy.agent.things.thing_agent",
     "ThingAnswerer": "seewhy.dialogue.things.answering",
     "ThingReply": "seewhy.dialogue.things.answering",
     "ThingScene": "seewhy.data.thing_scene",

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import shutil
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from seewhy.agent.manifest_file import (
+    MANIFEST,
+    REMEDY,
+    check_files,
+    read_manifest,
+    write_manifest,
+)
 from seewhy.agent.model_schema import ExperienceRows, Manifest, may_have, must_have
 from seewhy.agent.reading_weights import ReadingWeights
 from seewhy.agent.seeing import Seeing
@@ -22,12 +28,11 @@ from seewhy.domain.reading_rule import ReadingRule
 from seewhy.domain.tables import CLASS
 from seewhy.errors import ModelError, SeeWhyError
 from seewhy.files.folders import settle_folder, whole_folder
-from seewhy.files.json_file import read_json, read_object
+from seewhy.files.json_file import read_json
 from seewhy.induction.tree import TREE, DecisionTree
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.learned_file import LEARNED, Withdrawn, read_learned, write_learned
 from seewhy.perception.backbones import NONE
-from seewhy.perception.weights import LARGEST as LARGEST_WEIGHTS
 from seewhy.text.visible import visible
 
 if TYPE_CHECKING:
@@ -35,11 +40,8 @@ if TYPE_CHECKING:
     from seewhy.perception.extractor import FeatureExtractor
     from seewhy.perception.eyes import Eyes
 
-MANIFEST = "model.json"
 EXPERIENCE = "experience.json"
 FORMAT = 5
-
-_REMEDY = "train it again"
 
 
 @dataclass(frozen=True)
@@ -94,8 +96,7 @@ def write_model(model: Model, folder: Path) -> None:
         if model.answerer is not None:
             model.answerer.save(temporary / "dialogue")
         (temporary / EXPERIENCE).write_text(_experience_text(model), encoding="utf-8")
-        manifest = json.dumps(_manifest(model, temporary), indent=1)
-        (temporary / MANIFEST).write_text(manifest, encoding="utf-8")
+        write_manifest(temporary, _manifest(model))
 
 
 def check_target(folder: Path) -> None:
@@ -161,8 +162,8 @@ def _state(folder: Path) -> tuple[int, int] | None:
 
 
 def _read_model(folder: Path, *, device: str) -> Model:
-    manifest = _read_manifest(folder)
-    _check_files(folder, manifest)
+    manifest = read_manifest(folder, Manifest, number=FORMAT)
+    check_files(folder, manifest.files, must=must_have(manifest), may=may_have(manifest))
     domain, learned, withdrawn = _read_domain(folder, manifest)
     seeing = _read_seeing(folder, manifest, domain, device=device)
     answerer = _read_answerer(folder / "dialogue", domain) if manifest.answers else None
@@ -207,7 +208,7 @@ def _read_domain(
     if domain.name != manifest.domain:
         raise ModelError(
             f"{folder}: the model was trained for the domain '{visible(manifest.domain)}', but its "
-            f"domain folder is '{domain.name}'; {_REMEDY}"
+            f"domain folder is '{domain.name}'; {REMEDY}"
         )
     return domain, learned, withdrawn
 
@@ -221,7 +222,7 @@ def _read_seeing(folder: Path, manifest: Manifest, domain: Domain, *, device: st
     if dict(extractor.values) != seen_values(domain, with_class=with_class):
         raise ModelError(
             f"{folder}: the networks recognise other features than the model's domain names; "
-            f"{_REMEDY}"
+            f"{REMEDY}"
         )
     familiarity = None
     if f"perception/{FAMILIARITY}" in manifest.files:
@@ -248,13 +249,13 @@ def _read_tree(folder: Path, domain: Domain) -> DecisionTree:
     if tree.features != values or not {*tree.classes} <= domain.classes.keys():
         raise ModelError(
             f"{folder / TREE}: the tree tells apart other features or classes than "
-            f"the model's domain names; {_REMEDY}"
+            f"the model's domain names; {REMEDY}"
         )
     return tree
 
 
 def _read_experience(file: Path, domain: Domain) -> Experience:
-    rows = read_json(file, ExperienceRows, remedy=_REMEDY).root
+    rows = read_json(file, ExperienceRows, remedy=REMEDY).root
     values = [{*feature.values, None} for feature in domain.features.values()]
     for number, row in enumerate(rows):
         fits = len(row.features) == len(values) and all(
@@ -263,7 +264,7 @@ def _read_experience(file: Path, domain: Domain) -> Experience:
         if not fits or not row.classes.keys() <= domain.classes.keys():
             raise ModelError(
                 f"{file} is damaged ({number}: the model's domain has no such features or classes)"
-                f": {_REMEDY}"
+                f": {REMEDY}"
             )
     return {row.features: row.classes for row in rows}
 
@@ -286,11 +287,11 @@ def _experience_text(model: Model) -> str:
     return json.dumps(rows, indent=1)
 
 
-def _manifest(model: Model, folder: Path) -> dict[str, Any]:
+def _manifest(model: Model) -> dict[str, Any]:
     from importlib.metadata import version
 
     settings, known, seeing = model.settings, model.known, model.seeing
-    manifest = {
+    return {
         "format": FORMAT,
         "seewhy": version("seewhy"),
         "domain": known.given.name,
@@ -308,62 +309,4 @@ def _manifest(model: Model, folder: Path) -> dict[str, Any]:
         "answers": model.answerer is not None,
         "trained_on": sorted(model.training_pictures.trained_on),
         "without_class": sorted(model.training_pictures.without_class),
-        "files": {
-            path.relative_to(folder).as_posix(): _digest(path)
-            for path in sorted(folder.rglob("*"))
-            if path.is_file()
-        },
     }
-    return {**manifest, "digest": _digest_of(manifest)}
-
-
-def _digest(path: Path) -> str:
-    with path.open("rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
-
-
-def _digest_of(manifest: dict[str, Any]) -> str:
-    return hashlib.sha256(json.dumps(manifest, sort_keys=True).encode()).hexdigest()
-
-
-def _read_manifest(folder: Path) -> Manifest:
-    if not folder.is_dir():
-        raise ModelError(f"{folder}: there is no such model; 'seewhy train' makes one")
-    path = folder / MANIFEST
-    if not path.is_file():
-        raise ModelError(
-            f"{folder}: is not a model, it has no {MANIFEST}; give the folder that 'seewhy "
-            "train --out' wrote"
-        )
-    found = read_object(path, remedy=_REMEDY)
-    if found.get("format") != FORMAT:
-        raise ModelError(
-            f"{path}: the model has format {visible(found.get('format'), most=20)}, this version "
-            f"reads {FORMAT}; {_REMEDY}"
-        )
-    if found.pop("digest", None) != _digest_of(found):
-        raise _changed(path)
-    return read_json(path, Manifest, remedy=_REMEDY)
-
-
-def _check_files(folder: Path, manifest: Manifest) -> None:
-    for name in manifest.files.keys() - {*may_have(manifest)}:
-        raise ModelError(
-            f"{folder / MANIFEST} is damaged (files: '{visible(name)}' is no file of a model): "
-            f"{_REMEDY}"
-        )
-    for name in (*must_have(manifest), *manifest.files):
-        path = folder / name
-        if name not in manifest.files or not path.is_file():
-            raise ModelError(f"{folder}: the model is incomplete, {name} is missing; {_REMEDY}")
-        if path.stat().st_size > LARGEST_WEIGHTS:
-            raise ModelError(f"{path} is larger than any file of a model: {_REMEDY}")
-        if _digest(path) != manifest.files[name]:
-            raise _changed(path)
-
-
-def _changed(path: Path) -> ModelError:
-    return ModelError(
-        f"{path}: has changed since the model was trained; undo the change or train the model "
-        "again (knowledge is edited in the domain's own folder)"
-    )

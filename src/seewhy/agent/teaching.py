@@ -42,13 +42,12 @@ def lesson_of(scenes: Dataset, *, side: int) -> Lesson:
     domain = scenes.domain
     if len(scenes) <= _KEPT_IN_MEMORY:
         scenes.pictures(side)
+    vectors = [scene.vector for scene in scenes.scenes]  # without the things in them
     return Lesson(
         batches=lambda: scenes.iter_pictures(side),
-        labels=seen_labels(domain, scenes.vectors, scenes.labels, with_class=True),
+        labels=seen_labels(domain, vectors, scenes.labels, with_class=True),
         values=seen_values(domain, with_class=True),
-        strata=[
-            label or vector for label, vector in zip(scenes.labels, scenes.vectors, strict=True)
-        ],
+        strata=[label or vector for label, vector in zip(scenes.labels, vectors, strict=True)],
         groups=scenes.groups,
     )
 

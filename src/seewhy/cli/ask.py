@@ -20,6 +20,7 @@ from seewhy.cli.options import (
     SpeechFile,
 )
 from seewhy.cli.screen import print_json, remark, say
+from seewhy.cli.things_in_pictures import ask_things, refuse
 
 if TYPE_CHECKING:
     from seewhy.dialogue.reply import Classification, Reply
@@ -37,6 +38,15 @@ def ask(
         bool,
         typer.Option("--nearest", help="Also name the pictures of training that are most like it."),
     ] = False,
+    things: Annotated[
+        Path | None,
+        typer.Option(
+            "--things",
+            metavar="FILE",
+            help="Of several things: a table of their boxes (things.csv), instead of looking for "
+            "them.",
+        ),
+    ] = None,
     speak: Speak = False,
     speech: SpeechFile = None,
     device: Device = "auto",
@@ -48,11 +58,29 @@ def ask(
     """Answer a question about a picture, with the reasons."""
     share_cores()
     from seewhy.agent.agent import Agent
+    from seewhy.agent.manifest_file import is_of_things
     from seewhy.dialogue.text_to_speech import find_voice
+    from seewhy.errors import SeeWhyError
 
     # Where nothing speaks, that is said before the answer is worked out.
     voices = [find_voice()] if speak else []
     voices += [find_voice(speech)] if speech is not None else []
+    if is_of_things(model):
+        options = {"--nearest": nearest, "--reading": reading, "--gate": gate}
+        refuse({**options, "--known-share": known_share}, why="leave it out")
+        ask_things(
+            model,
+            image,
+            question,
+            things=things,
+            picture=picture,
+            device=device,
+            voices=voices,
+            json=json,
+        )
+        return
+    if things is not None:
+        raise SeeWhyError(f"--things goes with a model of several things, which {model} is not")
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     reply = agent.ask(image, question)
     if picture is not None:

@@ -19,6 +19,7 @@ from seewhy.cli.options import (
     Reading,
     Speak,
 )
+from seewhy.cli.things_in_pictures import chat_about_things, refuse
 
 
 def chat(
@@ -47,12 +48,18 @@ def chat(
     """
     share_cores()
     from seewhy.agent.agent import Agent
+    from seewhy.agent.manifest_file import is_of_things
     from seewhy.data.dataset import Dataset
     from seewhy.dialogue.text_to_speech import find_voice
     from seewhy.revision.conversation import Conversation
     from seewhy.revision.revisions import Revisions
 
     voice = find_voice() if speak else None
+    if is_of_things(model):
+        options = {"--data": data, "--reading": reading, "--gate": gate}
+        refuse({**options, "--known-share": known_share}, why="leave it out")
+        chat_about_things(model, image, device=device, json=json, voice=voice)
+        return
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     if data is not None:
         Dataset.load(data, agent.domain)

@@ -10,6 +10,7 @@ import typer
 from seewhy.cli.cores import share_cores
 from seewhy.cli.options import Device, Gate, Json, KnownShare, ModelFolder, Outside, Reading
 from seewhy.cli.screen import print_json, progress, remark, say
+from seewhy.cli.things_in_pictures import classify_things, refuse
 
 if TYPE_CHECKING:
     from seewhy.classification.running import Classified
@@ -42,6 +43,8 @@ def classify(
 ) -> None:
     """Classify many pictures: a table with classes, probabilities, features and reasons.
 
+    Where pictures show several things, a table of the things, with the columns of things.csv.
+
     An interrupted run goes on where it was when the same command is given again.
     """
     from seewhy.classification.table_files import check_table
@@ -49,7 +52,7 @@ def classify(
     check_table(out)
     share_cores()
     from seewhy.agent.agent import Agent
-    from seewhy.agent.model import MANIFEST
+    from seewhy.agent.manifest_file import MANIFEST, is_of_things
     from seewhy.classification.running import classify_to_table
     from seewhy.data.digest import digest_of
     from seewhy.data.importers.annotation import Note
@@ -57,6 +60,11 @@ def classify(
     from seewhy.data.picture_listing import list_pictures
     from seewhy.errors import DatasetError
 
+    if is_of_things(model):
+        options = {"--reading": reading, "--gate": gate, "--known-share": known_share}
+        refuse(options, why="leave it out")
+        classify_things(model, pictures, out, outside=outside, device=device, json=json)
+        return
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     listing = list_pictures(pictures, agent.domain, with_class=all_, outside=outside)
     if any(out.exists() and out.samefile(table) for table in listing.tables):

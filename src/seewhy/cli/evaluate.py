@@ -19,6 +19,7 @@ from seewhy.cli.options import (
     Seed,
 )
 from seewhy.cli.screen import print_json, progress, remark, say, warn
+from seewhy.cli.things_in_pictures import evaluate_things_seen, refuse
 from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
@@ -101,6 +102,7 @@ def evaluate(
     from dataclasses import replace
 
     from seewhy.agent.agent import Agent
+    from seewhy.agent.manifest_file import is_of_things
     from seewhy.cli.evaluation_tables import print_curve, print_evaluation
     from seewhy.cli.read_data import read_data
     from seewhy.errors import SeeWhyError
@@ -109,6 +111,14 @@ def evaluate(
         raise SeeWhyError("--scenes and --wrong go with 'seewhy evaluate clevr'")
     if data is None:
         raise SeeWhyError("there is no dataset; name its folder with --data")
+    if is_of_things(model):
+        options = {"--questions": questions, "--page": page, "--most": most, "--curve": curve}
+        refuse(
+            {**options, "--reading": reading, "--gate": gate, "--known-share": known_share},
+            why="leave it out",
+        )
+        evaluate_things_seen(model, data, outside=outside, device=device, json=json)
+        return
     drawn = _questions_drawn(questions)
     if most is not None and page is None:
         raise SeeWhyError("--most goes with --page; --json lists all wrong pictures")

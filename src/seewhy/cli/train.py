@@ -20,6 +20,7 @@ from seewhy.cli.options import (
     Seed,
 )
 from seewhy.cli.screen import add_row, output, print_json, table
+from seewhy.cli.things_in_pictures import refuse, train_things
 from seewhy.cli.training import train_model
 from seewhy.text.percentage import percent
 
@@ -69,6 +70,22 @@ def train(
     from seewhy.domain.domain import load_domain
 
     loaded = load_domain(domain)
+    if loaded.things is not None:
+        refuse(
+            {
+                "--from": start_from,
+                "--drawn": drawn,
+                "--without-class": without,
+                "--reading": reading,
+                "--gate": gate,
+                "--known-share": known_share,
+            },
+            why="they are found and read together, each picture is answered; leave it out",
+        )
+        train_things(
+            loaded, data, out, eyes=eyes, device=device, outside=outside, seed=seed, json=json
+        )
+        return
     agent = train_model(
         loaded,
         data,

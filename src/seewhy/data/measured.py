@@ -4,6 +4,7 @@ Which of two things is nearer is told by where they touch the ground: on a pictu
 slant, what is nearer reaches further down. A domain that says ``nearer``, ``in_front`` or
 ``behind`` says that its pictures are such.
 
+Corners may be arrays: so many boxes are measured at once (:func:`how_probable`).
 What stands on another thing touches no ground. Where a domain says which relation that is
 (``support``), where a thing stands is measured from the box of what is at the foot of its stack:
 things of one stack are neither left of nor in front of each other.
@@ -12,20 +13,29 @@ things of one stack are neither left of nor in front of each other.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import reduce
 from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from seewhy.data.thing import BoundingBox
 
+__all__ = ["MEASURES", "TOUCHING", "how_probable"]
 __all__ = ["MEASURES", "STANDING", "TOUCHING", "feet"]
 
 TOUCHING = 0.05
 """The gap between two things that touch, at most, as a share of the shortest side of both."""
 
-Measure = Callable[[BoundingBox, BoundingBox], bool]
+Holds = Any
+"""Yes or no; an array of them where corners are arrays."""
+
+Measure = Callable[[BoundingBox, BoundingBox], Holds]
 """Whether a relation holds of the first box to the second."""
 
 
-def left(first: BoundingBox, second: BoundingBox) -> bool:
+def left(first: BoundingBox, second: BoundingBox) -> Holds:
     """Whether the middle of one is further left.
 
     Examples
@@ -36,22 +46,22 @@ def left(first: BoundingBox, second: BoundingBox) -> bool:
     return first.middle[0] < second.middle[0]
 
 
-def right(first: BoundingBox, second: BoundingBox) -> bool:
+def right(first: BoundingBox, second: BoundingBox) -> Holds:
     """Whether the middle of one is further right."""
     return left(second, first)
 
 
-def above(first: BoundingBox, second: BoundingBox) -> bool:
+def above(first: BoundingBox, second: BoundingBox) -> Holds:
     """Whether the middle of one is further up in the picture."""
     return first.middle[1] < second.middle[1]
 
 
-def below(first: BoundingBox, second: BoundingBox) -> bool:
+def below(first: BoundingBox, second: BoundingBox) -> Holds:
     """Whether the middle of one is further down in the picture."""
     return above(second, first)
 
 
-def inside(first: BoundingBox, second: BoundingBox) -> bool:
+def inside(first: BoundingBox, second: BoundingBox) -> Holds:
     """Whether one lies within the other, which is larger.
 
     Examples
@@ -62,43 +72,45 @@ def inside(first: BoundingBox, second: BoundingBox) -> bool:
     False
     """
     within = (
-        second.left <= first.left
-        and second.top <= first.top
-        and first.right <= second.right
-        and first.bottom <= second.bottom
+        (second.left <= first.left)
+        & (second.top <= first.top)
+        & (first.right <= second.right)
+        & (first.bottom <= second.bottom)
     )
-    return within and larger(second, first)
+    return within & larger(second, first)
 
 
-def touching(first: BoundingBox, second: BoundingBox) -> bool:
+def touching(first: BoundingBox, second: BoundingBox) -> Holds:
     """Whether two overlap, or are so near that no gap is to be seen.
 
     Examples
     --------
-    >>> touching(BoundingBox(0, 0, 20, 20), BoundingBox(21, 0, 41, 20))
+    >>> bool(touching(BoundingBox(0, 0, 20, 20), BoundingBox(21, 0, 41, 20)))
     True
-    >>> touching(BoundingBox(0, 0, 20, 20), BoundingBox(22, 0, 42, 20))
+    >>> bool(touching(BoundingBox(0, 0, 20, 20), BoundingBox(22, 0, 42, 20)))
     False
     """
-    across = max(first.left, second.left) - min(first.right, second.right)
-    down = max(first.top, second.top) - min(first.bottom, second.bottom)
+    across = np.maximum(first.left, second.left) - np.minimum(first.right, second.right)
+    down = np.maximum(first.top, second.top) - np.minimum(first.bottom, second.bottom)
     sides = [
         side for box in (first, second) for side in (box.right - box.left, box.bottom - box.top)
     ]
-    return max(across, down) <= TOUCHING * min(sides)
+    shortest = reduce(np.minimum, sides)
+    holds: Holds = np.maximum(across, down) <= TOUCHING * shortest
+    return holds
 
 
-def nearer(first: BoundingBox, second: BoundingBox) -> bool:
+def nearer(first: BoundingBox, second: BoundingBox) -> Holds:
     """Whether one reaches further down in the picture: there it stands on the ground."""
     return first.bottom > second.bottom
 
 
-def behind(first: BoundingBox, second: BoundingBox) -> bool:
+def behind(first: BoundingBox, second: BoundingBox) -> Holds:
     """Whether the other is nearer."""
     return nearer(second, first)
 
 
-def larger(first: BoundingBox, second: BoundingBox) -> bool:
+def larger(first: BoundingBox, second: BoundingBox) -> Holds:
     """Whether one covers more of the picture."""
     return first.area > second.area
 
@@ -118,6 +130,49 @@ MEASURES: Mapping[str, Measure] = MappingProxyType(
     }
 )
 """What domain.toml calls a measure → the measure."""
+
+_DRAWS = 128
+
+
+def how_probable(
+    measure: Measure, boxes: NDArray[np.float64], spread: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return how probable it is that a relation holds of each box to each other one.
+
+    Where two boxes are nearly alike, a detector that is a little off decides: the share is taken
+    of boxes whose corners are drawn around those given. The same boxes give the same shares.
+
+    Parameters
+    ----------
+    measure : callable
+        One of :data:`MEASURES`.
+    boxes : ndarray of float, shape (n, 4)
+        Left, top, right and bottom.
+    spread : ndarray of float, shape (n, 4)
+        The standard deviation of each.
+
+    Returns
+    -------
+    ndarray of float, shape (n, n)
+        Of the box of the row to the box of the column.
+
+    Examples
+    --------
+    >>> boxes = np.array([[0.0, 0, 10, 10], [1.0, 0, 11, 10], [50.0, 0, 60, 10]])
+    >>> how_probable(left, boxes, np.ones((3, 4)))[0].round(1).tolist()
+    [0.0, 0.9, 1.0]
+    """
+    drawn = np.random.default_rng(0).normal(size=(_DRAWS, len(boxes), 4))
+    # Each draw and its mirror image, so that nothing leans to one side by chance.
+    corners = boxes + np.concatenate([drawn, -drawn]) * spread
+    first = BoundingBox(*np.moveaxis(corners[:, :, None, :], -1, 0))
+    second = BoundingBox(*np.moveaxis(corners[:, None, :, :], -1, 0))
+    shares: NDArray[np.float64] = np.broadcast_to(
+        measure(first, second), (len(corners), len(boxes), len(boxes))
+    ).mean(axis=0)
+    np.fill_diagonal(shares, 0.0)
+    return shares
+
 
 STANDING = frozenset({"left", "right", "nearer", "in_front", "behind"})
 """Measures of where things stand, not of how they are seen."""

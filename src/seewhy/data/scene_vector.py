@@ -14,7 +14,7 @@ from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.things import of_things
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["terms_of", "vector_with_things"]
+__all__ = ["feet_of", "terms_of", "vector_with_things"]
 
 
 def terms_of(domain: Domain, things: Sequence[Thing]) -> dict[str, str]:
@@ -85,7 +85,7 @@ def vector_with_things(
         values.update({of_things(key, term): value for key, value in thing.values.items()})
     boxes = {thing.name: thing.box for thing in things}
     standing = {
-        name: boxes.get(foot) for name, foot in _feet(domain.things, boxes, related).items()
+        name: boxes.get(foot) for name, foot in feet_of(domain.things, boxes, related).items()
     }
     for key, relation in domain.things.relations.items():
         measure = MEASURES.get(relation.measure)
@@ -102,14 +102,18 @@ def vector_with_things(
     return domain.schema.vector(values)
 
 
-def _feet(things: Things, names: Iterable[str], related: Sequence[Related]) -> dict[str, str]:
-    """For each thing the one at the foot of its stack, as far as is said."""
+def feet_of(things: Things, names: Iterable[str], related: Iterable[Related]) -> dict[str, str]:
+    """Return for each thing the one at the foot of its stack, as far as is said."""
     support = things.support
     if support is None:
         return {name: name for name in names}
     converse = things.relations[support].converse
-    pairs = [(one.thing, one.other) for one in related if one.relation == support and one.holds]
-    pairs += [(one.other, one.thing) for one in related if one.relation == converse and one.holds]
+    pairs = []
+    for one in related:
+        if one.holds and one.relation == support:
+            pairs.append((one.thing, one.other))
+        elif one.holds and one.relation == converse:
+            pairs.append((one.other, one.thing))
     return feet(names, pairs)
 
 

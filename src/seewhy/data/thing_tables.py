@@ -17,7 +17,13 @@ from seewhy.domain.things import Things
 from seewhy.errors import DatasetError, PictureError
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["cells_of_relations", "cells_of_things", "things_of_file", "with_things"]
+__all__ = [
+    "cells_of_relations",
+    "cells_of_things",
+    "things_of_file",
+    "things_of_picture",
+    "with_things",
+]
 
 _FIRST = ("image", "thing", *CORNERS)
 _NO_FEATURES = ("kind", "x", "y", "z")
@@ -94,6 +100,35 @@ def things_of_file(
     chosen = next(iter(found)) if image is None else image
     said = _related(file.with_name(RELATIONS), domain.things, found)
     return tuple(found[chosen]), tuple(said.get(chosen, ()))
+
+
+def things_of_picture(file: Path, domain: Domain, picture: Path) -> tuple[Thing, ...]:
+    """Return the things of a picture in a table that may have those of others, too.
+
+    The table names it by its path from the table's folder, or by the end of that path.
+
+    Raises
+    ------
+    DatasetError
+        If the table is wrong, has no such picture or several, or a box reaches out of it.
+    """
+    assert domain.things is not None, "the domain has no things"
+    if not file.is_file():
+        raise DatasetError(f"{file}: there is no such file; name a table of things")
+    found = _things(file, domain.things, domain, None)
+    called = [name for name in found if (file.parent / name).resolve() == picture.resolve()]
+    called = called or [
+        name for name in found if name and picture.resolve().as_posix().endswith(f"/{name}")
+    ]
+    if not called and len(found) == 1 and "" in found:
+        called = [""]
+    if len(called) != 1:
+        raise DatasetError(
+            f"{file}: has {'several pictures' if called else 'no things of a picture'} called "
+            f"'{picture.name}'; the column 'image' names the picture"
+        )
+    _check_boxes(found[called[0]], picture, file)
+    return tuple(found[called[0]])
 
 
 def with_things(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated
 from typing import Literal as OneOf
 
@@ -41,6 +42,19 @@ def _with_them(text: str) -> str:
 
 
 GroupClause = Annotated[str, AfterValidator(_with_them)]
+
+
+def _beside_the_domain(name: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*\.onnx", name):
+        raise ValueError(
+            f"must be the name of an ONNX file in this folder, such as 'boxes.onnx', got '{name}'; "
+            "what lies elsewhere is not read, and Python functions are given in Python"
+        )
+    return name
+
+
+OnnxFile = Annotated[str, AfterValidator(_beside_the_domain)]
+
 RelationClause = Annotated[str, AfterValidator(_with_two_things)]
 
 
@@ -208,6 +222,11 @@ class ThingsTable(StrictTable):
         description="The relation of a thing to what it stands on. Where it is known, where things "
         "stand (`left`, `right`, `nearer`, `in_front`, `behind`) is measured from the box of what "
         "is at the foot of their stack.",
+    )
+    detector: OnnxFile | None = Field(
+        default=None,
+        description="An ONNX file of this folder that finds the boxes of things; where left out, "
+        "a detector is trained on annotated boxes.",
     )
     features: dict[Key, ThingFeatureTable] = Field(
         min_length=1,

@@ -95,6 +95,8 @@ class Things:
         What axioms conclude of each thing.
     groups : mapping of str to Group
         What axioms conclude of several things together.
+    detector : str or None
+        A file of the domain's folder that finds them.
 
     Examples
     --------
@@ -116,6 +118,7 @@ class Things:
     support: str | None = None
     conclusions: Mapping[str, Conclusion] = field(default_factory=dict)
     groups: Mapping[str, Group] = field(default_factory=dict)
+    detector: str | None = None
 
     @property
     def seen(self) -> tuple[str, ...]:
@@ -169,6 +172,7 @@ def read_things(table: ThingsTable, knowledge: Knowledge, place: KeyPlace) -> Th
             key: read_group(key, group, table, knowledge, place)
             for key, group in table.groups.items()
         },
+        detector=table.detector,
     )
     _check_words(things, place)
     return things

@@ -86,7 +86,13 @@ def fit_projection(pooled: npt.NDArray[np.floating], *, seed: int = 0) -> Projec
     return Projection(mean, scale, np.ascontiguousarray(components, dtype=np.float32))
 
 
-def fit_head(projected: Floats, targets: npt.NDArray[np.int64], *, values: int) -> Head:
+def fit_head(
+    projected: Floats,
+    targets: npt.NDArray[np.int64],
+    *,
+    values: int,
+    strength: float = STRENGTH,
+) -> Head:
     """Logistic regression of a feature's values.
 
     Parameters
@@ -96,6 +102,8 @@ def fit_head(projected: Floats, targets: npt.NDArray[np.int64], *, values: int) 
         The index of each picture's value.
     values : int
         Values that the feature may have; those that no picture shows get a low logit.
+    strength : float, default 0.01
+        The inverse of the penalty on the weights.
 
     Examples
     --------
@@ -112,7 +120,7 @@ def fit_head(projected: Floats, targets: npt.NDArray[np.int64], *, values: int) 
     if len(shown) < 2:
         bias[shown] = 0.0
         return Head(weight, bias)
-    model = LogisticRegression(C=STRENGTH, max_iter=300)
+    model = LogisticRegression(C=strength, max_iter=300)
     # For matrices as small as these, threads wait for each other.
     with threadpool_limits(1), warnings.catch_warnings():
         # Many classes of few pictures each are no regression.

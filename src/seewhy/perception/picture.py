@@ -6,7 +6,7 @@ import io
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Literal, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +23,15 @@ from seewhy.perception.picture_file import (
 )
 from seewhy.perception.pixel_array import image_of_array
 
-__all__ = ["Fit", "as_picture", "picture_of_bytes", "read_picture", "reduced_picture"]
+__all__ = [
+    "Fit",
+    "WholePicture",
+    "as_picture",
+    "picture_of_bytes",
+    "read_picture",
+    "reduced_picture",
+    "whole_picture",
+]
 
 _KEPT_WHOLE = 16_000_000
 """Pixels; larger pictures are reduced to four times what is asked for, some rows at a time."""
@@ -82,6 +90,11 @@ def read_picture(path: Path | str, *, size: int, fit: Fit = "pad") -> Picture:
     """
     _check_size(size)
     file = Path(path)
+    _check_file(file)
+    return _opened_square(file, str(file), size=size, fit=fit)
+
+
+def _check_file(file: Path) -> None:
     if file.is_dir():
         raise PictureError(f"{file} is a folder, not a picture: give the path of a picture file")
     try:
@@ -94,8 +107,6 @@ def read_picture(path: Path | str, *, size: int, fit: Fit = "pad") -> Picture:
         raise PictureError(f"{file} cannot be read ({error}): check the path") from None
     if empty:
         raise PictureError(f"{file} is empty (0 bytes): copy the picture again from its source")
-
-    return _opened_square(file, str(file), size=size, fit=fit)
 
 
 def picture_of_bytes(content: bytes, *, name: str, size: int, fit: Fit = "pad") -> Picture:
@@ -173,9 +184,13 @@ def as_picture(
         return _named_square(image, getattr(image, "filename", "") or "the image", size, fit)
     if isinstance(image, np.ndarray):
         return _named_square(image_of_array(image), "the array", size, fit)
-    raise PictureError(
+    raise _no_picture(image)
+
+
+def _no_picture(what: object) -> PictureError:
+    return PictureError(
         "a picture must be a path, a Pillow image or a NumPy array, "
-        f"got {type(image).__name__}: convert it first"
+        f"got {type(what).__name__}: convert it first"
     )
 
 
@@ -210,16 +225,76 @@ def reduced_picture(path: Path, *, longest: int) -> Image.Image:
     (16, 8)
     """
     _check_size(longest)
-
-    def within(image: Image.Image) -> Image.Image:
-        image.thumbnail((longest, longest), Image.Resampling.BICUBIC)
-        return image
-
     try:
         with open_picture(path) as image:
-            return _decoded(image, longest, within)
+            return _reduced(image, longest).image
     except PictureError as problem:
         raise PictureError(f"{path.name} {problem}") from None
+
+
+class WholePicture(NamedTuple):
+    """A picture as it is, and how many of its own pixels one of ``image`` stands for."""
+
+    image: Image.Image
+    scale: float
+
+
+def whole_picture(
+    picture: Path | str | Image.Image | npt.NDArray[np.generic], *, longest: int
+) -> WholePicture:
+    """Read a picture as it is, upright and in red, green and blue, of any shape.
+
+    Parameters
+    ----------
+    picture
+        As for :func:`as_picture`.
+    longest : int
+        Pixels of its longer side at most; a smaller picture stays as it is.
+
+    Raises
+    ------
+    PictureError
+        As :func:`as_picture`.
+
+    Examples
+    --------
+    >>> whole = whole_picture(np.zeros((20, 40)), longest=16)
+    >>> whole.image.size, whole.scale
+    ((16, 8), 2.5)
+    """
+    _check_size(longest)
+    if isinstance(picture, Path | str):
+        file = Path(picture)
+        _check_file(file)
+        try:
+            with open_picture(file) as image:
+                return _reduced(image, longest)
+        except PictureError as problem:
+            raise PictureError(f"{file} {problem}") from None
+    if isinstance(picture, Image.Image):
+        image, name = picture, getattr(picture, "filename", "") or "the image"
+    elif isinstance(picture, np.ndarray):
+        image, name = image_of_array(picture), "the array"
+    else:
+        raise _no_picture(picture)
+    try:
+        check_measures(image)
+        return _reduced(image, longest)
+    except PictureError as problem:
+        raise PictureError(f"{name} {problem}") from None
+
+
+def _reduced(image: Image.Image, longest: int) -> WholePicture:
+    measured = max(image.size)
+
+    def within(found: Image.Image) -> Image.Image:
+        if max(found.size) > longest:
+            found = found.copy()  # the caller's image stays as it is
+            found.thumbnail((longest, longest), Image.Resampling.BICUBIC)
+        return found
+
+    reduced = _decoded(image, longest, within)
+    return WholePicture(reduced, measured / max(reduced.size))
 
 
 def _square(image: Image.Image, *, size: int, fit: Fit) -> Picture:

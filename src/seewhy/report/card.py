@@ -127,7 +127,7 @@ def _draw_where(
             drawn = of_feature.picture(image, side=2 * _PANEL, fit=fit)
             parts.append(
                 f"<image x='{x}' y='{y:g}' width='{_PANEL}' height='{_PANEL}' "
-                f"href='data:image/png;base64,{_base64(drawn)}'/>"
+                f"href='data:image/png;base64,{png_of(drawn)}'/>"
             )
             below = y + _PANEL + 15
             title = f"{of_feature.feature}: {of_feature.value}".replace("_", " ")
@@ -143,10 +143,11 @@ def _draw_where(
 
 def embedded(image: Path | str | Image.Image | np.ndarray[Any, Any], *, size: int) -> str:
     """Return a picture as base64 of a PNG of ``size`` by ``size`` pixels, to stand in a page."""
-    return _base64(Image.fromarray(as_picture(image, size=size)))
+    return png_of(Image.fromarray(as_picture(image, size=size)))
 
 
-def _base64(picture: Image.Image) -> str:
+def png_of(picture: Image.Image) -> str:
+    """Return a picture as base64 of a PNG, to stand in a figure."""
     stream = io.BytesIO()
     picture.save(stream, "PNG")
     return base64.b64encode(stream.getvalue()).decode("ascii")

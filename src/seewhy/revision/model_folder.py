@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from seewhy.agent.model import MANIFEST
+from seewhy.agent.manifest_file import MANIFEST
 from seewhy.domain.folder import FILES
 from seewhy.errors import DomainError
 from seewhy.revision.edit import KNOWLEDGE

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -138,6 +138,22 @@ class Backbone:
         """
         *_, (_, maps) = self._run(pictures, until=self.trunk.tuned_from)
         return halved(maps)
+
+    def stage_maps(self, pictures: Pictures, stages: Collection[int]) -> dict[int, torch.Tensor]:
+        """The maps of some stages, of pictures of any shape.
+
+        Parameters
+        ----------
+        pictures : ndarray of uint8, shape (n, rows, columns, 3)
+        stages : collection of int
+            Of the trunk.
+        """
+        levels = torch.from_numpy(np.require(pictures, requirements=["C", "W"]))
+        return {
+            number: maps
+            for number, maps in self._run(levels, until=max(stages) + 1)
+            if number in stages
+        }
 
     def to(self, device: torch.device) -> Backbone:
         """Move the weights to a device."""

@@ -1,0 +1,1 @@
+"""Several things in one picture: where they are, what each is, what holds between two."""
