@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -158,6 +159,14 @@ def test_what_is_supposed_is_concluded_anew(tabletop: Domain, stacks: ThingScene
     assert reply.text.startswith("If the large purple rubber sphere were a cube, ")
 
 
+def test_no_thing_more_than_the_most_is_tried(tabletop: Domain) -> None:
+    small = tabletop.with_most_things(2)
+    full = scene_of(small, (THINGS[4], THINGS[0]), {"on": [(0, 1)]})
+    reply = ask(small, full, "would anything fall?", "what would make the answer yes?")
+    assert reply.text.startswith("If the large red rubber cube were a sphere, the answer would be ")
+    assert reply.text.endswith("One thing more was not tried.")
+
+
 def test_of_a_scene_of_which_nothing_was_concluded(tabletop: Domain) -> None:
     things = tabletop.things
     assert things is not None
@@ -255,6 +264,21 @@ def test_they_are_those_that_were_spoken_of(set_cards: Domain, cards: ThingScene
     assert text == (
         "They share colour, shading and shape: each is red, each is solid and each shows ovals."
     )
+
+
+@pytest.mark.parametrize(
+    ("begins", "name", "said"),
+    [("## What follows", "tabletop", THINGS), ("## Cards of SET", "set_cards", CARDS[:5])],
+)
+def test_the_page_says_what_follows(begins: str, name: str, said: Sequence[str]) -> None:
+    page = (Path(__file__).parents[1] / "docs" / "things.md").read_text("utf-8")
+    section = page.split(begins)[1].split("\n## ")[0]
+    rows = re.findall(r"^\| [^|]+ \| ([A-Z][^|]+\?) \| ([^|]+) \|$", section, re.M)
+    assert len(rows) == 5
+    domain = load_domain(name)
+    scene = scene_of(domain, said, {"on": ON} if name == "tabletop" else {})
+    for question, answer in rows:
+        assert ask(domain, scene, question).text == answer
 
 
 CONCLUDED = """

@@ -38,6 +38,7 @@ from seewhy.dialogue.things.query import (
     Extreme,
     Groups,
     HasValue,
+    PartOf,
     Query,
     Ranked,
     Related,
@@ -102,7 +103,9 @@ class _Spoken:
                 self.compared.add(feature)
             case Related(relation=relation) | Extreme(relation=relation):
                 self.relations.add(relation)
-            case Concluded(conclusion=key) | Groups(group=key) | Together(group=key):
+            case Concluded(conclusion=key) | PartOf(group=key):
+                self.concluded.add(key)
+            case Groups(group=key) | Together(group=key):
                 self.concluded.add(key)
         if is_dataclass(part):
             for name in fields(part):
@@ -116,7 +119,9 @@ class _Spoken:
         relations = {r for r in self.relations if things.relations[r].measure == CONCLUDED}
         self.concluded |= relations
         self.relations -= relations
-        for key in self.concluded if scene.conclusions is not None else ():
+        if scene.conclusions is None:
+            return
+        for key in self.concluded:
             seen = scene.conclusions.rests_on(key)
             self.compared |= seen & set(things.features)
             self.relations |= seen & set(things.relations)
@@ -138,7 +143,8 @@ def smallest_change(query: Query, aim: Value, words: ThingWords) -> Found:
     orders = _one_way(words, {r for r in spoken.relations if is_in_order(scene, r)})
     loose = _one_way(words, {r for r in spoken.relations if not is_in_order(scene, r)})
     plain = [*_edits(scene, tried, orders, loose)]
-    adding = _additions(scene, tried, orders, loose)
+    full = concluding is not None and scene.count >= things.most
+    adding = None if full else _additions(scene, tried, orders, loose)
     additions = [] if adding is None else [*adding]
     left_out = adding is None
     looked_at = 0
