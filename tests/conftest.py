@@ -33,6 +33,7 @@ from PIL import Image, ImageDraw
 from seewhy.agent.agent import Agent
 from seewhy.cli.main import main
 from seewhy.data.dataset import Dataset
+from seewhy.dialogue import recurrent
 from seewhy.dialogue.reply import Classification, FeatureReading
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
@@ -187,11 +188,15 @@ def write_tiles(folder: Path, *, count: int = 60) -> Path:
 
 @pytest.fixture(scope="session", autouse=True)
 def taught_in_seconds() -> Iterator[None]:
-    """Eyes go over pictures three times: those that tests make are plain."""
+    """Eyes go over pictures three times: those that tests make are plain.
+
+    What answers goes over few questions a third as often: those that tests ask are plain, too.
+    """
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(fitting_eyes, "_PASSES", (3, 3))
         patch.setattr(fitting_eyes, "_PASSES_AGAIN", (3, 3))
         patch.setattr(fitting_eyes, "_VIEWS", (2, 2))
+        patch.setattr(recurrent, "ENOUGH_EXAMPLES", 800)
         yield
 
 

@@ -198,3 +198,34 @@ def test_check_knows_things(run: Run, folder: Path) -> None:
     assert found.code == 0
     assert "features of things: colour, round" in found.out
     assert "nothing is wrong" in found.out
+
+
+def test_a_table_of_things_is_asked_about_what_follows(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "things.csv").write_text(
+        "thing,colour,shape\na,red,cube\nb,green,cube\nc,blue,sphere\nd,gray,cube\n"
+    )
+    (tmp_path / "relations.csv").write_text("image,relation,thing,other\n,on,b,a\n,on,d,c\n")
+    asked = ("what would happen if the red cube were removed?", "which things would fall?", "why?")
+    options = [part for question in asked for part in ("--ask", question)]
+    table = str(tmp_path / "things.csv")
+    found = run("decide", "tabletop", "--things", table, *options, "--json")
+    told = [answer["text"] for answer in json.loads(found.out)["answers"]]
+    assert told == [
+        "The green cube would fall.",
+        "There is one thing that would fall: the gray cube.",
+        "There is the gray cube: it would fall, since the gray cube is on the blue sphere and the "
+        "blue sphere is a sphere.",
+    ]
+
+
+def test_an_annotated_scene_is_asked_about_what_follows(run: Run, tmp_path: Path) -> None:
+    scene = {
+        "image_index": 0,
+        "objects": [{"color": "red", "shape": "cube"}, {"color": "blue", "shape": "sphere"}],
+        "relationships": {"on": [[], [0]]},
+    }
+    file = tmp_path / "scenes.json"
+    file.write_text(json.dumps({"scenes": [scene]}))
+    found = run("decide", "tabletop", "--scene", str(file), "--ask", "which thing would fall?")
+    assert "There is one thing that would fall: the red cube." in found.out
+    assert '"nothing stays on a ball"' in found.out

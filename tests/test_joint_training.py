@@ -92,9 +92,14 @@ def test_together_they_read_the_vectors() -> None:
     assert (record.depth, record.epochs, record.training_pictures) == (2, 40, 255)
 
 
-def test_the_number_of_threads_changes_nothing() -> None:
-    one = fit(workers=1)
-    assert_same_weights(one, fit(workers=2))
+@pytest.fixture(scope="module")
+def whole() -> FeatureExtractor:
+    """What comes of a training that nothing interrupts; do not train it again."""
+    return fit()
+
+
+def test_the_number_of_threads_changes_nothing(whole: FeatureExtractor) -> None:
+    assert_same_weights(whole, fit(workers=2))
     before = torch.get_num_threads()
     fit(workers=3)
     assert torch.get_num_threads() == before
@@ -105,7 +110,9 @@ class StoppedError(Exception):
 
 
 @pytest.mark.parametrize("after", [1, 3, 16])
-def test_an_interrupted_training_goes_on_where_it_was(tmp_path: Path, after: int) -> None:
+def test_an_interrupted_training_goes_on_where_it_was(
+    tmp_path: Path, after: int, whole: FeatureExtractor
+) -> None:
     def stop(event: TrainingEvent) -> None:
         if event.epoch == after:
             raise StoppedError
@@ -114,7 +121,6 @@ def test_an_interrupted_training_goes_on_where_it_was(tmp_path: Path, after: int
         fit(checkpoints=tmp_path, on_progress=stop)
     events: list[TrainingEvent] = []
     resumed = fit(checkpoints=tmp_path, on_progress=events.append)
-    whole = fit()
     assert_same_weights(resumed, whole)
     assert resumed.summary() == whole.summary()
     assert [event.epoch for event in events if event.kind == "epoch"] == list(range(after + 1, 17))

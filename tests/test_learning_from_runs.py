@@ -110,9 +110,13 @@ def said(found: LearnedFromRuns) -> list[str]:
     return [f"{axiom.text}: {axiom}" for axiom in found.axioms]
 
 
-def test_where_people_usually_are_is_learned() -> None:
-    found = learn_from_runs(ROBOT, random_record(20, usually=AT_HOME, share=0.8))
-    assert learned_text(found.axioms, source="the record of 20 runs") == (
+@pytest.fixture(scope="module")
+def usual() -> LearnedFromRuns:
+    return learn_from_runs(ROBOT, random_record(20, usually=AT_HOME, share=0.8))
+
+
+def test_where_people_usually_are_is_learned(usual: LearnedFromRuns) -> None:
+    assert learned_text(usual.axioms, source="the record of 20 runs") == (
         "% Axioms that 'seewhy learn' found in the record of 20 runs.\n"
         "\n"
         "%% if a person works in a place, then usually the person is in the place\n"
@@ -120,12 +124,11 @@ def test_where_people_usually_are_is_learned() -> None:
         "loc(P, L) if work_place(P, L), not -loc(P, L).\n"
         "\n"
     )
-    assert (found.runs, found.observations, found.rejected) == (20, 320, ())
+    assert (usual.runs, usual.observations, usual.rejected) == (20, 320, ())
 
 
-def test_what_was_learned_is_planned_with_like_what_is_given() -> None:
-    found = learn_from_runs(ROBOT, random_record(20, usually=AT_HOME, share=0.8))
-    text = learned_text(found.axioms)
+def test_what_was_learned_is_planned_with_like_what_is_given(usual: LearnedFromRuns) -> None:
+    text = learned_text(usual.axioms)
     knowing = ROBOT.knowing(parse_learned(text, ROBOT.knowledge.signature))
     believed = diagnose(knowing.knowledge, knowing.history).now
     assert believed == diagnose(OFFICE.knowledge, OFFICE.history).now
@@ -166,7 +169,7 @@ def test_who_is_usually_absent_is_an_exception() -> None:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_from_chance_nothing_is_learned(seed: int) -> None:
-    runs = random_record(40, usually=AT_HOME, share=0.0, seed=seed)
+    runs = random_record(16, usually=AT_HOME, share=0.0, seed=seed)
     assert learn_from_runs(ROBOT, runs).axioms == ()
 
 
@@ -175,7 +178,7 @@ def test_from_shuffled_records_nothing_is_learned(seed: int) -> None:
     """What was seen of one fluent is put down for another one."""
     rng = np.random.default_rng(seed)
     shuffled = []
-    for run in random_record(30, usually=AT_HOME, share=0.8):
+    for run in random_record(16, usually=AT_HOME, share=0.8):
         signs = rng.permutation([observation.literal.positive for observation in run.observations])
         seen = [
             replace(observation, literal=replace(observation.literal, positive=bool(sign)))
@@ -251,15 +254,14 @@ def test_a_run_that_nothing_explains_is_refused() -> None:
 # From the outside
 
 
-@pytest.fixture
-def runs(tmp_path: Path) -> Path:
-    folder = tmp_path / "runs"
-    for number, history in enumerate(random_record(20, usually=AT_HOME, share=0.8)):
+def written(folder: Path, histories: Sequence[History]) -> Path:
+    for number, history in enumerate(histories):
         write_whole(folder / f"{number:02}.al", history_text(history, title="a day"))
     return folder
 
 
-def test_learning_from_runs_on_the_command_line(run: Run, runs: Path, tmp_path: Path) -> None:
+def test_learning_from_runs_on_the_command_line(run: Run, tmp_path: Path) -> None:
+    runs = written(tmp_path / "runs", random_record(20, usually=AT_HOME, share=0.8))
     out = tmp_path / "learned.al"
     learn = ("learn", "robot_assistant", "--runs", str(runs), "--without", AT_WORK)
     done = run(*learn, "--out", str(out), "--yes")
@@ -279,11 +281,12 @@ def test_learning_from_runs_on_the_command_line(run: Run, runs: Path, tmp_path: 
     assert "after 2 actions and 1 plan." in done.out
 
 
-def test_learning_from_runs_asks(run: Run, runs: Path, tmp_path: Path) -> None:
+def test_learning_from_runs_asks(run: Run, tmp_path: Path) -> None:
+    runs = written(tmp_path / "runs", random_record(8, usually=AT_HOME, share=0.8))
     out = tmp_path / "learned.al"
     learn = ("learn", "robot_assistant", "--runs", str(runs), "--without", AT_WORK)
     done = run(*learn, "--out", str(out), stdin="n\n")
-    assert "learned from 40 observations, 85.0 % of them rightly" in done.out
+    assert "learned from 16 observations, 81.2 % of them rightly" in done.out
     assert not out.exists()
     done = run(*learn, "--out", str(out), stdin="")
     assert (done.code, done.err) == (
@@ -293,16 +296,15 @@ def test_learning_from_runs_asks(run: Run, runs: Path, tmp_path: Path) -> None:
     )
     done = run(*learn, "--out", str(out), "--json")
     found = json.loads(done.out)
-    assert (found["runs"], found["observations"], found["added"]) == (20, 320, [])
+    assert (found["runs"], found["observations"], found["added"]) == (8, 128, [])
     assert found["found"] == ["loc(P, L) if work_place(P, L), not -loc(P, L)."]
     assert not out.exists()
 
 
 def test_where_chance_rules_an_empty_file_is_written(run: Run, tmp_path: Path) -> None:
-    for number, history in enumerate(random_record(9, usually=AT_HOME, share=0.0)):
-        write_whole(tmp_path / "runs" / f"{number}.al", history_text(history, title="a day"))
+    runs = written(tmp_path / "runs", random_record(9, usually=AT_HOME, share=0.0))
     out = tmp_path / "learned.al"
-    learn = ("learn", "robot_assistant", "--runs", str(tmp_path / "runs"), "--without", AT_WORK)
+    learn = ("learn", "robot_assistant", "--runs", str(runs), "--without", AT_WORK)
     done = run(*learn, "--out", str(out), "--yes")
     assert (done.code, done.out) == (0, "no axiom is to be learned from these 9 runs\n")
     plan = ("plan", "robot_assistant", "--goal", TO_BOB, "--learned", str(out))

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from seewhy.data.measured import MEASURES
+from seewhy.data.measured import MEASURES, STANDING, feet
 from seewhy.data.thing import BoundingBox
 
 CORNERS = st.integers(0, 40)
@@ -88,3 +88,14 @@ def test_each_by_an_example() -> None:
         "in_front",
         "larger",
     }
+
+
+def test_the_foot_of_a_stack() -> None:
+    stands_on = [("a", "b"), ("b", "c"), ("e", "d")]
+    assert feet("abcde", stands_on) == {"a": "c", "b": "c", "c": "c", "d": "d", "e": "d"}
+    assert set(MEASURES) > STANDING
+
+
+def test_what_would_stand_on_itself_is_at_its_own_foot() -> None:
+    assert feet("ab", [("a", "b"), ("b", "a")]) == {"a": "a", "b": "b"}
+    assert feet("a", [("a", "a")]) == {"a": "a"}

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 import torch
 
+from seewhy.dialogue import recurrent
 from seewhy.dialogue.recurrent import _improves, fit_answerer
 from seewhy.dialogue.recurrent_answerer import RecurrentAnswerer
 from seewhy.dialogue.recurrent_options import AnswererEvent, AnswerExample, RecurrentOptions
@@ -55,6 +57,14 @@ def examples(scenes: int, *, seed: int = 0) -> list[AnswerExample]:
             for question, text in QUESTIONS.items()
         ]
     return found
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _as_often_as_outside_of_tests() -> Iterator[None]:
+    """Here is asked how well it learns."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(recurrent, "ENOUGH_EXAMPLES", 3000)
+        yield
 
 
 @pytest.fixture(scope="module")

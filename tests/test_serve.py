@@ -14,7 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 
-import httpx
+import httpx2
 import pytest
 from fastapi.testclient import TestClient
 
@@ -276,8 +276,8 @@ def served(model: Path, *options: str) -> Iterator[tuple[str, subprocess.Popen[s
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_the_program_serves(model_folder: Path, workers: str) -> None:
     with served(model_folder, "--workers", workers) as (address, process):
-        transport = httpx.HTTPTransport(retries=40)
-        with httpx.Client(base_url=address, timeout=120, transport=transport) as client:
+        transport = httpx2.HTTPTransport(retries=40)
+        with httpx2.Client(base_url=address, timeout=120, transport=transport) as client:
             found = client.post("/classify", files=shown(tile())).json()
         assert found["class"] == "good"
     assert process.returncode in (0, 130)

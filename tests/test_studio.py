@@ -146,6 +146,19 @@ def test_without_the_extra_the_remedy_is_said(run: Run, monkeypatch: pytest.Monk
     assert "pip install 'seewhy[studio]'" in refused.err
 
 
+def test_no_route_is_made_ready_by_a_request(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """FastAPI silences warnings while it does, and one thread ends what another begins so."""
+
+    def late(**_: object) -> None:
+        pytest.fail("a request makes a route ready")
+
+    monkeypatch.setattr("fastapi.routing.get_dependant", late)
+    for path in ("/begin", "/label", "/nowhere"):
+        client.get(path)
+
+
 def test_a_machine_wide_address_needs_a_name(run: Run, tmp_path: Path) -> None:
     refused = run("studio", tmp_path / "new", "--host", "0.0.0.0", "--no-browser")
     assert refused.code == 2

@@ -15,6 +15,7 @@ from seewhy.errors import DatasetError, SeeWhyError
 from seewhy.studio.drawing import draw, relate, remove
 from seewhy.studio.project import Project
 from seewhy.studio.site import site
+from seewhy.studio.thing_bench import thing_bench
 from studio_builder import FRUIT, HTMX, RULES, Browser, embed, pictures, with_domain
 from thing_pictures import DOMAIN, piles
 
@@ -106,6 +107,21 @@ def test_what_only_does_not_hold_is_said_too(browser: Browser, project: Project)
     (vector,) = project.dataset().vectors
     shown = dict(zip(project.domain().schema.features, vector, strict=True))
     assert (shown["on(block1,block2)"], shown["on(block2,block1)"]) == ("no", "no")
+
+
+def test_the_key_of_another_thing_is_its_number_or_its_place(project: Project) -> None:
+    for _ in range(3):
+        draw(project, "a.png", None, who="Ada")
+    things = project.domain().things
+    assert things is not None
+    size = (200, 100)
+    bench = thing_bench(project.labels().drawn_in("a.png"), things, size=size, chosen="1")
+    assert [to.key for to in bench.relations[0].to] == ["2", "3"]
+    (project.folder / "things.csv").write_text("image,thing\na.png,cup\na.png,box\na.png,7\n")
+    project.refresh()
+    bench = thing_bench(project.labels().drawn_in("a.png"), things, size=size, chosen="cup")
+    assert [to.key for to in bench.relations[0].to] == ["1", "2"]
+    assert bench.relations[0].before == "cup is on"
 
 
 def test_undo_has_no_end(browser: Browser, project: Project) -> None:
@@ -334,5 +350,6 @@ def test_pictures_without_classes_are_labelled_by_their_things(tmp_path: Path) -
         progress = browser.get("/label/progress")
         assert "Of things" in progress
         assert "<td>1</td>" in progress
-        assert 'id="workbench"' in browser.get("/label/sheet")
+        sheet = client.get("/label/sheet")
+        assert (sheet.status_code, "one picture at a time" in sheet.text) == (422, True)
         assert 'data-picture="a.png"' not in browser.get("/label?go=on", part=True)

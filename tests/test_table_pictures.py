@@ -15,6 +15,7 @@ from seewhy.errors import DatasetError, DomainError
 
 pytest.importorskip("mujoco")
 
+from seewhy_lab.commands.tables_fall import measured_rightly, share_fallen, taken_away
 from seewhy_lab.simulators.tabletop.source import draw, random_scene
 from seewhy_lab.simulators.tabletop.table import COLOURS, Table
 from seewhy_lab.simulators.tabletop.visibility import LEAST_PIXELS, boxes, seen_things
@@ -165,3 +166,31 @@ def test_the_domain_of_a_folder_is_found_by_its_things(tmp_path: Path) -> None:
     (tmp_path / "things.csv").unlink()
     with pytest.raises(DatasetError, match="fit none of the bundled domains"):
         domain_of(tmp_path)
+
+
+def test_where_things_stand_is_measured_as_it_is() -> None:
+    """Depth and sides are told by boxes, of stacks by what is at their foot."""
+    right, pairs = measured_rightly(tables=30)
+    assert pairs > 400
+    assert right / pairs >= 0.98
+
+
+def test_what_is_above_falls_when_that_is_taken_away() -> None:
+    right, count = taken_away(tables=8)
+    assert count > 20
+    assert right == count
+
+
+@pytest.mark.parametrize(
+    ("upper", "lower", "share"),
+    [
+        (("cube", "small"), ("sphere", "large"), 1.0),
+        (("sphere", "small"), ("sphere", "large"), 1.0),
+        (("cube", "large"), ("cube", "small"), 0.0),
+        (("cylinder", "small"), ("cylinder", "large"), 0.0),
+    ],
+)
+def test_nothing_stays_on_a_ball(
+    upper: tuple[str, str], lower: tuple[str, str], share: float
+) -> None:
+    assert share_fallen(upper, lower, runs=4, rng=np.random.default_rng(1)) == share

@@ -11,6 +11,7 @@ import typer
 
 from seewhy.cli.decide_things import answers_about, print_reply
 from seewhy.cli.screen import print_json, say
+from seewhy.dialogue.things.said_once import said_once
 
 if TYPE_CHECKING:
     from seewhy.dialogue.scene_beliefs import SceneBeliefs
@@ -157,7 +158,8 @@ def _print_found(found: dict[str, Any]) -> None:
             say(f"  {line}")
     if found["concluded"]:
         say("it follows that:")
-        for literal in found["concluded"]:
-            say(f"  {literal['text']}")
+        texts = {literal["literal"]: literal["text"] for literal in found["concluded"]}
+        for name in said_once(texts):
+            say(f"  {texts[name]}")
     elif found["verdict"] is None:
         say("nothing follows")

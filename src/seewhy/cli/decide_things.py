@@ -21,6 +21,7 @@ def decide_things(
 ) -> None:
     """Answer questions, each of which may go with the one before, and print the reasons."""
     from seewhy.data.importers.clevr import read_scenes
+    from seewhy.dialogue.scene_conclusions import SceneConclusions
     from seewhy.domain.domain import load_domain
     from seewhy.errors import SeeWhyError
 
@@ -34,9 +35,8 @@ def decide_things(
     by_name = {str(index): found for index, found in scenes.items()}
     if str(number) not in by_name:
         raise SeeWhyError(f"{scene}: has no scene with image_index {number}")
-    replies, failed = answers_about(
-        loaded.things, by_name[str(number)], questions or ("what is there?",)
-    )
+    scene_there = SceneConclusions(loaded).conclude(by_name[str(number)])
+    replies, failed = answers_about(loaded.things, scene_there, questions or ("what is there?",))
     if json:
         print_json({"domain": loaded.name, "answers": [reply.to_dict() for reply in replies]})
     else:

@@ -5,11 +5,14 @@ slant, what is nearer reaches further down. A domain that says ``nearer``, ``in_
 ``behind`` says that its pictures are such.
 
 Corners may be arrays: so many boxes are measured at once (:func:`how_probable`).
+What stands on another thing touches no ground. Where a domain says which relation that is
+(``support``), where a thing stands is measured from the box of what is at the foot of its stack:
+things of one stack are neither left of nor in front of each other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
 from types import MappingProxyType
 from typing import Any
@@ -20,6 +23,7 @@ from numpy.typing import NDArray
 from seewhy.data.thing import BoundingBox
 
 __all__ = ["MEASURES", "TOUCHING", "how_probable"]
+__all__ = ["MEASURES", "STANDING", "TOUCHING", "feet"]
 
 TOUCHING = 0.05
 """The gap between two things that touch, at most, as a share of the shortest side of both."""
@@ -168,3 +172,31 @@ def how_probable(
     ).mean(axis=0)
     np.fill_diagonal(shares, 0.0)
     return shares
+
+
+STANDING = frozenset({"left", "right", "nearer", "in_front", "behind"})
+"""Measures of where things stand, not of how they are seen."""
+
+
+def feet(names: Iterable[str], stands_on: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """Return for each thing the one at the foot of its stack; itself, where it stands on none.
+
+    ``stands_on`` has each thing that stands on another, with that other. What would stand on
+    itself, by way of others, is at its own foot.
+
+    Examples
+    --------
+    >>> feet(["ball", "block", "cup"], [("ball", "block"), ("block", "cup")])
+    {'ball': 'cup', 'block': 'cup', 'cup': 'cup'}
+    """
+    below: dict[str, str] = {}
+    for thing, other in stands_on:
+        below.setdefault(thing, other)
+    found = {}
+    for name in names:
+        foot, passed = name, {name}
+        while foot in below and below[foot] not in passed:
+            foot = below[foot]
+            passed.add(foot)
+        found[name] = foot if foot not in below else name
+    return found

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from itertools import permutations
 
-from seewhy.data.measured import MEASURES
+from seewhy.data.measured import MEASURES, STANDING, feet
 from seewhy.data.thing import Related, Thing
 from seewhy.domain.domain import Domain
+from seewhy.domain.things import Things
 from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.things import of_things
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["terms_of", "vector_with_things"]
+__all__ = ["feet_of", "terms_of", "vector_with_things"]
 
 
 def terms_of(domain: Domain, things: Sequence[Thing]) -> dict[str, str]:
@@ -45,8 +47,9 @@ def vector_with_things(
 ) -> FeatureVector:
     """Return the vector of a picture as a whole, of its things, and of what holds between them.
 
-    Where both boxes are known, relations that have a measure are measured. What is said of a
-    relation says its converse, and goes before what is measured.
+    Where both boxes are known, relations that have a measure are measured; where things stand is
+    measured at the foot of their stacks, where the domain says what stands on what. What is said of
+    a relation says its converse, and goes before what is measured.
 
     Parameters
     ----------
@@ -80,18 +83,38 @@ def vector_with_things(
         term = terms[thing.name]
         values[domain.schema.presence[term]] = "yes"
         values.update({of_things(key, term): value for key, value in thing.values.items()})
+    boxes = {thing.name: thing.box for thing in things}
+    standing = {
+        name: boxes.get(foot) for name, foot in feet_of(domain.things, boxes, related).items()
+    }
     for key, relation in domain.things.relations.items():
         measure = MEASURES.get(relation.measure)
         if measure is None:
             continue
-        for first in things:
-            for second in things:
-                if first is not second and first.box is not None and second.box is not None:
-                    feature = of_things(key, terms[first.name], terms[second.name])
-                    values[feature] = _yes_or_no(measure(first.box, second.box))
+        where = standing if relation.measure in STANDING else boxes
+        for first, second in permutations(terms, 2):
+            box, other = where[first], where[second]
+            if box is not None and other is not None:
+                feature = of_things(key, terms[first], terms[second])
+                values[feature] = _yes_or_no(measure(box, other))
     for said in related:
         values.update(_said(domain, terms, said))
     return domain.schema.vector(values)
+
+
+def feet_of(things: Things, names: Iterable[str], related: Iterable[Related]) -> dict[str, str]:
+    """Return for each thing the one at the foot of its stack, as far as is said."""
+    support = things.support
+    if support is None:
+        return {name: name for name in names}
+    converse = things.relations[support].converse
+    pairs = []
+    for one in related:
+        if one.holds and one.relation == support:
+            pairs.append((one.thing, one.other))
+        elif one.holds and one.relation == converse:
+            pairs.append((one.other, one.thing))
+    return feet(names, pairs)
 
 
 def _said(domain: Domain, terms: dict[str, str], said: Related) -> dict[str, str | None]:

@@ -5,18 +5,44 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import Protocol
 
 from seewhy.domain.things import Things
 from seewhy.errors import DatasetError
+from seewhy.knowledge.justification import Node
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["Position", "ThingScene", "thing_scene"]
+__all__ = ["Conclusions", "Position", "ThingScene", "thing_scene"]
 
 Position = tuple[float, float, float]
 """Where the middle of a thing is: to the right, downwards or backwards, up; of any one unit."""
 
 MOST_THINGS = 100
 """Things of a picture: questions about more would take too long."""
+
+
+class Conclusions(Protocol):
+    """What concludes what follows in a scene, and tells why.
+
+    ``without`` are things that are taken as not there.
+    """
+
+    def conclude(self, scene: ThingScene, without: int = 0) -> ThingScene:
+        """Return a scene with what follows from what is seen in it, anew."""
+
+    def why(
+        self,
+        scene: ThingScene,
+        key: str,
+        numbers: Sequence[int],
+        names: Sequence[str],
+        *,
+        without: int = 0,
+    ) -> Node:
+        """Return why something is concluded of things, which are called by names, or is not."""
+
+    def rests_on(self, key: str) -> frozenset[str]:
+        """Return the features and relations that are seen, and on which a conclusion rests."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +66,13 @@ class ThingScene:
         Relation → for each thing, the set of those of which that is not known.
     positions : tuple of Position
         Of each thing; empty where nothing is said of them.
+    concluded : mapping of str to int
+        What axioms conclude of things → the set of those of which it is so.
+    groups : mapping of str to tuple
+        What axioms conclude of several things together → those of which it is so, each as the
+        numbers of its things.
+    conclusions : Conclusions or None
+        What concluded that, and would conclude it of a scene that is otherwise.
 
     Examples
     --------
@@ -57,6 +90,9 @@ class ThingScene:
     related: Mapping[str, tuple[int, ...]]
     unknown: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
     positions: tuple[Position, ...] = ()
+    concluded: Mapping[str, int] = field(default_factory=dict)
+    groups: Mapping[str, tuple[tuple[int, ...], ...]] = field(default_factory=dict)
+    conclusions: Conclusions | None = field(default=None, compare=False, repr=False)
 
 
 def thing_scene(

@@ -42,6 +42,7 @@ class Asks(StrEnum):
     MATTERS = "matters"
     BECAUSE = "because"
     MORE = "more"
+    POSSIBLE = "possible"
 
 
 Query = tuple[str | None, ...]

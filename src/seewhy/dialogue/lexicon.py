@@ -9,6 +9,7 @@ from seewhy.dialogue.grammar import Binding, Match
 from seewhy.dialogue.inflection import ARTICLES, lemma
 from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.static_lexicon import add_statics
+from seewhy.dialogue.vocabulary import MANY
 from seewhy.domain.domain import Domain
 from seewhy.domain.feature import Feature
 
@@ -21,8 +22,8 @@ CATEGORIES = (
     "noun", "class", "class_bare", "class_noun", "class_modifier", "does_class", "adjective",
     "possession", "existing", "verb", "word", "feature", "quality", "counted", "counts", "piece",
     "part", "every", "state", "every_state", "change", "person", "group", "belief", "belief_act",
-    "asked_quality", "shared_noun", "kind_noun", "able", "obliged", "static_verb",
-    "static_relation", "static_sort",
+    "asked_quality", "shared_noun", "kind_noun", "kinds", "possible", "will", "able", "obliged",
+    "static_verb", "static_relation", "static_sort",
 )  # fmt: skip
 """The phrases of the grammar that a domain's own words fill."""
 
@@ -87,7 +88,12 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
     subject = normalise(domain.subject)
     found["noun"].add(subject)
     found["noun"].add(normalise(domain.scene))
-    full_name = normalise(domain.name.replace("_", " "))
+    found["kinds"].add((MANY,))
+    if any(scene_class.verbs for scene_class in domain.classes.values()):
+        for word in ("will", "shall"):
+            found["will"].add((word,))
+    named = normalise(domain.name.replace("_", " "))
+    full_name = tuple(subject[-1] if word == MANY else word for word in named)
     if full_name[-len(subject) :] == subject:
         found["noun"].add(full_name)  # "traffic sign" of "traffic_signs"
     for key, scene_class in domain.classes.items():
@@ -153,6 +159,9 @@ def _add_feature(feature: Feature, found: dict[str, Entries], normalise: Normali
     if len(had) == len(parts) > 1 and not _number_of(feature.name):
         shared = set.intersection(*had)
         nouns.append(tuple(w for w in normalise(parts[feature.values[0]].rest) if w in shared))
+    if not any(clause.startswith("there ") for clause in feature.say.values()):
+        for noun in filter(None, nouns):
+            found["possible"].add(noun, Binding("feature", feature.key))
     for noun in dict.fromkeys(filter(None, nouns)):
         found["feature"].add(noun, Binding("feature", feature.key))
         if yes_or_no:
@@ -221,7 +230,9 @@ def _add_part(
     found["possession"].add((*noun, "which", "have", "been", *predicate), meaning)
     if subject.split()[0] in ("a", "an"):
         # That one is so is denied of every one: "are all blocks aligned?".
-        for some in ((lemma("something"),), ("one", *noun), ("of", *noun), ("one", "of", *noun)):
+        found["part"].add((lemma("something"),), about)
+        found["part"].add((lemma("anything"),), about)
+        for some in (("one", *noun), ("of", *noun), ("one", "of", *noun)):
             found["part"].add(some, about)
         everything = lemma("everything")
         for every in (

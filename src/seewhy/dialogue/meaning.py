@@ -28,6 +28,7 @@ __all__ = [
     "persons",
     "plain",
     "polar",
+    "possible",
     "preferred",
     "supposing",
     "sure",
@@ -68,10 +69,10 @@ def preferred(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questi
 
 def joined(domain: Domain, bindings: tuple[Binding, ...], asks: Asks) -> Iterator[Question]:
     """Whether several things are so, or one of them."""
-    said = [
-        _turned(domain, spoken) if spoken.denied else spoken.statement
-        for spoken in all_said(bindings)
-    ]
+    spoken_of = all_said(bindings)
+    said = [_turned(domain, spoken) if spoken.denied else spoken.statement for spoken in spoken_of]
+    if any(spoken.denied and spoken.statement in said for spoken in spoken_of):
+        return  # "neither round nor square" says not what it is instead
     if len(set(said)) < 2:
         return
     features = {clause.feature for clause in said}
@@ -125,6 +126,9 @@ def contrast_turned(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Q
 def supposing(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
     """What would be if some features were different."""
     parts: list[Statement] = []
+    for label in roles(bindings, "supposed_class"):
+        yield _question(Asks.WHAT_IF, label=label)
+        return
     said = all_said(bindings)
     if any(clause.named for clause in said):
         said = [replace(clause, denied=said[-1].denied, named=False) for clause in said]
@@ -194,6 +198,13 @@ def because(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]
     yield _question(Asks.BECAUSE, label=label, feature=cause.feature, value=cause.value)
 
 
+def possible(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
+    """What a feature can be, whatever is seen."""
+    features = dict.fromkeys(roles(bindings, "feature"))
+    if len(features) == 1:
+        yield _question(Asks.POSSIBLE, feature=next(iter(features)))
+
+
 def difference(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
     """What tells what is shown from a class."""
     for spoken in all_said(bindings)[:1]:
@@ -229,11 +240,13 @@ def where(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
 
 def value(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
     """Which value a feature has."""
-    features = dict.fromkeys(roles(bindings, "feature"))
+    facts = [binding.meaning for binding in bindings if binding.role == "fact"]
+    # "How wide?" names a value, and asks for the feature.
+    named = roles(bindings, "feature") or [stated(fact).feature or "" for fact in facts]
+    features = dict.fromkeys(named)
     if len(features) != 1:
         return
     feature = next(iter(features))
-    facts = [binding.meaning for binding in bindings if binding.role == "fact"]
     if all(stated(fact).feature == feature for fact in facts):
         yield _question(Asks.FEATURE_VALUE, feature=feature)
 

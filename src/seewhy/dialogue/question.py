@@ -37,6 +37,16 @@ _POLITE_NOT = re.compile(r"^(is|are|does|do|has|have|can|will|would) not (?=it|t
 """A "not" that asks the same: "isn't it crossed out?"."""
 
 
+_DEFINED = re.compile(r"what (?:is|are) (?:a|an|meant by) (.+)")
+"""Asks what a word means, where "what is the base?" asks what is seen."""
+_MEANT = "what do you mean by "
+_OF_ANY = re.compile(
+    r"(what (?:makes|lets|causes|keeps)|why (?:does|is|would|can)|when (?:does|is|would|can)|"
+    r"how come) an? (\w+)\b"
+)
+"""Asks of one as of all: "what makes a tower stable?"."""
+
+
 class Questions:
     """The questions that can be asked about pictures of a domain.
 
@@ -119,6 +129,14 @@ class Questions:
 
     def _read(self, text: str, previous: Question | None) -> list[Question]:
         """What a text without typing errors may ask."""
+        of_any = _OF_ANY.match(text)
+        if of_any is not None and self._vocabulary.speaks_of_many(f"{of_any[2]}s"):
+            text = f"{of_any[1]} {of_any[2]}s{text[of_any.end() :]}"
+        defined = _DEFINED.fullmatch(text)
+        if defined is not None:
+            read = self._readings.read(self._vocabulary.for_grammar(_MEANT + defined[1]))
+            if read:
+                return [self._worded(question) for question in read]
         by_template = self._template(self._known, text, self._vocabulary.for_templates(text))
         if by_template is not None and not (previous and by_template.asks is Asks.EXPLAIN):
             return [by_template]
@@ -143,6 +161,8 @@ class Questions:
         self, templates: Mapping[tuple[str, ...], Question], text: str, words: tuple[str, ...]
     ) -> Question | None:
         """The template of some words, where it forbids what the text forbids."""
+        if self._vocabulary.speaks_of_many(text):
+            return None  # templates speak of what is shown
         found = templates.get(words)
         same = found is not None and forbidden(words_of(text)) == forbidden(words_of(found.text))
         return found if same else None

@@ -60,7 +60,9 @@ class Readings:
                         if question is not None and self._can_be_stated(question):
                             found.setdefault(question.query, question)
             if found:
-                return self._best(list(found.values()))
+                best = self._best(list(found.values()))
+                # Of what is supposed to be of a class nothing follows: it is asked back.
+                return [read for read in best if read.asks is not Asks.WHAT_IF or not read.label]
         return []
 
     def _can_be_stated(self, question: Question) -> bool:
@@ -155,6 +157,7 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
         ("how_many_there", meaning.value),
         ("matters", meaning.matters),
         ("because_of", meaning.because),
+        ("what_possible", meaning.possible),
     ),
     (
         ("when_class", meaning.when),

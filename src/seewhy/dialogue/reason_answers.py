@@ -20,10 +20,11 @@ from seewhy.knowledge.scene import FeatureVector
 
 __all__ = ["OF_REASONS", "say_axiom", "tell_of_reasons"]
 
-OF_REASONS = frozenset({Asks.WHEN_CLASS, Asks.MATTERS, Asks.BECAUSE, Asks.MORE})
+OF_REASONS = frozenset({Asks.WHEN_CLASS, Asks.MATTERS, Asks.BECAUSE, Asks.MORE, Asks.POSSIBLE})
 """What is answered here."""
 _MOST_RULES = 6
 _MOST_OTHERWISE = 2
+_MOST_VALUES = 12
 Decide = Callable[[FeatureVector], tuple[str | None, Node]]
 """The class of a scene, and why."""
 
@@ -60,6 +61,8 @@ def tell_of_reasons(
             return _when(domain, tree, scene, question.label or "", why)
         case Asks.MATTERS:
             return _matters(domain, decide, scene, question.feature or "", why)
+        case Asks.POSSIBLE:
+            return _possible(domain, question.feature or "")
         case Asks.BECAUSE:
             return _because(domain, reasoned, scene, question, why)
         case _:
@@ -94,6 +97,22 @@ def _when(domain: Domain, tree: DecisionTree, scene: Classification, label: str,
     text = f"{is_it} by {told}" + (f", or by {more} others" if more > 0 else "")
     nodes = tuple(Node(str(axiom.head), axiom.text, Basis.AXIOM, axiom=axiom) for axiom in rules)
     return Told(kind, sentence(text), Node(str(literal), is_it, Basis.REASONS, children=nodes))
+
+
+def _possible(domain: Domain, feature: str) -> Told:
+    """What the domain says of a feature: the values that it may have."""
+    declared = domain.features[feature]
+    kind = AnswerType("possible", (feature,))
+    clauses = [declared.say[value].replace("{it}", domain.subject) for value in declared.values]
+    if set(declared.values) == {"yes", "no"}:
+        text = f"either {clauses[0]} or {clauses[1].replace(domain.subject, 'it')}"
+    else:
+        words = [declared.words[value][0] for value in declared.values]
+        more = len(words) - _MOST_VALUES
+        shown = words if more <= 0 else [*words[:_MOST_VALUES], f"one of {more} others"]
+        text = f"the {declared.name} is {join_words(shown, word='or')}"
+    nodes = tuple(Node(feature, clause, Basis.REASONS) for clause in clauses)
+    return Told(kind, sentence(text), Node(feature, text, Basis.REASONS, children=nodes))
 
 
 def _matters(

@@ -54,6 +54,9 @@ def folds() -> dict[str, Fold]:
         **_ROLES,
         "existing_named": _folded_named,
         "neither_of": _folded_neither,
+        "taken_away": _folded_neither,
+        "both_gone": _folded_neither,
+        "supposed_class": _folded_class,
         "parts_alike": _folded_parts,
         "replaced": _folded_replaced,
     }
@@ -80,7 +83,9 @@ def _folded(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
     """What is stated by a phrase, where its parts go together."""
     said = _said_in(bindings)
     rest = tuple(
-        binding for binding in bindings if binding.role in ("feature", "group", "said", "counts")
+        binding
+        for binding in bindings
+        if binding.role in ("feature", "group", "said", "counts", "supposed_class")
     )
     if said is None:
         return
@@ -97,6 +102,11 @@ def _folded_named(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]
     """What is named first of two things of which the same is said."""
     for said in _said_in(bindings) or ():
         yield (Binding("said", replace(said, named=True)),)
+
+
+def _folded_class(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """A class that is supposed, which nothing can be concluded from."""
+    yield tuple(Binding("supposed_class", label) for label in roles(bindings, "label")[:1])
 
 
 def _folded_neither(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:

@@ -58,6 +58,8 @@ def say_question(domain: Domain, question: Question) -> str:
             return f"what would make {domain.subject} {domain.classes[question.label or ''].say}"
         case Asks.WHEN_CLASS:
             return f"when is {domain.subject} {domain.classes[question.label or ''].say}"
+        case Asks.POSSIBLE:
+            return f"what can the {domain.features[question.feature or ''].name} be"
         case Asks.MATTERS:
             return f"does the {domain.features[question.feature or ''].name} matter"
         case Asks.BECAUSE:

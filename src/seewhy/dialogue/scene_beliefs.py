@@ -7,6 +7,8 @@ from functools import cached_property
 from itertools import permutations
 
 from seewhy.data.thing_scene import ThingScene, thing_scene
+from seewhy.dialogue.compared_things import with_things_named
+from seewhy.dialogue.scene_conclusions import SceneConclusions
 from seewhy.domain.domain import Domain
 from seewhy.domain.wording import join_words, say_literal
 from seewhy.errors import QuestionError
@@ -132,23 +134,25 @@ class SceneBeliefs:
         assert things is not None, "the domain has no things"
         terms = list(self.names)
         shown = dict(zip(self.domain.schema.features, self.vector, strict=True))
-        believed = {key_of(literal) for literal in self.concluded}
-        related: dict[str, list[tuple[int, int]]] = {key: [] for key in things.relations}
-        unknown: dict[str, list[tuple[int, int]]] = {key: [] for key in things.relations}
-        for key in things.relations:
+        seen = [key for key in things.relations if key in things.seen]
+        related: dict[str, list[tuple[int, int]]] = {key: [] for key in seen}
+        unknown: dict[str, list[tuple[int, int]]] = {key: [] for key in seen}
+        for key in seen:
             for pair in permutations(range(len(terms)), 2):
-                named = of_things(key, *(terms[number] for number in pair))
-                value = shown.get(named) if named in shown else "no"
-                if value == "yes" or named in believed:
+                value = shown[of_things(key, *(terms[number] for number in pair))]
+                if value == "yes":
                     related[key].append(pair)
                 elif value is None:
                     unknown[key].append(pair)
-        return thing_scene(
+        scene = thing_scene(
             things,
             [{key: shown[of_things(key, term)] for key in things.features} for term in terms],
             relations=related,
             not_known=unknown,
         )
+        whole = {key: shown[key] for key in self.domain.features}
+        conclusions = SceneConclusions(self.domain, reasoner=self.reasoner, whole=whole)
+        return conclusions.conclude(scene)
 
     def is_believed(self, literal: Literal) -> bool:
         """Whether a literal is believed."""
@@ -157,7 +161,8 @@ class SceneBeliefs:
     def why(self, literal: Literal) -> Node:
         """Return why a literal is believed, or why it is not."""
         node = why(self.reasoner, self.vector, literal, say=self.say)
-        return node or why_not(self.reasoner, self.vector, literal, say=self.say)
+        node = node or why_not(self.reasoner, self.vector, literal, say=self.say)
+        return with_things_named(node, self.names)
 
     def changes(self, literal: Literal) -> tuple[Change, ...]:
         """Return the smallest changes that make a literal believed."""

@@ -30,6 +30,10 @@ def english_words() -> frozenset[str]:
     return frozenset(text.read_text(encoding="utf-8").split())
 
 
+_DENYING = frozenset({"un", "in", "im", "ir", "non", "dis"})
+"""What stands before a word to say the opposite."""
+
+
 class Spelling:
     """Mends words that are neither in a vocabulary nor English.
 
@@ -73,9 +77,11 @@ class Spelling:
             turned = {word[1] + word[0] + word[2], word[0] + word[2] + word[1]}
             return sorted(turned & self._known)[:1] or [word]
         allowed = 1 if len(word) < 7 else 2
+        near = [known for known in self._sorted if known[0] == word[0] or len(known) > 4]
         close = process.extract(
             word,
-            [known for known in self._sorted if known[0] == word[0] or len(known) > 4],
+            # "Unsteady" is no misspelling of "steady": it says the opposite.
+            [known for known in near if word.removesuffix(known) not in _DENYING],
             scorer=DamerauLevenshtein.distance,
             score_cutoff=allowed,
             limit=None,

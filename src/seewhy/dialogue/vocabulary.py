@@ -13,7 +13,10 @@ from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
 
-__all__ = ["SUBJECTS", "Vocabulary"]
+__all__ = ["MANY", "SUBJECTS", "Vocabulary"]
+
+MANY = "many_of_its_kind"
+"""What the grammar reads for a noun in the plural: "structures" are not the one that is shown."""
 
 SUBJECTS = frozenset({"it", "this", "that", "these", "those"})
 """Words that stand for what a picture shows."""
@@ -79,6 +82,10 @@ class Vocabulary:
             frozenset(_lemmas(words_of(phrase)) for phrase in phrases)
             for phrases in around_phrases()
         )
+        nouns = {words_of(domain.subject)[-1], words_of(domain.scene)[-1]}
+        one = _lemmas(words_of(domain.subject))[-1:]
+        nouns |= {other[-1] for other, canonical in pairs if _lemmas(canonical)[-1:] == one}
+        self._one_of_it = {lemma(noun): noun for noun in sorted(nouns)}
         self._fillers = sorted(map(_lemmas, fillers), key=len, reverse=True)
 
     def for_templates(self, text: str) -> tuple[str, ...]:
@@ -100,8 +107,26 @@ class Vocabulary:
             for part in _of_owner(word)
             if part not in ARTICLES and part not in self._adverbs
         ]
+        words = [MANY if self._is_of_many(word) else word for word in words]
         words = _replaced(lemmas(words), self._synonyms)
         return self._unfilled(tuple(_replaced(words, self._aside)))
+
+    def speaks_of_many(self, text: str) -> bool:
+        """Whether a text speaks of more than what is shown: "why do structures fall?".
+
+        Examples
+        --------
+        >>> from seewhy.domain.domain import load_domain
+        >>> words = Vocabulary(load_domain("structure_stability"))
+        >>> words.speaks_of_many("why do towers fall"), words.speaks_of_many("why does it fall")
+        (True, False)
+        """
+        return any(map(self._is_of_many, words_of(text)))
+
+    def _is_of_many(self, word: str) -> bool:
+        """Whether a word is the plural of what a picture shows."""
+        one = self._one_of_it.get(lemma(word), word)
+        return word != one and word.endswith("s") and not one.endswith("s")
 
     def plainly(self, text: str) -> str:
         """Return a text without what may stand in any question and changes nothing of it.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -106,6 +106,19 @@ class Domain:
         if self.things is None:
             return schema
         return schema_with_things(schema, self.knowledge.signature, self.things.seen)
+
+    def with_most_things(self, most: int) -> Domain:
+        """Return the domain of pictures that show at most so many things.
+
+        Examples
+        --------
+        >>> list(load_domain("tabletop").with_most_things(2).schema.presence)
+        ['thing1', 'thing2']
+        """
+        if self.things is None:
+            return self
+        things = replace(self.things, most=most)
+        return replace(self, things=things, knowledge=self.knowledge.with_things(most))
 
     def eyes_after(self, drawn: int) -> str:
         """Return what sees, where training begins with so many drawings.

@@ -35,6 +35,15 @@ def _with_two_things(text: str) -> str:
     return text
 
 
+def _with_them(text: str) -> str:
+    if wrong_slot(text, ("them",)) is not None or "{them}" not in text:
+        raise ValueError(f"must have the slot {{them}} and no others, got '{text}'")
+    return text
+
+
+GroupClause = Annotated[str, AfterValidator(_with_them)]
+
+
 def _beside_the_domain(name: str) -> str:
     if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*\.onnx", name):
         raise ValueError(
@@ -137,6 +146,52 @@ class RelationTable(StrictTable):
         default=None,
         description="The relation that holds the other way round, as `right` of `left`.",
     )
+    removed: str | None = Field(
+        default=None,
+        description="The conclusion that comes true of {0} when {1} is taken away, as `falls`; "
+        "for `what would happen if the ball were removed?`.",
+    )
+
+
+class ConclusionTable(StrictTable):
+    """``[things.conclusions.NAME]``: what axioms conclude of a thing, a static of it."""
+
+    say: Clause = Field(description="The clause that says it, as in `{it} would fall`.")
+    deny: Clause | None = Field(
+        default=None,
+        description="The clause that denies it; where left out, `it is not so that` and `say`.",
+    )
+    words: tuple[Word, ...] = Field(
+        default=(),
+        description="Adjectives by which questions name it, as in `unstable`.",
+    )
+    verbs: tuple[Word, ...] = Field(
+        default=(),
+        description="Verbs, without ending, by which questions name it, as in `fall` for `which "
+        "things would fall?`.",
+    )
+
+
+class GroupTable(StrictTable):
+    """``[things.groups.NAME]``: what axioms conclude of several things together.
+
+    It is a static of two things or more, and holds of them in whatever order.
+    """
+
+    one: Word | None = Field(
+        default=None, description="The noun for such a group; where left out, NAME."
+    )
+    many: Word | None = Field(
+        default=None,
+        description="The noun for several; where left out, the regular plural.",
+    )
+    words: tuple[Word, ...] = Field(default=(), description="Other nouns for it, in the singular.")
+    say: GroupClause | None = Field(
+        default=None,
+        description="The clause that says it, with {them}, as in `the colours of {them} fit`; "
+        "where left out, that they are such a group.",
+    )
+    deny: GroupClause | None = Field(default=None, description="The clause that denies it.")
 
 
 class ThingsTable(StrictTable):
@@ -162,6 +217,12 @@ class ThingsTable(StrictTable):
         default=(),
         description="Other nouns, in the singular, for any of them, as in `object`.",
     )
+    support: str | None = Field(
+        default=None,
+        description="The relation of a thing to what it stands on. Where it is known, where things "
+        "stand (`left`, `right`, `nearer`, `in_front`, `behind`) is measured from the box of what "
+        "is at the foot of their stack.",
+    )
     detector: OnnxFile | None = Field(
         default=None,
         description="An ONNX file of this folder that finds the boxes of things; where left out, "
@@ -177,4 +238,15 @@ class ThingsTable(StrictTable):
         default={},
         max_length=100,
         description="A table for each relation between two things.",
+    )
+    conclusions: dict[Key, ConclusionTable] = Field(
+        default={},
+        max_length=100,
+        description="A table for each thing that axioms conclude of a thing and that can be asked "
+        "about.",
+    )
+    groups: dict[Key, GroupTable] = Field(
+        default={},
+        max_length=20,
+        description="A table for each thing that axioms conclude of several things together.",
     )

@@ -63,6 +63,13 @@ def say_of_things(
     if literal.predicate in things.relations:
         said = things.relations[literal.predicate].say
         return _signed(said.replace("{0}", told[0]).replace("{1}", told[1]), literal.positive)
+    if literal.predicate in things.conclusions:
+        conclusion = things.conclusions[literal.predicate]
+        return (conclusion.say if literal.positive else conclusion.deny).replace("{it}", told[0])
+    if literal.predicate in things.groups:
+        group = things.groups[literal.predicate]
+        listed = f"{', '.join(told[:-1])} and {told[-1]}"
+        return (group.say if literal.positive else group.deny).replace("{them}", listed)
     feature = things.features.get(literal.predicate)
     if feature is None:
         return None

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 
+from seewhy.domain.conclusions import Conclusion, Group, read_conclusion, read_group
 from seewhy.domain.key_place import KeyPlace
 from seewhy.domain.thing_tables import Measure, RelationTable, ThingFeatureTable, ThingsTable
 from seewhy.errors import DomainError
@@ -69,6 +70,7 @@ class Relation:
     most: tuple[str, ...] = ()
     side: tuple[str, ...] = ()
     converse: str | None = None
+    removed: str | None = None
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,12 @@ class Things:
         Nouns for any of them, in the singular, ``one`` first.
     features : mapping of str to ThingFeature
     relations : mapping of str to Relation
+    support : str or None
+        The relation of a thing to what it stands on.
+    conclusions : mapping of str to Conclusion
+        What axioms conclude of each thing.
+    groups : mapping of str to Group
+        What axioms conclude of several things together.
     detector : str or None
         A file of the domain's folder that finds them.
 
@@ -94,7 +102,7 @@ class Things:
     --------
     >>> from seewhy.domain.domain import load_domain
     >>> things = load_domain("tabletop").things
-    >>> list(things.features), list(things.relations)
+    >>> list(things.features), list(things.relations)[:4]
     (['size', 'colour', 'material', 'shape'], ['left', 'right', 'in_front', 'behind'])
     >>> things.features["shape"].nouns["cube"]
     ('cube', 'block')
@@ -107,6 +115,9 @@ class Things:
     words: tuple[str, ...]
     features: Mapping[str, ThingFeature]
     relations: Mapping[str, Relation]
+    support: str | None = None
+    conclusions: Mapping[str, Conclusion] = field(default_factory=dict)
+    groups: Mapping[str, Group] = field(default_factory=dict)
     detector: str | None = None
 
     @property
@@ -152,10 +163,32 @@ def read_things(table: ThingsTable, knowledge: Knowledge, place: KeyPlace) -> Th
         words=_each_once((table.one, *table.words)),
         features=MappingProxyType(features),
         relations=MappingProxyType(relations),
+        support=_support(table, place),
+        conclusions={
+            key: read_conclusion(key, conclusion, table, knowledge, place)
+            for key, conclusion in table.conclusions.items()
+        },
+        groups={
+            key: read_group(key, group, table, knowledge, place)
+            for key, group in table.groups.items()
+        },
         detector=table.detector,
     )
     _check_words(things, place)
     return things
+
+
+def _support(table: ThingsTable, place: KeyPlace) -> str | None:
+    support = table.support
+    if support is not None and (
+        support not in table.relations or table.relations[support].measure != "seen"
+    ):
+        seen = [key for key, relation in table.relations.items() if relation.measure == "seen"]
+        raise DomainError(
+            f"{place.at('things', 'support')}: support = '{support}' is no relation that is seen; "
+            f"{did_you_mean(support, seen)}"
+        )
+    return support
 
 
 def _each_once(words: Iterable[str]) -> tuple[str, ...]:
@@ -254,6 +287,11 @@ def _relation(
             f"{place.at(*here, 'converse')}: '{table.converse}' is the converse of '{key}', but "
             f"has {has}; write converse = '{key}' in [things.relations.{table.converse}]"
         )
+    if table.removed is not None and table.removed not in things.conclusions:
+        raise DomainError(
+            f"{place.at(*here, 'removed')}: removed = '{table.removed}' is no conclusion; "
+            f"{did_you_mean(table.removed, things.conclusions)}"
+        )
     return Relation(key=key, **table.model_dump())
 
 
@@ -278,6 +316,13 @@ def _declared(
 def _check_words(things: Things, place: KeyPlace) -> None:
     """Refuse a word that stands for two values of one feature, or a noun for two kinds."""
     nouns = dict.fromkeys((word.casefold() for word in things.words), f"any {things.one}")
+    for key, group in things.groups.items():
+        for word in group.words:
+            if nouns.setdefault(word.casefold(), key) != key:
+                raise DomainError(
+                    f"{place.at('things', 'groups', key)}: '{word}' stands for '{key}' and for "
+                    f"'{nouns[word.casefold()]}'; let it stand for one"
+                )
     for key, feature in things.features.items():
         adjectives: dict[str, str] = {}
         for value in feature.values:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -11,6 +12,9 @@ import clingo
 from seewhy.knowledge.ground import text_of
 
 __all__ = ["AnswerSet", "answer_set_of"]
+
+_PLAIN_INSTANCE = re.compile(r"(fires|exception)\((\w+),\(([-\w]+(?:,[-\w]+)*,?)\)\)")
+"""An axiom with values that are names or numbers, with a comma behind one alone."""
 
 
 @dataclass(frozen=True)
@@ -43,12 +47,17 @@ def _read_atom(
 
     The same atoms come again in one answer set after another.
     """
+    if atom.match("holds", 1):
+        return "holds", atom.arguments[0], None
+    # As text it is one call of clingo, where every argument would be two or three.
+    plain = _PLAIN_INSTANCE.fullmatch(str(atom))
+    if plain is not None:
+        kind, identifier, values = plain.groups()
+        return kind, None, (identifier, tuple(values.removesuffix(",").split(",")))
     name = atom.name
-    if name == "holds":
-        return name, atom.arguments[0], None
     if name in ("fires", "exception"):
-        axiom, values = atom.arguments
-        return name, None, (axiom.name, tuple(map(text_of, values.arguments)))
+        axiom, terms = atom.arguments
+        return name, None, (axiom.name, tuple(map(text_of, terms.arguments)))
     return name, None, None
 
 

@@ -15,7 +15,7 @@ from seewhy.knowledge.condition_words import say_condition
 from seewhy.knowledge.foundation import Forced, Foundation, Need, opposite
 from seewhy.knowledge.ground import key_of, literal_of, text_of
 from seewhy.knowledge.justification import Basis, Node
-from seewhy.knowledge.possible import Asked, Belief, Instance
+from seewhy.knowledge.possible import Asked, Belief, Instance, instances_by_head
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 from seewhy.knowledge.things import things_of
@@ -64,12 +64,7 @@ class Evidence:
 
     @cached_property
     def _supports(self) -> dict[str, list[Instance]]:
-        supports: dict[str, list[Instance]] = {}
-        for axiom in self.reasoner.knowledge.axioms:
-            for values in self.answer_set.firings.get(axiom.identifier, ()):
-                instance = Instance(axiom, values)
-                supports.setdefault(instance.head, []).append(instance)
-        return supports
+        return instances_by_head(self.reasoner.knowledge.axioms, self.answer_set.firings)
 
     def firing(self, key: str) -> list[Instance]:
         """The instances that conclude a belief."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 
 from clingo import ast
@@ -157,6 +157,13 @@ def read_knowledge(source: str, *, file: str = "knowledge.al") -> Knowledge:
     >>> [str(axiom) for axiom in knowledge.axioms]
     ['stable(S) if num_blocks(S, N), N < 2.']
     """
+    return _read(source, file)
+
+
+# A domain is loaded by every command of a conversation and every trial of an experiment, and
+# reading takes most of that time; what was read is never changed.
+@lru_cache(maxsize=16)
+def _read(source: str, file: str) -> Knowledge:
     declared = Declarations()
     rules: list[Statement] = []
     for statement in statements(source, file=file):

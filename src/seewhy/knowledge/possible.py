@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -80,6 +80,36 @@ class Instance:
         return Belief(key_of(self.axiom.head.substitute(self.binding).complement), holds=False)
 
 
+def instances_by_head(
+    axioms: Iterable[Axiom], firing: Mapping[str, Sequence[tuple[str, ...]]]
+) -> dict[str, list[Instance]]:
+    """Return the instances of axioms, by the key of what they conclude.
+
+    Parameters
+    ----------
+    axioms : iterable of Axiom
+    firing : mapping of str to sequence
+        Axiom identifier → the values of its variables.
+    """
+    found: dict[str, list[Instance]] = {}
+    for axiom in axioms:
+        head = _head_of(axiom)
+        for values in firing.get(axiom.identifier, ()):
+            found.setdefault(head(values), []).append(Instance(axiom, values))
+    return found
+
+
+def _head_of(axiom: Axiom) -> Callable[[tuple[str, ...]], str]:
+    """What an axiom concludes, by the values of its variables."""
+    head = axiom.head
+    if not head.arguments or not set(head.arguments) <= set(axiom.variables):
+        return lambda values: Instance(axiom, values).head
+    # Of plain variables the key is put together, which nothing has to be parsed for.
+    places = [axiom.variables.index(argument) for argument in head.arguments]
+    before = f"{'' if head.positive else '-'}{head.predicate}("
+    return lambda values: f"{before}{','.join([values[place] for place in places])})"
+
+
 class PossibleInstances:
     """What the program that was grounded for all scenes says that some scene could have.
 
@@ -144,13 +174,12 @@ class PossibleInstances:
         """The instances that conclude a literal in some scene."""
         kind = (predicate_of(key), not key.startswith("-"))
         if kind not in self._concluding:
-            by_key: dict[str, list[Instance]] = {}
-            for axiom in self.knowledge.axioms:
-                if (axiom.head.predicate, axiom.head.positive) == kind:
-                    for values in self._instances.get(axiom.identifier, ()):
-                        instance = Instance(axiom, values)
-                        by_key.setdefault(instance.head, []).append(instance)
-            self._concluding[kind] = by_key
+            axioms = [
+                axiom
+                for axiom in self.knowledge.axioms
+                if (axiom.head.predicate, axiom.head.positive) == kind
+            ]
+            self._concluding[kind] = instances_by_head(axioms, self._instances)
         return self._concluding[kind].get(key, [])
 
     def asked(self, instance: Instance) -> tuple[tuple[int, Asked], ...]:

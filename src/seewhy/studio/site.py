@@ -98,7 +98,18 @@ def site(project: Project, *, rules: AccessRules, embed: Embed | None = None) ->
         return _said(request, str(problem.detail), problem.status_code)
 
     app.add_middleware(Guard, rules=rules)
+    _make_ready(app)
     return app
+
+
+def _make_ready(app: FastAPI) -> None:
+    """Make the routes of the pages ready here, where there is one thread.
+
+    FastAPI else does so at the first request, with a filter of warnings that holds for all threads
+    and that another thread may lift. No route matches a path without a slash, so all are looked at.
+    """
+    for route in app.routes:
+        route.matches({"type": "http", "method": "GET", "path": "", "root_path": ""})
 
 
 def _said(request: Request, text: str, status: int) -> Response:

@@ -18,8 +18,8 @@ __all__ = ["RelationQuestion", "ShownThing", "ThingBench", "To", "thing_bench"]
 _AFTER = {None: "yes", True: "no", False: "open"}
 """What is said of a relation → what a press says next."""
 
-_KEYS = 9
-"""Other things that have a number key; 0 says that the relation holds to no other."""
+_KEYS = tuple("123456789")
+"""Keys of other things; 0 says that the relation holds to no other."""
 
 
 @dataclass(frozen=True)
@@ -173,7 +173,7 @@ def _at_hand(
     at: str, questions: Collection[Question], relations: Collection[RelationQuestion]
 ) -> str:
     """The one that is asked for, else the first that is open, else the first."""
-    names = [one.name for one in (*questions, *relations)]
+    names = [*(one.name for one in questions), *(one.name for one in relations)]
     if at in names:
         return at
     open_ones = [one.name for one in questions if one.label is None]
@@ -205,8 +205,11 @@ def _relation(
     things: Things,
 ) -> RelationQuestion:
     before, _, behind = relation.say.replace("{0}", chosen).partition("{1}")
+    # Where things are called 1, 2, 3, their names are their keys; else their places are.
+    by_name = all(other.name in _KEYS for other in others)
     to = []
-    for number, other in enumerate(others, start=1):
+    for place, other in enumerate(others):
+        number = other.name if by_name else "".join(_KEYS[place : place + 1])
         holds = here.related.get(said_first((key, chosen, other.name), things))
-        to.append(To(other, str(number) if number <= _KEYS else "", holds, _AFTER[holds]))
+        to.append(To(other, number, holds, _AFTER[holds]))
     return RelationQuestion(key, before.strip(), behind.strip(), letter, tuple(to))

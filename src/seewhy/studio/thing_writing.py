@@ -8,8 +8,9 @@ from itertools import permutations
 from pathlib import Path
 from typing import Any
 
-from seewhy.data.measured import MEASURES
+from seewhy.data.measured import MEASURES, STANDING
 from seewhy.data.scene import Scene
+from seewhy.data.scene_vector import feet_of
 from seewhy.data.table_writing import text_of_table
 from seewhy.data.thing import RELATIONS, THINGS, Related, Thing
 from seewhy.data.thing_tables import cells_of_relations, cells_of_things, with_things
@@ -148,14 +149,19 @@ def _known(here: PictureThings, things: Things) -> tuple[Thing, ...]:
 def _rows(
     here: PictureThings, found: Sequence[Thing], things: Things, listed: Collection[str]
 ) -> Iterator[Related]:
+    boxes = {thing.name: thing.box for thing in found}
+    said = [Related(*key, holds) for key, holds in here.related.items()]
+    standing = {name: boxes.get(foot) for name, foot in feet_of(things, boxes, said).items()}
     for relation in things.relations:
         if relation not in listed:
             continue
         measure = MEASURES.get(things.relations[relation].measure)
+        where = standing if things.relations[relation].measure in STANDING else boxes
         for thing, other in permutations(found, 2):
             holds = here.related.get((relation, thing.name, other.name))
-            if holds is None and measure is not None and thing.box and other.box:
-                holds = measure(thing.box, other.box)
+            box, beside = where[thing.name], where[other.name]
+            if holds is None and measure is not None and box and beside:
+                holds = bool(measure(box, beside))
             yield Related(relation, thing.name, other.name, holds)
 
 

@@ -20,12 +20,17 @@ def plural(noun: str) -> str:
     return f"{noun[:-1]}ies" if re.search("[^aeiou]y$", noun) else f"{noun}s"
 
 
+_SPOKEN_CONSONANT = re.compile(r"(one|once)(?![a-z])|eu|uni(?!n|m)|us[eu]|uti", re.IGNORECASE)
+"""How words begin that are written with a vowel, and spoken with a consonant: "one", "unique"."""
+
+
 def with_article(phrase: str) -> str:
     """Return a phrase in the singular with "a" or "an" before it.
 
     Examples
     --------
-    >>> with_article("red block"), with_article("orange ball")
-    ('a red block', 'an orange ball')
+    >>> with_article("red block"), with_article("orange ball"), with_article("one-way street")
+    ('a red block', 'an orange ball', 'a one-way street')
     """
-    return f"{'an' if phrase[:1].lower() in 'aeiou' else 'a'} {phrase}"
+    vowel = phrase[:1].lower() in "aeiou" and not _SPOKEN_CONSONANT.match(phrase)
+    return f"{'an' if vowel else 'a'} {phrase}"

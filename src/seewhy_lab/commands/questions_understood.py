@@ -48,8 +48,9 @@ _NAMES = {
     Asks.MATTERS: "matters {feature}",
     Asks.BECAUSE: "because {feature}",
     Asks.MORE: "what-else",
+    Asks.POSSIBLE: "possible {feature}",
 }
-_ASKED_SINCE = {Asks.WHEN_CLASS, Asks.MATTERS, Asks.BECAUSE, Asks.MORE}
+_ASKED_SINCE = {Asks.WHEN_CLASS, Asks.MATTERS, Asks.BECAUSE, Asks.MORE, Asks.POSSIBLE}
 """What could not be asked when the tables were written, which mean by it that it is not."""
 _JOINED = {Asks.ALL: "and", Asks.EITHER: "or", Asks.WHAT_IF: "what-if"}
 

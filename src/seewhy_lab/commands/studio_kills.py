@@ -23,7 +23,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import httpx
+import httpx2
 from PIL import Image
 
 from seewhy.data.dataset import Dataset
@@ -83,7 +83,7 @@ def labelled_until_killed(folder: Path, *, seed: int) -> list[tuple[str, str]]:
         raise SystemExit("the studio did not begin")
     answered: list[tuple[str, str]] = []
     killed = threading.Event()
-    with httpx.Client(base_url=found[0], timeout=60) as client:
+    with httpx2.Client(base_url=found[0], timeout=60) as client:
         page = client.get("/begin").text
         token = re.findall(r'name="csrf" value="([0-9a-f]+)"', page)[0]
 
@@ -100,7 +100,7 @@ def labelled_until_killed(folder: Path, *, seed: int) -> list[tuple[str, str]]:
                 headers = {"HX-Request": "true"}
                 if client.post("/label/set", data=said, headers=headers).status_code == 200:
                     answered.append((picture, value))
-        except httpx.HTTPError:
+        except httpx2.HTTPError:
             pass
     process.wait()
     process.stderr.close()

@@ -14,7 +14,6 @@ the same command goes on where it was interrupted, and trains no number of label
 from __future__ import annotations
 
 import argparse
-import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -25,7 +24,7 @@ from seewhy.domain.tables import CLASS
 from seewhy_lab.walk.camera import Camera
 from seewhy_lab.walk.diary import read_steps, table, write_steps
 from seewhy_lab.walk.person import Person
-from seewhy_lab.walk.serving import running_studio
+from seewhy_lab.walk.serving import chromium, running_studio
 from seewhy_lab.walk.truth import Truth, flat_folder, read_truth
 from seewhy_lab.walk.walking import Asked, Walk, picture_of_class
 
@@ -47,14 +46,6 @@ def options_of(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--out", type=Path, required=True, help="the walk; new, or interrupted")
     parser.add_argument("--screenshots", type=Path, help="where small pictures of the pages go")
     return parser.parse_args(arguments)
-
-
-def chromium() -> str:
-    """Where the browser is."""
-    found = shutil.which("chromium") or shutil.which("chromium-browser")
-    if found is None:
-        raise SystemExit("there is no Chromium; apt install chromium")
-    return found
 
 
 def accuracy(model: Path, test: Truth) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from seewhy.data.measured import MEASURES, how_probable
+from seewhy.data.measured import MEASURES, STANDING, feet, how_probable
 from seewhy.domain.domain import Domain
 from seewhy.perception.extractor import Seen
 from seewhy.perception.eyes import Eyes
@@ -186,11 +186,23 @@ class ThingSeeing:
             converse = things.relations[key].converse
             if converse is not None and things.relations[converse].measure == "seen":
                 found[converse] = table.T
+        standing = _feet(found[things.support]) if things.support in found else range(count)
         for key, relation in things.relations.items():
             if relation.measure in MEASURES:
-                measure = MEASURES[relation.measure]
-                found[key] = how_probable(measure, place.boxes, place.spread)
+                shares = how_probable(MEASURES[relation.measure], place.boxes, place.spread)
+                of_feet = relation.measure in STANDING
+                found[key] = shares[np.ix_(standing, standing)] if of_feet else shares
         return found
+
+
+def _feet(stands_on: Table) -> list[int]:
+    """For each thing the one at the foot of its stack, by what each most probably stands on."""
+    pairs = [
+        (str(thing), str(int(row.argmax())))
+        for thing, row in enumerate(stands_on)
+        if row.size and row.max() >= 0.5
+    ]
+    return [int(foot) for foot in feet(map(str, range(len(stands_on))), pairs).values()]
 
 
 @dataclass(frozen=True, eq=False)

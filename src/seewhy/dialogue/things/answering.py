@@ -12,13 +12,20 @@ from seewhy.dialogue.things.edits import edited, supposed_edits
 from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
+    AnyOf,
+    Completing,
+    Consequence,
     Count,
     Describe,
     Description,
+    Difference,
     Exists,
     Holds,
+    Is,
     Query,
     Reference,
+    References,
+    Together,
     ValueOf,
     Which,
 )
@@ -162,6 +169,8 @@ class ThingAnswerer:
             if replaced is None:
                 return None
             query = replaced
+        if isinstance(query, Completing) and not self.things.groups:
+            return None
         spoken_of = _spoken_of(query) or reading.spoken_of
         try:
             outcome = outcome_of(query, words.evaluation)
@@ -187,6 +196,8 @@ class ThingAnswerer:
         if edits is None:
             return None
         scene, without = edited(evaluation.scene, self.things, edits)
+        if scene.conclusions is not None:
+            scene = scene.conclusions.conclude(scene, without)
         supposed = ThingWords(Evaluation(scene, self.things, without=without))
         reply = self._answered(question, Reading(previous.query), supposed, None)
         return reply and replace(reply, text=f"Then: {reply.text[:1].lower()}{reply.text[1:]}")
@@ -229,9 +240,23 @@ def _spoken_of(query: Query) -> Reference | None:
             return one
         case Holds(ones=ones):
             return ones[0]
+        case Together(ones=ones) | Completing(ones=ones):
+            return _all_of(ones)
+        case Difference(first=first, second=second):
+            return _all_of((first, second))
+        case Consequence(one=one):
+            return one
         case Count(described=described) | Exists(described=described) | Which(described=described):
             return Reference(described)
     return None
+
+
+def _all_of(ones: tuple[Reference, ...]) -> Reference:
+    """What "they" are."""
+    if len(ones) == 1:
+        return ones[0]
+    any_of = AnyOf(tuple(Is(one) for one in ones))
+    return Reference(Description((any_of,), many=True), References.EVERY)
 
 
 def _instead(query: Query, instead: Description | Reference | None) -> Query | None:

@@ -33,23 +33,30 @@ from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
     Compares,
+    Concluded,
     Description,
     Extreme,
+    Groups,
     HasValue,
+    PartOf,
     Query,
     Ranked,
     Related,
     SameValue,
     Shares,
+    Together,
     ValueOf,
 )
 from seewhy.dialogue.things.wording import ThingWords
+from seewhy.domain.things import CONCLUDED, Things
 from seewhy.text.nouns import with_article
 
 __all__ = ["Found", "smallest_change"]
 
 MOST_LOOKED_AT = 30_000
 """Changed scenes that are looked at."""
+MOST_CONCLUDED = 250
+"""Changed scenes of which it is concluded anew what follows."""
 MOST_CHANGES = 3
 _MOST_ADDED = 20_000
 
@@ -84,6 +91,7 @@ class _Spoken:
     values: dict[str, set[str]] = field(default_factory=dict)
     compared: set[str] = field(default_factory=set)
     relations: set[str] = field(default_factory=set)
+    concluded: set[str] = field(default_factory=set)
 
     def read(self, part: object) -> None:
         match part:
@@ -95,12 +103,28 @@ class _Spoken:
                 self.compared.add(feature)
             case Related(relation=relation) | Extreme(relation=relation):
                 self.relations.add(relation)
+            case Concluded(conclusion=key) | PartOf(group=key):
+                self.concluded.add(key)
+            case Groups(group=key) | Together(group=key):
+                self.concluded.add(key)
         if is_dataclass(part):
             for name in fields(part):
                 self.read(getattr(part, name.name))
         elif isinstance(part, tuple):
             for inner in part:
                 self.read(inner)
+
+    def resting(self, scene: ThingScene, things: Things) -> None:
+        """Take what is concluded for what it rests on."""
+        relations = {r for r in self.relations if things.relations[r].measure == CONCLUDED}
+        self.concluded |= relations
+        self.relations -= relations
+        if scene.conclusions is None:
+            return
+        for key in self.concluded:
+            seen = scene.conclusions.rests_on(key)
+            self.compared |= seen & set(things.features)
+            self.relations |= seen & set(things.relations)
 
 
 def smallest_change(query: Query, aim: Value, words: ThingWords) -> Found:
@@ -112,23 +136,29 @@ def smallest_change(query: Query, aim: Value, words: ThingWords) -> Found:
     scene, things = words.evaluation.scene, words.things
     spoken = _Spoken()
     spoken.read(query)
+    spoken.resting(scene, things)
+    concluding = scene.conclusions if spoken.concluded else None
+    most = MOST_CONCLUDED if concluding else MOST_LOOKED_AT
     tried = dict(values_to_try(things, spoken.values, spoken.compared))
     orders = _one_way(words, {r for r in spoken.relations if is_in_order(scene, r)})
     loose = _one_way(words, {r for r in spoken.relations if not is_in_order(scene, r)})
     plain = [*_edits(scene, tried, orders, loose)]
-    adding = _additions(scene, tried, orders, loose)
+    full = concluding is not None and scene.count >= things.most
+    adding = None if full else _additions(scene, tried, orders, loose)
     additions = [] if adding is None else [*adding]
     left_out = adding is None
     looked_at = 0
     for size in range(1, MOST_CHANGES + 1):
         looked_at += comb(len(plain), size) + comb(len(plain), size - 1) * len(additions)
-        if looked_at > MOST_LOOKED_AT:
+        if looked_at > most:
             return Found(None, looked_at=size - 1, without_additions=left_out)
         reaching: list[tuple[Edit, ...]] = []
         for edits in _together(plain, additions, size):
             if not _apart(edits):
                 continue
             changed, without = edited(scene, things, edits)
+            if concluding is not None:
+                changed = concluding.conclude(changed, without)
             if _reaches(query, aim, Evaluation(changed, things, without=without)):
                 reaching.append(edits)
         if reaching:

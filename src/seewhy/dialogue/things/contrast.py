@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from seewhy.dialogue.things.changing import smallest_change
@@ -15,10 +16,12 @@ from seewhy.dialogue.things.query import (
     HasValue,
     Holds,
     Query,
+    Together,
     Which,
 )
 from seewhy.dialogue.things.question_forms import Wanted
 from seewhy.dialogue.things.reasons import Reasons
+from seewhy.dialogue.things.reasons_following import of_together
 from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.wording import join_words, sentence
 from seewhy.knowledge.justification import Basis, Node
@@ -26,6 +29,9 @@ from seewhy.knowledge.justification import Basis, Node
 __all__ = ["tell_change", "tell_why", "tell_why_not"]
 
 _MOST_TOLD = 3
+_PRESENCE = re.compile(r"(\w+)\(\1\d+\)")
+"""A literal that says that a thing is there."""
+_TOLD = (Basis.FEATURE, Basis.AXIOM)
 
 
 def tell_why(justification: Node) -> str:
@@ -41,10 +47,43 @@ def tell_why(justification: Node) -> str:
     return " ".join(map(sentence, _said(justification))) or sentence(justification.text)
 
 
+def _reason(node: Node) -> str:
+    """A clause; of what was concluded, with what it was concluded from, where that is not much."""
+    grounds = [child.text for child in node.children if child.holds and child.basis in _TOLD]
+    if node.basis is not Basis.AXIOM or not 0 < len(grounds) < _MOST_TOLD:
+        return node.text
+    return f"{node.text}, since {join_words(grounds)}"
+
+
+def _denied(node: Node) -> str:
+    """Why something is not so: what of the axiom that comes nearest fails, and what was seen."""
+    if node.basis is Basis.FEATURE or not node.children:
+        return node.text
+    failing = [child for child in node.children[0].children if not child.holds]
+    grounds = [_failing(child) for child in failing[:_MOST_TOLD]]
+    return f"{node.text}: {'; '.join(filter(None, grounds))}" if any(grounds) else node.text
+
+
+def _failing(node: Node) -> str:
+    """A condition that fails; that things are there goes without saying."""
+    seen = (
+        leaf.text
+        for leaf in node.walk()
+        if leaf.basis is Basis.FEATURE and not _PRESENCE.fullmatch(leaf.literal)
+    )
+    grounds = list(dict.fromkeys(seen))[:_MOST_TOLD]
+    if not grounds or node.basis is Basis.FEATURE:
+        return node.text
+    return f"{node.text}, since {join_words(grounds)}"
+
+
 def _said(justification: Node) -> Iterator[str]:
     there = [node for node in justification.children if node.basis is not Basis.ABSENCE]
     for node in there:
-        leaves = [child.text for child in node.children if child.basis is Basis.FEATURE]
+        if not node.holds:
+            yield _denied(node)
+            continue
+        leaves = [_reason(child) for child in node.children if child.basis in _TOLD]
         yield f"{node.text}: {join_words(leaves)}" if leaves else node.text
     if not there or justification.text.startswith("No"):
         for node in justification.children:
@@ -73,7 +112,10 @@ def tell_why_not(query: Query, value: Value, wanted: Wanted, words: ThingWords) 
             leaves = [
                 reasons.judged(number, condition) for one in ones for number in reasons.numbers(one)
             ]
-            return " ".join(sentence(leaf.text) for leaf in leaves)
+            return " ".join(sentence(_denied(leaf)) for leaf in leaves)
+        case Together(denied=denied) if denied is bool(value):
+            told = of_together(query, words)
+            return " ".join(sentence(_denied(leaf)) for leaf in told)
     return tell_why(Reasons(words.evaluation, words).tree(query, ""))
 
 

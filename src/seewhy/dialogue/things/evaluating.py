@@ -78,7 +78,7 @@ class Evaluation:
     >>> from seewhy.domain.domain import load_domain
     >>> things = load_domain("tabletop").things
     >>> scene = thing_scene(things, [{"colour": "red"}, {"colour": None}], relations={})
-    >>> Evaluation(scene, things).fits(query.Description((query.HasValue("colour", "red"),)))
+    >>> Evaluation(scene, things).fits(Description((HasValue("colour", "red"),)))
     Fits(surely=1, maybe=3)
     """
 
@@ -171,6 +171,15 @@ class Evaluation:
             case query.HasValue(feature=feature, value=value):
                 surely = self.with_value[feature].get(value, 0)
                 return Fits(surely, surely | self.without_value[feature])
+            case query.Concluded(conclusion=conclusion):
+                so = self.scene.concluded.get(conclusion, 0) & self.everything
+                # Of a scene of which nothing was concluded, nothing is known.
+                return Fits(so, self.everything if self.scene.conclusions is None else so)
+            case query.PartOf(group=group):
+                so = 0
+                for numbers in self.scene.groups.get(group, ()):
+                    so |= sum(1 << number for number in numbers)
+                return Fits(so, self.everything if self.scene.conclusions is None else so)
             case query.Related(to=to):
                 return self._toward(to, condition)
             case query.Shares(other=to) | query.Compares(than=to) | query.Is(one=to):

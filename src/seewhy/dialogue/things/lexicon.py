@@ -9,7 +9,16 @@ from seewhy.dialogue.grammar import Binding
 from seewhy.dialogue.lexicon import NUMBERS
 from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.things.chart import Category, Chart, Ending
-from seewhy.dialogue.things.query import Extreme, HasValue, Ranked
+from seewhy.dialogue.things.query import (
+    Concluded,
+    Description,
+    Extreme,
+    HasValue,
+    Ranked,
+    Reference,
+    References,
+)
+from seewhy.domain.conclusions import Conclusion
 from seewhy.domain.things import ThingFeature, Things
 from seewhy.text.comparison import comparative, superlative
 from seewhy.text.nouns import plural
@@ -64,7 +73,7 @@ class Entries:
 
 _CATEGORIES = (
     "adjective", "noun", "value", "feature", "how", "participle", "preposition", "verb", "verbing",
-    "comparative", "superlative", "extreme", "side", "rank", "number",
+    "comparative", "superlative", "extreme", "side", "rank", "number", "occurs", "falling", "group",
 )  # fmt: skip
 
 
@@ -88,20 +97,36 @@ def lexicon_of(things: Things) -> dict[str, Category]:
         for word in relation.words:
             entries["preposition"].add(word, Binding("relation", key))
         for verb in relation.verbs:
-            for form in (verb, _third_person(verb), past_form(verb)):
+            for form in _forms((verb,)):
                 entries["verb"].add(form, Binding("relation", key))
             entries["verbing"].add(_gerund(verb), Binding("relation", key))
         for word in relation.most:
             entries["extreme"].add(word, Binding("extreme", Extreme(key)))
         for word in relation.side:
             entries["side"].add(word, Binding("side", key))
+    for conclusion in things.conclusions.values():
+        _add_conclusion(entries, conclusion)
+    for relation in things.relations.values():
+        if relation.removed is not None:
+            for form in _forms(things.conclusions[relation.removed].verbs):
+                entries["falling"].add(form, Binding("relation", relation.key))
+    for group in things.groups.values():
+        meant = Binding("group", group.key)
+        for word in group.words:
+            entries["group"].add(word, meant)
+            entries["group"].add(group.many if word == group.one else plural(word), meant)
     for number, rank in enumerate(RANKS, start=1):
         entries["rank"].add(rank, Binding("rank", number))
     entries["rank"].add("last", Binding("rank", -1))
     for number, word in enumerate(NUMBERS):
         entries["number"].add(word, Binding("number", number))
         entries["number"].add(str(number), Binding("number", number))
-    return {**entries, "pronoun": _Antecedent(_PRONOUNS), "its": _Antecedent(_OWNERS)}
+    return {
+        **entries,
+        "pronoun": _Antecedent(_PRONOUNS),
+        "its": _Antecedent(_OWNERS),
+        "these": _These(frozenset({"these", "those", "they", "them", "the", "all"})),
+    }
 
 
 def vocabulary_of(lexicon: Mapping[str, Category]) -> frozenset[str]:
@@ -140,6 +165,22 @@ def _add_feature(entries: Mapping[str, Entries], feature: ThingFeature) -> None:
             )
 
 
+def _add_conclusion(entries: Mapping[str, Entries], conclusion: Conclusion) -> None:
+    meant = Binding("condition", Concluded(conclusion.key))
+    for word in conclusion.words:
+        entries["adjective"].add(word, meant)
+    for verb in conclusion.verbs:
+        entries["adjective"].add(_gerund(verb), meant)
+    for form in _forms(conclusion.verbs):
+        entries["occurs"].add(form, meant)
+
+
+def _forms(verbs: Iterable[str]) -> Iterator[str]:
+    """The forms of verbs behind a subject."""
+    for verb in verbs:
+        yield from (verb, _third_person(verb), past_form(verb))
+
+
 def _add_noun(nouns: Entries, one: str, many: str, bindings: tuple[Binding, ...]) -> None:
     nouns.add(one, *bindings, Binding("many", False))
     nouns.add(many, *bindings, Binding("many", True))
@@ -171,3 +212,21 @@ class _Antecedent:
         if chart.words[at] not in self.first_words:
             return ()
         return (Ending(at + 1, (Binding("one", chart.antecedent),)),)
+
+
+@dataclass(frozen=True)
+class _These:
+    """Words for several things: those that were spoken of before, or else all that are there."""
+
+    first_words: frozenset[str]
+
+    def __call__(self, chart: Chart, at: int) -> Sequence[Ending]:
+        words = chart.words
+        if at >= len(words) or words[at] not in self.first_words:
+            return ()
+        meant = chart.antecedent or Reference(Description(many=True), References.EVERY)
+        binding = (Binding("one", meant),)
+        counted = at + 1 < len(words) and (words[at + 1] in NUMBERS or words[at + 1].isdigit())
+        if counted:
+            return (Ending(at + 2, binding),)
+        return () if words[at] in ("the", "all") else (Ending(at + 1, binding),)

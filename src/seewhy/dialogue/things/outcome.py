@@ -7,27 +7,32 @@ from dataclasses import dataclass
 from operator import eq, ge, gt, le, lt
 
 from seewhy.dialogue.things.evaluating import Evaluation, Fits, members
+from seewhy.dialogue.things.following import completions, consequences, numbers_of
 from seewhy.dialogue.things.query import (
     CompareCounts,
     CompareNumber,
+    Completing,
+    Consequence,
     Count,
     Describe,
     Description,
     Difference,
     Exists,
+    Groups,
     Holds,
     Query,
     Reference,
     References,
     SameValue,
+    Together,
     ValueOf,
     Which,
 )
 
 __all__ = ["Outcome", "Value", "outcome_of"]
 
-Value = bool | int | str | tuple[int, ...] | tuple[str, ...] | None
-"""Yes or no, a number, a value, numbers of things, features; None where it is not known."""
+Value = bool | int | str | tuple[int, ...] | tuple[str, ...] | tuple[tuple[int, ...], ...] | None
+"""Yes or no, a number, a value, numbers of things (or several such), features; None: not known."""
 
 _SIGNS: dict[str, Callable[[int, int], bool]] = {"=": eq, "<": lt, ">": gt, "<=": le, ">=": ge}
 
@@ -82,7 +87,39 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
             return Outcome((evaluation.the(one),))
         case Difference():
             return _difference(query, evaluation)
+        case Consequence():
+            follows = consequences(query, evaluation)
+            return Outcome(None if follows is None else tuple(one.number for one in follows))
+        case Groups():
+            return Outcome(_groups(query, evaluation))
+        case Together(group=group, ones=ones, denied=denied):
+            numbers = numbers_of(ones, evaluation)
+            if len(numbers) != evaluation.things.groups[group].size:
+                return Outcome(None)
+            so = _known_groups(evaluation, group)
+            return Outcome(None if so is None else (numbers in so) is not denied)
+        case Completing():
+            return Outcome(_completing(query, evaluation))
     raise TypeError(f"must be a query, got {query!r}")
+
+
+def _known_groups(evaluation: Evaluation, group: str) -> tuple[tuple[int, ...], ...] | None:
+    """Those of which it is so; None where nothing was concluded of the scene."""
+    return evaluation.scene.groups.get(group)
+
+
+def _groups(query: Groups, evaluation: Evaluation) -> Value:
+    found = _known_groups(evaluation, query.group)
+    if found is None or query.asks == "which":
+        return found
+    return len(found) if query.asks == "count" else bool(found) is not query.denied
+
+
+def _completing(query: Completing, evaluation: Evaluation) -> Value:
+    found = completions(query, evaluation)
+    if found is None:
+        return None
+    return tuple(one.number for one in found if one.number is not None)
 
 
 def _value_of(feature: str, one: Reference, evaluation: Evaluation) -> Outcome:

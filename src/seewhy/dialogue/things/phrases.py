@@ -206,6 +206,17 @@ def _numbered(bindings: Bindings) -> Bindings | None:
     return (Binding("one", query.Reference(described)),)
 
 
+def _counted_off(bindings: Bindings) -> Bindings | None:
+    """Things by their numbers: "cards 1, 2 and 3"."""
+    found = []
+    for number in meanings(bindings, "number"):
+        if not isinstance(number, int) or number < 1:
+            return None
+        described = query.Description(_conditions(bindings), query.Numbered(number))
+        found.append(Binding("one", query.Reference(described)))
+    return tuple(found)
+
+
 PHRASES: dict[str, Fold] = {
     "apart": _apart,
     "else": _apart,
@@ -220,6 +231,7 @@ PHRASES: dict[str, Fold] = {
     "kind_of": _kind_of,
     "standing": _standing,
     "stood_to": _stood_to,
+    "carried": _stood_to,
     "either_kind": _either_kind,
     "best": _picked,
     "verb_and_one": _standing,
@@ -232,6 +244,11 @@ PHRASES: dict[str, Fold] = {
     "amid": _between,
     "beyond": _beyond,
     "itself": _is,
+    "fallen_without": _standing,
+    "not_happening": _not,
+    "some_thing": lambda _: (Binding("described", query.Description()),),
+    "counted_off": _counted_off,
+    "in_group": lambda bindings: _condition(query.PartOf(str(_one(bindings, "group")))),
     "near": _nearest,
     "far": _farthest,
     "picked": _picked,

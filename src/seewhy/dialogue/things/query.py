@@ -18,19 +18,24 @@ __all__ = [
     "CompareCounts",
     "CompareNumber",
     "Compares",
+    "Completing",
+    "Concluded",
     "Condition",
+    "Consequence",
     "Count",
     "Describe",
     "Description",
     "Difference",
     "Exists",
     "Extreme",
+    "Groups",
     "HasValue",
     "Holds",
     "Is",
     "Nearest",
     "Not",
     "Numbered",
+    "PartOf",
     "Query",
     "Ranked",
     "Reference",
@@ -38,6 +43,7 @@ __all__ = [
     "Related",
     "SameValue",
     "Shares",
+    "Together",
     "ValueOf",
     "Which",
     "references_in",
@@ -60,6 +66,20 @@ class HasValue:
     value: str
     noun: bool = False
     """Whether it was said as a noun; it is meant all the same."""
+
+
+@dataclass(frozen=True)
+class Concluded:
+    """Axioms conclude something of a thing."""
+
+    conclusion: str
+
+
+@dataclass(frozen=True)
+class PartOf:
+    """A thing is one of several of which axioms conclude something together."""
+
+    group: str
 
 
 @dataclass(frozen=True)
@@ -136,7 +156,20 @@ class AnyOf(_OfConditions):
     """At least one of some conditions holds."""
 
 
-Condition = HasValue | Related | Shares | Compares | Between | Apart | Is | Not | All | AnyOf
+Condition = (
+    HasValue
+    | Concluded
+    | PartOf
+    | Related
+    | Shares
+    | Compares
+    | Between
+    | Apart
+    | Is
+    | Not
+    | All
+    | AnyOf
+)
 
 
 @dataclass(frozen=True)
@@ -282,9 +315,44 @@ class Difference(_OfTwo):
     alike: bool = False
 
 
+@dataclass(frozen=True)
+class Consequence:
+    """What follows where a thing is taken away, or something else is so of it."""
+
+    one: Reference
+    supposed: Condition | None = None
+
+
+@dataclass(frozen=True)
+class Groups:
+    """Groups of several things of which axioms conclude something: whether, how many, which."""
+
+    group: str
+    asks: str
+    denied: bool = False
+
+
+@dataclass(frozen=True)
+class Together:
+    """Whether some things are such a group; with ``denied``, whether they are none."""
+
+    group: str
+    ones: tuple[Reference, ...]
+    denied: bool = False
+
+
+@dataclass(frozen=True)
+class Completing:
+    """Which thing would make such a group with some others."""
+
+    ones: tuple[Reference, ...]
+    group: str = ""
+    """Empty where the question does not name it: the only one that the domain has."""
+
+
 Query = (
     Count | Exists | Which | CompareCounts | CompareNumber | ValueOf | SameValue | Holds | Describe
-    | Difference
+    | Difference | Consequence | Groups | Together | Completing
 )  # fmt: skip
 
 

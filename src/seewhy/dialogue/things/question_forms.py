@@ -9,19 +9,25 @@ from seewhy.dialogue.grammar import Binding
 from seewhy.dialogue.things.chart import Fold
 from seewhy.dialogue.things.phrases import Bindings, all_of, meanings, settled
 from seewhy.dialogue.things.query import (
+    AnyOf,
     CompareCounts,
     CompareNumber,
+    Completing,
     Condition,
+    Consequence,
     Count,
     Describe,
     Description,
     Difference,
     Exists,
+    Groups,
     HasValue,
     Holds,
+    Is,
     Query,
     Reference,
     SameValue,
+    Together,
     ValueOf,
     Which,
 )
@@ -134,14 +140,54 @@ def _holds(bindings: Bindings) -> Bindings | None:
 
 def _pair(make: Callable[[Reference, Reference], Query]) -> Fold:
     def fold(bindings: Bindings) -> Bindings | None:
-        ones = _references(bindings)
+        ones = _each(_references(bindings))
         return _query(make(*ones)) if len(ones) == 2 else None
 
     return fold
 
 
+def _each(ones: tuple[Reference, ...]) -> tuple[Reference, ...]:
+    """References, and in the place of "they" each of those that were spoken of."""
+    if len(ones) != 1 or len(ones[0].description.conditions) != 1:
+        return ones
+    match ones[0].description.conditions[0]:
+        case AnyOf(conditions=each):
+            return tuple(one.one for one in each if isinstance(one, Is))
+    return ones
+
+
 def _single(make: Callable[[Reference], Query]) -> Fold:
     return lambda bindings: _query(make(_references(bindings)[0]))
+
+
+def _consequence(bindings: Bindings) -> Bindings | None:
+    ones, conditions = _references(bindings), _conditions(bindings)
+    if len(ones) != 1:
+        return None
+    return _query(Consequence(ones[0], all_of(conditions) if conditions else None))
+
+
+def _completing(bindings: Bindings) -> Bindings | None:
+    named = meanings(bindings, "group")
+    return _query(Completing(_references(bindings), str(named[0]) if named else ""))
+
+
+def _no_group(bindings: Bindings) -> Bindings:
+    return (*bindings, Binding("denied", True))
+
+
+def _together(bindings: Bindings) -> Bindings | None:
+    named = meanings(bindings, "group")
+    denied = bool(meanings(bindings, "denied"))
+    return _query(Together(str(named[0]), _references(bindings), denied))
+
+
+def _groups(asks: str) -> Fold:
+    def fold(bindings: Bindings) -> Bindings:
+        group = str(meanings(bindings, "group")[0])
+        return _query(Groups(group, asks, denied=bool(meanings(bindings, "denied"))))
+
+    return fold
 
 
 def _follow(asks: str) -> Fold:
@@ -199,6 +245,14 @@ QUESTIONS: dict[str, Fold] = {
     "holds": _holds,
     "difference": _pair(Difference),
     "alike": _pair(lambda first, second: Difference(first, second, alike=True)),
+    "consequence": _consequence,
+    "completing": _completing,
+    "together": _together,
+    "no_group": _no_group,
+    "group_denied": _no_group,
+    "group_exists": _groups("exists"),
+    "group_counted": _groups("count"),
+    "groups_listed": _groups("which"),
     "describe": _single(Describe),
     "place": _single(lambda one: Describe(one, place=True)),
     "which": _about(Which),

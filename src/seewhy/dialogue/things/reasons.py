@@ -11,27 +11,43 @@ from seewhy.dialogue.things.query import (
     CompareCounts,
     CompareNumber,
     Compares,
+    Completing,
+    Concluded,
     Condition,
+    Consequence,
     Count,
     Describe,
     Description,
     Difference,
     Exists,
+    Groups,
     HasValue,
     Holds,
     Nearest,
     Not,
+    PartOf,
     Query,
     Reference,
     References,
     Related,
     SameValue,
     Shares,
+    Together,
     ValueOf,
     Which,
     references_in,
 )
+from seewhy.dialogue.things.reasons_following import (
+    of_completing,
+    of_consequence,
+    of_groups,
+    of_part,
+    of_together,
+    shortened,
+    why_concluded,
+)
 from seewhy.dialogue.things.wording import ThingWords
+from seewhy.domain.things import CONCLUDED
 from seewhy.knowledge.justification import Basis, Node
 
 __all__ = ["Reasons"]
@@ -138,7 +154,7 @@ class Reasons:
         """The first condition that a thing does not meet."""
         for condition in description.conditions:
             if not self.evaluation.holds(condition).maybe >> number & 1:
-                return self._so(number, condition, self.words.name(number))
+                return shortened(self._so(number, condition, self.words.name(number)))
         name = self.words.name(number)
         text = f"{name} is not the {self.words.phrase(description, many=False)}"
         return Node(self.words.term(number), text, Basis.COMPARISON)
@@ -149,6 +165,14 @@ class Reasons:
         match condition:
             case HasValue(feature=feature, value=value):
                 return self._seen(number, feature, value, subject)
+            case Concluded(conclusion=conclusion):
+                return why_concluded(conclusion, (number,), self.words, subject=subject)
+            case PartOf(group=group):
+                text = self._predicated(subject, condition, holds)
+                children = tuple(of_part(group, number, self.words))
+                return Node(
+                    f"{self.words.term(number)}: {text}", text, Basis.JOINTLY, children=children
+                )
             case Related(relation=relation, to=to, inverse=inverse) if to.which is References.THE:
                 other = self.evaluation.the(to)
                 if inverse:
@@ -198,6 +222,9 @@ class Reasons:
     def _related(self, number: int, relation: str, to: int, subject: str) -> Node:
         related = self.evaluation.scene.related[relation][to] >> number & 1
         unknown = self.evaluation.scene.unknown.get(relation)
+        concluded = self.evaluation.things.relations[relation].measure == CONCLUDED
+        if concluded and number != to and self.evaluation.scene.conclusions is not None:
+            return why_concluded(relation, (number, to), self.words, subject=subject)
         key = f"{relation}({self.words.term(number)},{self.words.term(to)})"
         other = self.words.name(to) if to != number else "itself"
         said = self.evaluation.things.relations[relation].say.format(subject, other)
@@ -252,6 +279,14 @@ class Reasons:
                     for one in (first, second):
                         for number in self.numbers(one):
                             yield self._seen(number, feature, None, self.words.name(number))
+            case Consequence():
+                yield from of_consequence(query, self.words)
+            case Groups():
+                yield from of_groups(query, self.words)
+            case Together():
+                yield from of_together(query, self.words)
+            case Completing():
+                yield from of_completing(query, self.words)
             case _:
                 return
 
@@ -275,7 +310,7 @@ def _descriptions(query: Query) -> tuple[Description, ...]:
 
 def _references(query: Query) -> tuple[Reference, ...]:
     match query:
-        case ValueOf(one=one) | Describe(one=one):
+        case ValueOf(one=one) | Describe(one=one) | Consequence(one=one):
             return (one,)
         case SameValue(first=first, second=second) | Difference(first=first, second=second):
             return (first, second)

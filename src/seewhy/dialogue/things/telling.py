@@ -7,20 +7,32 @@ from seewhy.dialogue.things.outcome import Outcome
 from seewhy.dialogue.things.query import (
     CompareCounts,
     CompareNumber,
+    Completing,
+    Concluded,
+    Consequence,
     Count,
     Describe,
     Description,
     Difference,
     Exists,
+    Groups,
     Holds,
     Is,
     Not,
     Query,
     Reference,
     References,
+    Related,
     SameValue,
+    Together,
     ValueOf,
     Which,
+)
+from seewhy.dialogue.things.telling_following import (
+    say_completing,
+    say_consequence,
+    say_groups,
+    say_together,
 )
 from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.wording import join_words, sentence
@@ -45,6 +57,8 @@ def tell(query: Query, outcome: Outcome, words: ThingWords) -> str:
     >>> tell(red, outcome_of(red, evaluation), ThingWords(evaluation))
     'There is one red thing: the red cube.'
     """
+    if isinstance(query, Together | Completing):
+        return sentence(_of_group(query, outcome, words))
     if outcome.value is None and not (isinstance(query, ValueOf) and outcome.fits):
         return sentence(f"I don't know: {_open(query, outcome, words)}")
     match query:
@@ -77,7 +91,19 @@ def tell(query: Query, outcome: Outcome, words: ThingWords) -> str:
             return sentence(_described(one, words, place=place))
         case Difference():
             return sentence(_differing(query, outcome, words))
+        case Consequence():
+            return sentence(say_consequence(query, words))
+        case Groups():
+            return sentence(say_groups(query, words))
     raise TypeError(f"must be a query, got {query!r}")
+
+
+def _of_group(query: Together | Completing, outcome: Outcome, words: ThingWords) -> str:
+    if words.evaluation.scene.conclusions is None:
+        return "I don't know: nothing was concluded of the things"
+    if isinstance(query, Completing):
+        return say_completing(query, words)
+    return say_together(query, outcome.value, words)
 
 
 def tell_failure(failed: UnclearReferenceError, words: ThingWords) -> str:
@@ -147,6 +173,8 @@ def _both(query: SameValue, words: ThingWords) -> str:
 
 
 def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
+    if (clause := _own_clause(query, outcome, words)) is not None:
+        return clause
     subjects = join_words([words.reference(one) for one in query.ones])
     if not outcome.value and any(one.which is References.EVERY for one in query.ones):
         return f"not {subjects} is {words.predicate(query.condition)}"
@@ -159,6 +187,25 @@ def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
     denied = "" if outcome.value else "not "
     both = "both " if len(query.ones) > 1 and not outcome.value else ""
     return f"{subjects} {verb} {denied}{both}{words.predicate(query.condition)}"
+
+
+def _own_clause(query: Holds, outcome: Outcome, words: ThingWords) -> str | None:
+    """What is concluded of one thing, in the clause that the domain has for it."""
+    condition, so = query.condition, bool(outcome.value)
+    if isinstance(condition, Not):
+        condition, so = condition.condition, not so
+    if len(query.ones) != 1 or query.ones[0].which is not References.THE:
+        return None
+    name = words.reference(query.ones[0])
+    match condition:
+        case Concluded(conclusion=conclusion):
+            said = words.things.conclusions[conclusion]
+            return (said.say if so else said.deny).replace("{it}", name)
+        case Related(relation=relation, to=to) if not words.things.relations[relation].words:
+            clause = words.things.relations[relation].say.format(name, words.reference(to))
+            denied = clause.replace(" would ", " would not ", 1)
+            return clause if so else denied if denied != clause else f"it is not so that {clause}"
+    return None
 
 
 def _described(one: Reference, words: ThingWords, *, place: bool) -> str:
@@ -209,6 +256,8 @@ def _open(query: Query, outcome: Outcome, words: ThingWords) -> str:
         unsure = sum(1 << number for number in set(numbers) if values[number] is None)
         name = words.things.features[query.feature].name
         return f"the {name} of {words.names(list(members(unsure)))} is not known"
+    if isinstance(query, Consequence | Groups):
+        return "that does not follow from what is seen"
     if isinstance(query, Count | Exists) and outcome.fits:
         low, high = outcome.fits[0].surely.bit_count(), outcome.fits[0].maybe.bit_count()
         between = f"at least {number_word(low)} and at most {number_word(high)}"

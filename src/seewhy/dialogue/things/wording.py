@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 
 from seewhy.dialogue.lexicon import NUMBERS
 from seewhy.dialogue.things import query
@@ -14,6 +15,8 @@ from seewhy.text.nouns import plural, with_article
 
 __all__ = ["ThingWords", "number_word"]
 
+_PLURAL = {"is": "are", "has": "have"}
+
 
 def number_word(number: int) -> str:
     """Return a number as a word, where it has one.
@@ -24,6 +27,16 @@ def number_word(number: int) -> str:
     ('three', '144')
     """
     return NUMBERS[number] if 0 <= number < len(NUMBERS) else str(number)
+
+
+def _relative(clause: str, subject: str, *, many: bool) -> str:
+    """A clause behind the noun that is its subject: "that would fall"."""
+    if not clause.startswith(f"{subject} "):
+        return f"such that {clause.replace(subject, 'they' if many else 'it')}"
+    said = clause.removeprefix(f"{subject} ")
+    if many:
+        said = re.sub(r"^(is|has)\b", lambda verb: _PLURAL[verb[0]], said)
+    return f"that {said}"
 
 
 class ThingWords:
@@ -39,7 +52,7 @@ class ThingWords:
     >>> words = ThingWords(Evaluation(scene, things))
     >>> words.name(0), words.name(1)
     ('the small red metal cube', 'the red thing')
-    >>> words.phrase(query.Description((query.HasValue("colour", "red"),), many=True))
+    >>> words.phrase(Description((HasValue("colour", "red"),), many=True))
     'red things'
     """
 
@@ -51,14 +64,15 @@ class ThingWords:
             {key: column[number] for key, column in scene.values.items()}
             for number in range(scene.count)
         ]
-        said = [self._full(of_one) for of_one in values]
+        said = [self.described(of_one) for of_one in values]
         self._references: dict[int, tuple[query.Reference, str]] = {}
         self._names = [
             f"the {name}" if said.count(name) == 1 else f"the {name} ({self.things.one} {at})"
             for at, name in enumerate(said, start=1)
         ]
 
-    def _full(self, values: dict[str, str | None]) -> str:
+    def described(self, values: Mapping[str, str | None]) -> str:
+        """Return a thing of some values, without an article: "small red metal cube"."""
         adjectives: list[str] = []
         noun = self.things.one
         for key, value in values.items():
@@ -162,7 +176,18 @@ class ThingWords:
 
     def _behind(self, condition: query.Condition, many: bool) -> str:
         """A condition behind a noun."""
-        if isinstance(condition, query.HasValue | query.Not | query.All | query.AnyOf | query.Is):
+        if isinstance(condition, query.Concluded):
+            say = self.things.conclusions[condition.conclusion].say
+            return _relative(say, "{it}", many=many)
+        if isinstance(condition, query.Related) and not condition.inverse:
+            relation = self.things.relations[condition.relation]
+            if not relation.words:
+                clause = relation.say.replace("{1}", self.reference(condition.to))
+                return _relative(clause, "{0}", many=many)
+        if isinstance(
+            condition,
+            query.HasValue | query.PartOf | query.Not | query.All | query.AnyOf | query.Is,
+        ):
             return f"that {'are' if many else 'is'} {self.predicate(condition, many=many)}"
         return self.predicate(condition, many=many)
 
@@ -181,7 +206,16 @@ class ThingWords:
                 if not self._as_noun(condition):
                     return said
                 return plural(said) if many else with_article(said)
+            case query.Concluded(conclusion=conclusion):
+                known = self.things.conclusions[conclusion]
+                said = known.say.replace("{it}", "they" if many else "it")
+                return known.words[0] if known.words else f"such that {said}"
+            case query.PartOf(group=group):
+                return f"part of {with_article(self.things.groups[group].one)}"
             case query.Related(relation=relation, to=to, inverse=True):
+                converse = self.things.relations[relation].converse
+                if converse is not None:
+                    return self.predicate_of(converse, self.reference(to))
                 said = self.things.relations[relation].say.format(self.reference(to), "it")
                 return f"such that {said}"
             case query.Related(relation=relation, to=to):

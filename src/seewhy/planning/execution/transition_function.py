@@ -69,11 +69,16 @@ class TransitionFunction:
 
         A literal that contradicts the ones before it is left out.
         """
-        assumed: list[int] = []
-        for literal in (*wanted, *(complement_of(fluent) for fluent in self._basic)):
-            number = self._holds[0].get(literal)
-            if number is not None and self._satisfiable([*assumed, number]):
-                assumed.append(number)
+        holds = self._holds[0]
+        numbers = [holds[literal] for literal in wanted if literal in holds]
+        assumed = self._consistent([], numbers)
+        true = frozenset(assumed)
+        false = [
+            holds[complement]
+            for fluent in self._basic
+            if (complement := complement_of(fluent)) in holds and holds.get(fluent) not in true
+        ]
+        assumed += self._consistent(assumed, false)
         state = self._solve(assumed, step=0, happening=())
         assert state is not None
         return state
@@ -88,6 +93,19 @@ class TransitionFunction:
             literal = fluent if fluent in state else complement_of(fluent)
             if literal in self._holds[0]:
                 yield literal
+
+    def _consistent(self, assumed: list[int], more: list[int]) -> list[int]:
+        """What of ``more`` goes with what is assumed and with those before it.
+
+        As if they were tried one by one: of those that go together, none needs to be tried alone.
+        """
+        if not more or self._satisfiable([*assumed, *more]):
+            return more
+        if len(more) == 1:
+            return []
+        half = len(more) // 2
+        first = self._consistent(assumed, more[:half])
+        return [*first, *self._consistent([*assumed, *first], more[half:])]
 
     def _satisfiable(self, assumed: list[int]) -> bool:
         idle = [-number for number in self._occurs.values()]

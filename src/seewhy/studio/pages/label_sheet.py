@@ -55,8 +55,10 @@ def show(
         return RedirectResponse("/begin", 303)
     values = _values(studio.project.domain())
     if not values:
-        # Nothing is said of whole pictures where all that there is to say is of their things.
-        return RedirectResponse("/label", 303)
+        raise SeeWhyError(
+            "all that this domain asks is of things, which are labelled one picture at a time; go "
+            "on with Label"
+        )
     feature = feature if feature in values else next(iter(values))
     value = value if value in values[feature] else values[feature][0]
     which = which if which in WHICH else "open"

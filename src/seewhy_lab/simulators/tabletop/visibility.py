@@ -23,13 +23,15 @@ def seen_things(scene: Scene, view: View, *, size: int) -> Array:
     """For each pixel the number of the thing seen there; -1 none. Shape (3/4 size, size)."""
     camera = camera_of(view, size=size)
     geom, _, _ = scene.cast(camera.eye, _rays(view, size))
-    return np.maximum(geom - 1, -1).reshape(camera.shape)
+    seen: Array = np.maximum(geom - 1, -1).reshape(camera.shape)
+    return seen
 
 
 def _rays(view: View, size: int) -> Array:
     camera = camera_of(view, size=size)
     rows, columns = np.divmod(np.arange(camera.shape[0] * camera.shape[1]), camera.shape[1])
-    return camera.rays(rows + 0.5, columns + 0.5)
+    rays: Array = camera.rays(rows + 0.5, columns + 0.5)
+    return rays
 
 
 def well_seen(scene: Scene, view: View, count: int) -> bool:
