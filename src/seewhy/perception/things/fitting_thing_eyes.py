@@ -22,6 +22,7 @@ from seewhy.perception.things.thing_eyes import (
     REGION,
     ScaledHead,
     ThingEyes,
+    box_numbers,
     pair_numbers,
     ways,
 )
@@ -33,8 +34,7 @@ Rows = npt.NDArray[np.int64]
 Floats = npt.NDArray[np.float32]
 
 _FOLDS = 3
-_STRENGTH = 1.0  # the inverse of the penalty: of few numbers, weights may be large
-_STRENGTH_OF_PAIRS = 0.1
+_STRENGTH = 0.1  # the inverse of the penalty on weights
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,15 +115,16 @@ def fit_thing_eyes(
     parts = lesson.regions.parts(_FOLDS, seed=seed_of(seed, "boxes"))
     sizes = {name: len(values) for name, values in lesson.regions.values.items()}
     everything = np.arange(len(lesson.regions))
+    projected = fitted.eyes.projection(fitted.embedded.pooled)
+    boxes = box_numbers(projected, lesson.boxes)
     boxed = {
-        name: _head(lesson.boxes, column, everything, values=sizes[name])
+        name: _head(boxes, column, everything, values=sizes[name])
         for name, column in targets.items()
     }
     stacks = {
-        name: _stack(fitted, lesson.boxes, name, column, parts, values=sizes[name])
+        name: _stack(fitted, boxes, name, column, parts, values=sizes[name])
         for name, column in targets.items()
     }
-    projected = fitted.eyes.projection(fitted.embedded.pooled)
     related, accuracies = {}, {}
     for name, pairs in lesson.relations.items():
         numbers = pair_numbers(projected, lesson.corners, pairs.pairs)
@@ -140,7 +141,6 @@ def _head(
     rows: Rows,
     *,
     values: int,
-    strength: float = _STRENGTH,
 ) -> ScaledHead:
     """A head by the rows of which the value is known."""
     known = rows[column[rows] >= 0]
@@ -157,7 +157,7 @@ def _head(
     if not len(known):
         return untaught
     standardised = np.clip((numbers[known] - untaught.mean) / untaught.scale, -6.0, 6.0)
-    head = fit_head(standardised, column[known], values=values, strength=strength)
+    head = fit_head(standardised, column[known], values=values, strength=_STRENGTH)
     return ScaledHead(untaught.mean, untaught.scale, head)
 
 
@@ -167,14 +167,13 @@ def _kept_out(
     parts: Sequence[Rows],
     *,
     values: int,
-    strength: float = _STRENGTH,
 ) -> Floats:
     """Logits of every row by a head that its part did not teach."""
     found = np.zeros((len(column), values), dtype=np.float32)
     everything = np.arange(len(column))
     for part in parts:
         rest = np.setdiff1d(everything, part)
-        found[part] = _head(numbers, column, rest, values=values, strength=strength)(numbers[part])
+        found[part] = _head(numbers, column, rest, values=values)(numbers[part])
     return found
 
 
@@ -200,10 +199,10 @@ def _pair_head(
 ) -> tuple[ScaledHead, float]:
     """A head on the pair, calibrated, and its accuracy on pairs that had no part in it."""
     parts = folds(holds.tolist(), count=_FOLDS, seed=seed_of(seed, "pairs"), groups=groups)
-    head = _head(numbers, holds, np.arange(len(holds)), values=2, strength=_STRENGTH_OF_PAIRS)
+    head = _head(numbers, holds, np.arange(len(holds)), values=2)
     if len(parts) < 2:
         return head, float((head(numbers).argmax(axis=1) == holds).mean())
-    kept_out = _kept_out(numbers, holds, parts, values=2, strength=_STRENGTH_OF_PAIRS)
+    kept_out = _kept_out(numbers, holds, parts, values=2)
     stack = fit_stack({"pair": log_probabilities(kept_out)}, holds, preferred="pair")
     power = np.float32(stack.weights["pair"])
     calibrated = Head(head.head.weight * power, head.head.bias * power)

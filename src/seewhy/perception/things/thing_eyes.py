@@ -22,13 +22,14 @@ from seewhy.perception.things.boxes import Boxes
 from seewhy.perception.things.geometry import of_pairs
 from seewhy.perception.weights import REMEDY, Described, check_tensors, read_weights, write_weights
 
-__all__ = ["BOX", "REGION", "ScaledHead", "SeenThings", "ThingEyes", "pair_numbers"]
+__all__ = ["BOX", "REGION", "ScaledHead", "SeenThings", "ThingEyes", "box_numbers", "pair_numbers"]
 
 REGION, BOX = "region", "box"
 """The ways of seeing a feature of a thing: what its region shows; where it is and how large."""
 
-DESCRIPTION, WEIGHTS, FORMAT = "things.json", "things.safetensors", 1
+DESCRIPTION, WEIGHTS, FORMAT = "things.json", "things.safetensors", 2
 
+_OF_REGION = 60  # components that a head on the box looks at
 _COMPONENTS = 24  # of a region that a head on the pair looks at
 
 Floats = npt.NDArray[np.float32]
@@ -79,7 +80,7 @@ class ThingEyes:
     eyes : Eyes
         Of regions.
     boxed : mapping of str to ScaledHead
-        Feature → a head on where the box lies and how large it is.
+        Feature → a head on where the box lies, how large it is, and what is in it.
     stacks : mapping of str to Stack
         Feature → how much its region and its box count.
     related : mapping of str to ScaledHead
@@ -122,11 +123,13 @@ class ThingEyes:
     def see_embedded(self, embedded: Embedded, boxes: Floats) -> SeenThings:
         """The same of regions that the backbone has looked at already."""
         seen = self.eyes.see_embedded(embedded).probabilities
+        projected = self.eyes.projection(embedded.pooled)
+        numbers = box_numbers(projected, boxes)
         found = {
-            name: stacked(ways(seen[name], self.boxed[name](boxes)), stack.weights)
+            name: stacked(ways(seen[name], self.boxed[name](numbers)), stack.weights)
             for name, stack in self.stacks.items()
         }
-        return SeenThings(found, self.eyes.projection(embedded.pooled))
+        return SeenThings(found, projected)
 
     def see_pairs(
         self, projected: Floats, boxes: Boxes, pairs: npt.NDArray[np.int64]
@@ -224,6 +227,16 @@ class ThingEyes:
 def ways(seen: npt.NDArray[np.float64], boxed: Floats) -> dict[str, Table]:
     """Logarithms of probabilities by what a region shows, and by where its box is."""
     return {REGION: np.log(np.maximum(seen, 1e-4)), BOX: log_probabilities(boxed)}
+
+
+def box_numbers(projected: Floats, boxes: Floats) -> Floats:
+    """What heads on boxes look at: where a box is, and what is in it, which tells how large it is.
+
+    A ball looks smaller than a cube of its size, and what stands on another thing is nearer than
+    where it ends in the picture says.
+    """
+    found: Floats = np.concatenate([boxes, projected[:, :_OF_REGION]], axis=1)
+    return found
 
 
 def pair_numbers(projected: Floats, boxes: Boxes, pairs: npt.NDArray[np.int64]) -> Floats:
