@@ -16,6 +16,7 @@ from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.outcome import Outcome, outcome_of
 from seewhy.dialogue.things.wording import ThingWords
 from seewhy.domain.domain import Domain
+from seewhy.domain.things import CONCLUDED, Things
 from seewhy.knowledge.justification import Node
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
@@ -194,6 +195,8 @@ class ReadScene:
 
     def _asked(self, reply: ThingReply, scene: ThingScene, without: int) -> object:
         """What a query comes to in a scene; nothing where it speaks of what is not there."""
+        if without and _concludes(self.things) and scene.conclusions is not None:
+            scene = scene.conclusions.conclude(scene, without)
         try:
             found: Outcome = outcome_of(
                 reply.query, Evaluation(scene, self.things, without=without)
@@ -201,6 +204,12 @@ class ReadScene:
         except UnclearReferenceError:
             return None
         return found.value
+
+
+def _concludes(things: Things) -> bool:
+    """Whether axioms conclude anything of things that can be asked about."""
+    concluded = any(relation.measure == CONCLUDED for relation in things.relations.values())
+    return concluded or bool(things.conclusions or things.groups)
 
 
 @dataclass(frozen=True, eq=False)
