@@ -77,12 +77,16 @@ def train_things(
         agent.fit(dataset, checkpoints=checkpoints, on_progress=eyes_progress(bars))
         agent.save(out)
         shutil.rmtree(checkpoints, ignore_errors=True)
+    _print_training(agent, out, json=json)
+
+
+def _print_training(agent: ThingAgent, out: Path, *, json: bool) -> None:
     seeing = agent.trained
     if json:
         print_json(
             {
                 "model": str(out),
-                "domain": domain.name,
+                "domain": agent.domain.name,
                 "features": {
                     key: {
                         "validation_accuracy": stack.accuracy,
@@ -187,7 +191,7 @@ def _print_scene(read: ReadScene) -> None:
         )
         say(f"seen: {read.names[number]} ({thing.probability:.2f}): {values}")
     if not reading.things:
-        say(f"seen: no {read.things.one}")
+        say(f"seen: no {read.things.one} was found")
     for thing in reading.doubtful:
         box = thing.box
         say(

@@ -14,6 +14,7 @@ from seewhy.agent.things.thing_agent import ThingAgent
 from seewhy.agent.things.thing_lessons import boxes_of
 from seewhy.agent.things.thing_reading import ThingReading, named
 from seewhy.data.dataset import Dataset
+from seewhy.data.measured import MEASURES, how_probable
 from seewhy.data.scene import Scene
 from seewhy.data.scene_vector import vector_with_things
 from seewhy.data.thing import THINGS
@@ -23,6 +24,9 @@ from seewhy.knowledge.things import of_things, things_of
 from seewhy.perception.things.boxes import matched
 
 __all__ = ["SeenFeature", "ThingsSeen", "WrongScene", "evaluate_things"]
+
+_SETTLED = 0.05
+"""What boxes a pixel off decide otherwise more often than this, annotated boxes do not settle."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +60,9 @@ class ThingsSeen:
         Things whose box overlaps an annotated one by half at least, annotated things without such
         a box, and boxes around no annotated thing.
     features, relations : mapping of str to SeenFeature
-        Of things that were found, and pairs of such; of two converses the first.
+        Of things that were found, and pairs of such; of two converses the first. Pairs of which
+        annotated boxes, exact to a pixel, do not settle a relation that is measured are left out:
+        two things above each other are neither left of each other nor right.
     scenes : Share
         Pictures of which every thing is found, nothing imagined, and every annotated value right.
     scenes_with_relations : Share
@@ -218,6 +224,7 @@ class _Counts:
         vector = vector_with_things(self.domain, scene.vector, scene.things, scene.related)
         true = dict(zip(self.domain.schema.features, vector, strict=True))
         read = named(reading, self.domain)
+        unsettled = self._unsettled(scene)
         wrong = []
         for feature, (value, _) in read.items():
             name, of = things_of(feature)
@@ -229,13 +236,25 @@ class _Counts:
                 continue
             numbers = [pairs[place] for place in places]
             annotated = true.get(of_things(name, *(terms[number] for number in numbers)))
-            if annotated is None:
+            if annotated is None or (name, *numbers) in unsettled:
                 continue
             self.outcomes.setdefault(name, []).append((annotated, annotated == value))
             if annotated != value:
                 said = relation.say.format(*(self._describe(scene, n) for n in numbers))
                 wrong.append(f"{'not so' if value == 'no' else 'said'}: {said}")
         return wrong
+
+    def _unsettled(self, scene: Scene) -> set[tuple[str, int, int]]:
+        """The relations that annotated boxes do not settle, which are exact to a pixel."""
+        boxes = boxes_of(scene.things)
+        said = {one.relation for one in scene.related}
+        found: set[tuple[str, int, int]] = set()
+        for key, relation in self.things.relations.items():
+            if relation.measure in MEASURES and key not in said:
+                shares = how_probable(MEASURES[relation.measure], boxes, np.ones_like(boxes))
+                unsure = (shares > _SETTLED) & (shares < 1.0 - _SETTLED)
+                found |= {(key, int(one), int(other)) for one, other in np.argwhere(unsure)}
+        return found
 
     def _said_already(self, name: str) -> bool:
         """Whether a relation is the converse of one that stands before it."""

@@ -262,8 +262,8 @@ class ThingAgent:
         ModelError
             If the folder is incomplete, was edited, or was made by another version.
         """
-        own = None if detector is None else as_detector(detector)
-        model = read_thing_model(Path(folder), device=device, detector=own)
+        finds = None if detector is None else as_detector(detector)
+        model = read_thing_model(Path(folder), device=device, detector=finds)
         seeing = model.seeing
         agent = cls(
             seeing.domain, seed=model.seed, eyes=seeing.eyes.eyes.backbone.name, device=device

@@ -20,6 +20,7 @@ from seewhy.perception.eyes import Eyes
 from seewhy.perception.fitting_eyes import fit_eyes
 from seewhy.perception.lesson import Lesson
 from seewhy.perception.picture import whole_picture
+from seewhy.perception.things.boxes import Boxes
 from seewhy.perception.things.detector import Detected, Detector, Trust
 from seewhy.perception.things.fitting_detector import fit_detector, fit_trust
 from seewhy.perception.things.fitting_thing_eyes import fit_thing_eyes
@@ -83,7 +84,7 @@ def fitted_seeing(
 def _trust_in(detector: Detector, scenes: Dataset) -> Trust:
     """How the scores of a given detector become probabilities, by annotated pictures."""
     found: list[Detected] = []
-    true = []
+    true: list[Boxes] = []
     for scene in scenes.scenes:
         if scene.things and all(thing.box for thing in scene.things) and len(true) < _TRUSTED_BY:
             whole = whole_picture(scene.picture, longest=LONGEST)

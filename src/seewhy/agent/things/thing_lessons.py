@@ -155,16 +155,8 @@ def lessons_of(dataset: Dataset, *, side: int, with_places: bool = True) -> Less
     flat = [(at, thing) for at, of_picture in enumerate(boxed) for thing in of_picture]
     corners = boxes_of([thing for _, thing in flat])
     pixels = np.concatenate(regions)
-    lesson = Lesson(
-        batches=lambda: (pixels[n : n + _BATCH] for n in range(0, len(pixels), _BATCH)),
-        labels={
-            key: [thing.values.get(key) for _, thing in flat] for key in domain.things.features
-        },
-        values={key: feature.values for key, feature in domain.things.features.items()},
-        strata=[
-            tuple(thing.values.get(key) for key in domain.things.features) for _, thing in flat
-        ],
-        groups=[groups[at] for at, _ in flat],
+    lesson = _regions(
+        pixels, domain.things, [thing for _, thing in flat], [groups[at] for at, _ in flat]
     )
     relations = {
         key: lesson_of_pairs
@@ -174,6 +166,19 @@ def lessons_of(dataset: Dataset, *, side: int, with_places: bool = True) -> Less
     return Lessons(
         ThingLesson(lesson, np.concatenate(numbers), corners, relations),
         _places(kept, boxed, groups) if with_places else None,
+    )
+
+
+def _regions(
+    pixels: npt.NDArray[np.uint8], things: Things, shown: Sequence[Thing], groups: Sequence[str]
+) -> Lesson:
+    """The lesson of regions: a picture a thing."""
+    return Lesson(
+        batches=lambda: (pixels[n : n + _BATCH] for n in range(0, len(pixels), _BATCH)),
+        labels={key: [thing.values.get(key) for thing in shown] for key in things.features},
+        values={key: feature.values for key, feature in things.features.items()},
+        strata=[tuple(thing.values.get(key) for key in things.features) for thing in shown],
+        groups=groups,
     )
 
 

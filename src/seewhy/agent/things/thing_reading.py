@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from seewhy.agent.things.thing_lessons import box_of, seen_once
-from seewhy.agent.things.thing_seeing import Sighting
+from seewhy.agent.things.thing_seeing import Sighting, Table
 from seewhy.data.scene_vector import vector_with_things
 from seewhy.data.thing import BoundingBox, Related, Thing
 from seewhy.dialogue.reply import FeatureReading
@@ -309,7 +309,7 @@ def _number(value: float | None) -> float | None:
 
 
 def _choice(
-    what: tuple[str | int, ...], of: tuple[int, ...], values: Sequence[str], shares: Sequence[float]
+    what: tuple[str | int, ...], of: tuple[int, ...], values: Sequence[str], shares: Table
 ) -> _Choice:
     logs = np.log(np.maximum(np.asarray(shares, dtype=np.float64), 1e-12))
     order = np.argsort(-logs, kind="stable")
@@ -354,7 +354,7 @@ def _rising(choices: Sequence[_Choice]) -> Iterator[tuple[int, ...]]:
                 heapq.heappush(heap, entry)
 
 
-def _reading_of(values: Sequence[str], shares: Sequence[float], chosen: str) -> FeatureReading:
+def _reading_of(values: Sequence[str], shares: Table, chosen: str) -> FeatureReading:
     """A value that was read, and the more probable one where the knowledge overruled that."""
     best = int(np.argmax(shares))
     taken = list(values).index(chosen)

@@ -246,8 +246,6 @@ class PictureReply:
     def text(self) -> str:
         """The answer; what is not sure is not said as sure."""
         said, adverb = self.reply.text, self.certainty.adverb
-        if not self.read.reading.things and self.reply.failed is None and not said:
-            said = "No thing was found."
         return f"{adverb.capitalize()} {said[:1].lower()}{said[1:]}" if adverb else said
 
     @cached_property

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     Picture = Path | str | Image.Image | np.ndarray[Any, Any]
 
-__all__ = ["DOUBTED_FROM", "Sighting", "ThingSeeing"]
+__all__ = ["DOUBTED_FROM", "Sighting", "Table", "ThingSeeing"]
 
 DOUBTED_FROM = 0.1
 """What is less probably a thing is none."""
@@ -167,8 +167,10 @@ class ThingSeeing:
         if self.whole is None:
             return {}
         size, fit = self.whole.size, self.domain.pictures.fit
-        squares = [as_picture(picture, size=size, fit=fit) for picture in pictures]
-        seen: Seen = self.whole.see(np.stack(squares) if squares else np.zeros((0, size, size, 3)))
+        squares = np.zeros((len(pictures), size, size, 3), dtype=np.uint8)
+        for number, picture in enumerate(pictures):
+            squares[number] = as_picture(picture, size=size, fit=fit)
+        seen: Seen = self.whole.see(squares)
         return seen.probabilities
 
     def _related(self, place: _Located, projected: npt.NDArray[np.float32]) -> dict[str, Table]:

@@ -79,4 +79,5 @@ def _inside(boxes: Boxes, side: int) -> Boxes:
     """What is seen of boxes, of those of which enough is."""
     cut = boxes.clip(0.0, float(side))
     areas = [np.prod(one[:, 2:] - one[:, :2], axis=1) for one in (cut, boxes)]
-    return cut[areas[0] >= _SEEN * np.maximum(areas[1], 1e-9)]
+    seen: Boxes = cut[areas[0] >= _SEEN * np.maximum(areas[1], 1e-9)]
+    return seen

@@ -57,6 +57,9 @@ class Detector(Protocol):
         """Return what may be things in an upright picture in red, green and blue."""
 
 
+Spread = Annotated[float, Field(ge=0.0, le=10.0)]
+
+
 class Trust(Strict):
     """How a detector's scores become probabilities, and how far its boxes are off.
 
@@ -75,7 +78,7 @@ class Trust(Strict):
     slope: Annotated[float, Field(ge=0.0, le=100.0)] = 1.0
     intercept: Annotated[float, Field(ge=-100.0, le=100.0)] = 0.0
     crowding: Annotated[float, Field(ge=-100.0, le=100.0)] = 0.0
-    spread: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    spread: tuple[Spread, Spread, Spread, Spread] = (0.0, 0.0, 0.0, 0.0)
     pictures: int = 0
 
     def probabilities(self, detected: Detected) -> npt.NDArray[np.float64]:

@@ -29,6 +29,7 @@ SECONDS = 60.0
 """How long a detector may look at one picture."""
 
 _MOST = 10_000
+_MEAN, _SCALE = np.array(IMAGENET_MEAN), np.array(IMAGENET_SCALE)
 _KEPT = 200
 _SIDE = 640  # of pictures shown to a network whose file names none
 _TWICE = 0.9  # a detector of one's own has done away with what it found twice; but for the same box
@@ -55,7 +56,7 @@ class FunctionDetector:
     """
 
     def __init__(self, find: Find, *, name: str | None = None, seconds: float = SECONDS) -> None:
-        self.name = name or getattr(find, "__qualname__", "the detector")
+        self.name = name or str(getattr(find, "__qualname__", "the detector"))
         self.seconds = seconds
         self._find = find
 
@@ -167,7 +168,7 @@ class OnnxDetector:
         pixels, scale = scaled(image, max(1, round(max(image.size) * fits)))
         pixels = pixels[: self._rows, : self._columns]
         shown = padded(pixels, self._rows, self._columns).astype(np.float32)
-        levels = (shown - np.float32(IMAGENET_MEAN)) / np.float32(IMAGENET_SCALE)
+        levels = ((shown - _MEAN) / _SCALE).astype(np.float32)
         options = self._onnxruntime.RunOptions()
         bell = threading.Timer(self.seconds, lambda: setattr(options, "terminate", True))
         bell.daemon = True
