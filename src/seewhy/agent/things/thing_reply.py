@@ -16,10 +16,8 @@ from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.outcome import Outcome, outcome_of
 from seewhy.dialogue.things.wording import ThingWords
 from seewhy.domain.domain import Domain
-from seewhy.domain.things import CONCLUDED, Things
 from seewhy.knowledge.justification import Node
 from seewhy.knowledge.reasoner import Reasoner
-from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.things import of_things, things_of
 
 __all__ = ["PictureReply", "ReadScene"]
@@ -102,12 +100,12 @@ class ReadScene:
 
     @cached_property
     def _with_doubtful(self) -> ThingScene:
-        return self._scene_of(self.reading.with_doubtful)
-
-    def _scene_of(self, vector: FeatureVector) -> ThingScene:
+        """The scene with the doubtful things behind the others, as if they were there."""
         count = len(self.reading.places)
         names = list(self.domain.schema.presence)[:count]
-        beliefs = SceneBeliefs(self.domain, vector, names, reasoner=self.reasoner)
+        beliefs = SceneBeliefs(
+            self.domain, self.reading.with_doubtful, names, reasoner=self.reasoner
+        )
         return replace(beliefs.scene, positions=self._positions(count))
 
     def _positions(self, count: int) -> tuple[tuple[float, float, float], ...]:
@@ -147,20 +145,13 @@ class ReadScene:
         """
         if reply.failed is not None or reply.words.evaluation.scene is not self.scene:
             return 1.0, None
-        vector = self.reading.with_doubtful
         doubtful = ((1 << len(self.reading.doubtful)) - 1) << len(self.reading.things)
-        base = self._asked(reply, self._with_doubtful, doubtful)
+        base = self._asked(reply, *self._concluded(self._with_doubtful, doubtful))
         changing: dict[str, float] = {}
         for other in self._otherwise():
             if other.probability < _WORTH:
                 continue
-            name, of = things_of(other.feature)
-            scene, without = self._with_doubtful, doubtful
-            if name == self.things.sort:
-                without ^= 1 << list(self.domain.schema.presence).index(of[0])
-            else:
-                scene = self._scene_of(self._changed(vector, other))
-            if self._asked(reply, scene, without) != base:
+            if self._asked(reply, *self._concluded(*self._changed(other, doubtful))) != base:
                 changing[other.feature] = changing.get(other.feature, 0.0) + other.probability
         if not changing:
             return 1.0, None
@@ -182,21 +173,32 @@ class ReadScene:
                 kept[feature] = share
         return kept
 
-    def _changed(self, vector: FeatureVector, other: _Otherwise) -> FeatureVector:
-        values = dict(zip(self.domain.schema.features, vector, strict=True))
-        values[other.feature] = other.value
+    def _changed(self, other: _Otherwise, without: int) -> tuple[ThingScene, int]:
+        """The scene as it may be otherwise, before anything follows; and what is not there."""
+        scene = self._with_doubtful
+        terms = list(self.domain.schema.presence)
         name, of = things_of(other.feature)
-        relation = self.things.relations.get(name)
-        if relation is not None and relation.converse is not None:
-            back = of_things(relation.converse, *reversed(of))
-            if back in values:
-                values[back] = other.value
-        return tuple(values.values())
+        numbers = [terms.index(term) for term in of]
+        if name == self.things.sort:
+            return scene, without ^ 1 << numbers[0]
+        if name in self.things.features:
+            column = list(scene.values[name])
+            column[numbers[0]] = other.value
+            return replace(scene, values={**scene.values, name: tuple(column)}), without
+        related = {**scene.related, name: _flipped(scene.related[name], *numbers)}
+        converse = self.things.relations[name].converse
+        if converse is not None and converse in self.things.seen:
+            related[converse] = _flipped(scene.related[converse], *reversed(numbers))
+        return replace(scene, related=related), without
+
+    def _concluded(self, scene: ThingScene, without: int) -> tuple[ThingScene, int]:
+        """The scene with what follows in it."""
+        if scene.conclusions is None or not self.domain.knowledge.axioms:
+            return scene, without
+        return scene.conclusions.conclude(scene, without), without
 
     def _asked(self, reply: ThingReply, scene: ThingScene, without: int) -> object:
         """What a query comes to in a scene; nothing where it speaks of what is not there."""
-        if without and _concludes(self.things) and scene.conclusions is not None:
-            scene = scene.conclusions.conclude(scene, without)
         try:
             found: Outcome = outcome_of(
                 reply.query, Evaluation(scene, self.things, without=without)
@@ -206,10 +208,11 @@ class ReadScene:
         return found.value
 
 
-def _concludes(things: Things) -> bool:
-    """Whether axioms conclude anything of things that can be asked about."""
-    concluded = any(relation.measure == CONCLUDED for relation in things.relations.values())
-    return concluded or bool(things.conclusions or things.groups)
+def _flipped(rows: tuple[int, ...], number: int, to: int) -> tuple[int, ...]:
+    """A relation that holds of a thing to another where it did not, or the other way round."""
+    changed = list(rows)
+    changed[to] ^= 1 << number
+    return tuple(changed)
 
 
 @dataclass(frozen=True, eq=False)
