@@ -11,7 +11,6 @@ import typer
 
 from seewhy.cli.decide_things import answers_about, print_reply
 from seewhy.cli.screen import print_json, say
-from seewhy.dialogue.things.said_once import said_once
 
 if TYPE_CHECKING:
     from seewhy.dialogue.scene_beliefs import SceneBeliefs
@@ -158,6 +157,8 @@ def _print_found(found: dict[str, Any]) -> None:
             say(f"  {line}")
     if found["concluded"]:
         say("it follows that:")
+        from seewhy.dialogue.things.said_once import said_once
+
         texts = {literal["literal"]: literal["text"] for literal in found["concluded"]}
         for name in said_once(texts):
             say(f"  {texts[name]}")

@@ -152,7 +152,7 @@ class SceneBeliefs:
         )
         whole = {key: shown[key] for key in self.domain.features}
         conclusions = SceneConclusions(self.domain, reasoner=self.reasoner, whole=whole)
-        return conclusions.conclude(scene)
+        return conclusions.taken(scene, self.reasoner.believed(self.vector))
 
     def is_believed(self, literal: Literal) -> bool:
         """Whether a literal is believed."""

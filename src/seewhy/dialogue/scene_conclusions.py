@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import permutations
 from types import MappingProxyType
+from weakref import WeakKeyDictionary
+
+import clingo
 
 from seewhy.data.thing_scene import ThingScene
 from seewhy.dialogue.compared_things import with_things_named
@@ -21,6 +24,9 @@ from seewhy.knowledge.why import why
 from seewhy.knowledge.why_not import why_not
 
 __all__ = ["SceneConclusions"]
+
+_SMALLER: WeakKeyDictionary[Reasoner, dict[int, Reasoner]] = WeakKeyDictionary()
+"""A reasoner for the most things → those for fewer, made when they are needed first."""
 
 
 class SceneConclusions:
@@ -60,16 +66,22 @@ class SceneConclusions:
         self.things: Things = domain.things
         self.whole = whole
         self._terms = tuple(domain.schema.presence)
-        self._reasoners: dict[int, Reasoner] = {}
-        if reasoner is not None:
-            self._reasoners[len(self._terms)] = reasoner
+        whole_reasoner = reasoner or Reasoner(domain.knowledge, domain.schema)
+        self._reasoners = _SMALLER.setdefault(whole_reasoner, {})
+        self._whole_reasoner = whole_reasoner
 
     def conclude(self, scene: ThingScene, without: int = 0) -> ThingScene:
         """Return a scene with what follows from what is seen in it, anew.
 
         ``without`` are things that are taken as not there.
         """
-        concluded = self._concluded(scene, without)
+        reasoner = self._reasoner(scene.count)
+        vector = self._vector(scene, without, reasoner.schema)
+        return self.taken(scene, reasoner.believed(vector))
+
+    def taken(self, scene: ThingScene, believed: Iterable[clingo.Symbol]) -> ThingScene:
+        """Return a scene with what is believed of it by somebody who has reasoned already."""
+        concluded = self._concluded(believed)
         related = {key: [0] * scene.count for key in self._relations}
         for key, rows in related.items():
             for one, to in concluded.get(key, ()):
@@ -94,13 +106,12 @@ class SceneConclusions:
         relations = self.things.relations.items()
         return [key for key, relation in relations if relation.measure == CONCLUDED]
 
-    def _concluded(self, scene: ThingScene, without: int) -> dict[str, list[tuple[int, ...]]]:
+    def _concluded(self, believed: Iterable[clingo.Symbol]) -> dict[str, list[tuple[int, ...]]]:
         """What is concluded → the things of which it is so, each combination once."""
-        reasoner = self._reasoner(scene.count)
         wanted = {*self._relations, *self.things.conclusions, *self.things.groups}
         numbers = {term: number for number, term in enumerate(self._terms)}
         found: dict[str, list[tuple[int, ...]]] = {}
-        for symbol in reasoner.believed(self._vector(scene, without, reasoner.schema)):
+        for symbol in believed:
             if symbol.positive and symbol.name in wanted:
                 things = tuple(numbers[argument.name] for argument in symbol.arguments)
                 if len(set(things)) == len(things):
@@ -150,6 +161,8 @@ class SceneConclusions:
 
     def _reasoner(self, count: int) -> Reasoner:
         """One that is grounded for so many things: the fewer, the faster."""
+        if count >= len(self._terms):
+            return self._whole_reasoner
         if count not in self._reasoners:
             few = self.domain.with_most_things(max(1, count))
             self._reasoners[count] = Reasoner(few.knowledge, few.schema)

@@ -173,7 +173,7 @@ def _both(query: SameValue, words: ThingWords) -> str:
 
 
 def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
-    if (clause := _own_clause(query, outcome, words)) is not None:
+    if (clause := _single_clause(query, outcome, words)) is not None:
         return clause
     subjects = join_words([words.reference(one) for one in query.ones])
     if not outcome.value and any(one.which is References.EVERY for one in query.ones):
@@ -189,7 +189,7 @@ def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
     return f"{subjects} {verb} {denied}{both}{words.predicate(query.condition)}"
 
 
-def _own_clause(query: Holds, outcome: Outcome, words: ThingWords) -> str | None:
+def _single_clause(query: Holds, outcome: Outcome, words: ThingWords) -> str | None:
     """What is concluded of one thing, in the clause that the domain has for it."""
     condition, so = query.condition, bool(outcome.value)
     if isinstance(condition, Not):
