@@ -111,6 +111,9 @@ def evaluate(
         raise SeeWhyError("--scenes and --wrong go with 'seewhy evaluate clevr'")
     if data is None:
         raise SeeWhyError("there is no dataset; name its folder with --data")
+    drawn = _questions_drawn(questions)
+    if most is not None and page is None:
+        raise SeeWhyError("--most goes with --page; --json lists all wrong pictures")
     if is_of_things(model):
         options = {"--questions": questions, "--page": page, "--most": most, "--curve": curve}
         refuse(
@@ -119,9 +122,6 @@ def evaluate(
         )
         evaluate_things_seen(model, data, outside=outside, device=device, json=json)
         return
-    drawn = _questions_drawn(questions)
-    if most is not None and page is None:
-        raise SeeWhyError("--most goes with --page; --json lists all wrong pictures")
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     dataset = read_data(
         data,
