@@ -57,6 +57,29 @@ class ThingFeature:
     participles: tuple[str, ...] = ()
     ordered: bool = False
 
+    def value_called(self, said: str) -> str | None:
+        """Return the value of a name or of one of its words; None of none, or of several.
+
+        Examples
+        --------
+        >>> from seewhy.domain.domain import load_domain
+        >>> colour = load_domain("tabletop").things.features["colour"]
+        >>> colour.value_called("Grey"), colour.value_called("mauve")
+        ('gray', None)
+        """
+        if said in self.values:
+            return said
+        word = said.casefold()
+        called = [
+            value
+            for value in self.values
+            if any(
+                word == known.casefold()
+                for known in (value, *self.words[value], *self.nouns[value])
+            )
+        ]
+        return called[0] if len(called) == 1 else None
+
 
 @dataclass(frozen=True)
 class Relation:
