@@ -74,6 +74,7 @@ class Entries:
 _CATEGORIES = (
     "adjective", "noun", "value", "feature", "how", "participle", "preposition", "verb", "verbing",
     "comparative", "superlative", "extreme", "side", "rank", "number", "occurs", "falling", "group",
+    "behind",
 )  # fmt: skip
 
 
@@ -149,6 +150,9 @@ def _add_feature(entries: Mapping[str, Entries], feature: ThingFeature) -> None:
             meant = Binding("condition", HasValue(feature.key, value))
             entries["adjective"].add(word, meant)
             entries["value"].add(word, meant)
+        if value in feature.behind:
+            meant = Binding("condition", HasValue(feature.key, value))
+            entries["behind"].add(feature.behind[value], meant)
         for noun in feature.nouns[value]:
             meant = Binding("condition", HasValue(feature.key, value, noun=True))
             _add_noun(entries["noun"], noun, plural(noun), (meant,))

@@ -9,6 +9,7 @@ from seewhy.dialogue.things.query import (
     CompareNumber,
     Completing,
     Concluded,
+    Condition,
     Consequence,
     Count,
     Describe,
@@ -16,6 +17,7 @@ from seewhy.dialogue.things.query import (
     Difference,
     Exists,
     Groups,
+    HasValue,
     Holds,
     Is,
     Not,
@@ -177,16 +179,28 @@ def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
         return clause
     subjects = join_words([words.reference(one) for one in query.ones])
     if not outcome.value and any(one.which is References.EVERY for one in query.ones):
-        return f"not {subjects} is {words.predicate(query.condition)}"
+        return f"not {_being(query.condition, subjects, words)}"
     if not outcome.value and any(one.which is References.SOME for one in query.ones):
         some = words.phrase(query.ones[0].description, many=False)
-        return f"no {some} is {words.predicate(query.condition)}"
+        return _being(query.condition, f"no {some}", words)
+    if outcome.value and len(query.ones) == 1:
+        return _being(query.condition, subjects, words)
     verb = "are" if len(query.ones) > 1 else "is"
     if isinstance(query.condition, Not) and not outcome.value and len(query.ones) == 1:
         return f"{subjects} is {words.predicate(query.condition.condition)}"
     denied = "" if outcome.value else "not "
     both = "both " if len(query.ones) > 1 and not outcome.value else ""
     return f"{subjects} {verb} {denied}{both}{words.predicate(query.condition)}"
+
+
+def _being(condition: Condition, subject: str, words: ThingWords) -> str:
+    """That something is so of one or of each; what stands behind nouns stands behind no "is"."""
+    match condition:
+        case HasValue(feature=feature, value=value) if words.things.features[feature].behind.get(
+            value
+        ):
+            return words.clause(feature, value, subject)
+    return f"{subject} is {words.predicate(condition)}"
 
 
 def _single_clause(query: Holds, outcome: Outcome, words: ThingWords) -> str | None:
@@ -201,6 +215,13 @@ def _single_clause(query: Holds, outcome: Outcome, words: ThingWords) -> str | N
         case Concluded(conclusion=conclusion):
             said = words.things.conclusions[conclusion]
             return (said.say if so else said.deny).replace("{it}", name)
+        case HasValue(feature=feature, value=value) if (
+            value in words.things.features[feature].behind
+        ):
+            seen = words.evaluation.scene.values[feature][words.evaluation.the(query.ones[0])]
+            return words.clause(feature, str(seen), name) + (
+                "" if so else words.denied(feature, value)
+            )
         case Related(relation=relation, to=to) if not words.things.relations[relation].words:
             clause = words.things.relations[relation].say.format(name, words.reference(to))
             denied = clause.replace(" would ", " would not ", 1)

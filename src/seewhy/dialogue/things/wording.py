@@ -74,6 +74,7 @@ class ThingWords:
     def described(self, values: Mapping[str, str | None]) -> str:
         """Return a thing of some values, without an article: "small red metal cube"."""
         adjectives: list[str] = []
+        behind: list[str] = []
         noun = self.things.one
         for key, value in values.items():
             if value is None:
@@ -81,9 +82,11 @@ class ThingWords:
             feature = self.things.features[key]
             if feature.nouns[value]:
                 noun = feature.nouns[value][0]
+            elif value in feature.behind:
+                behind.append(feature.behind[value])
             elif feature.words[value]:
                 adjectives.append(feature.words[value][0])
-        return " ".join([*adjectives, noun])
+        return " ".join(filter(None, [*adjectives, noun, " and ".join(behind)]))
 
     def term(self, number: int) -> str:
         """Return what a thing is called in the knowledge language."""
@@ -139,7 +142,9 @@ class ThingWords:
         several = description.many if many is None else many
         adjectives, noun, behind = [], "", []
         for condition in description.conditions:
-            if isinstance(condition, query.HasValue) and not self._as_noun(condition):
+            if isinstance(condition, query.HasValue) and self._stands_behind(condition):
+                behind.append(self._stands_behind(condition))
+            elif isinstance(condition, query.HasValue) and not self._as_noun(condition):
                 words = self.things.features[condition.feature].words[condition.value]
                 adjectives.append(words[0] if words else f"({condition.value})")
             elif isinstance(condition, query.HasValue) and not noun:
@@ -156,6 +161,9 @@ class ThingWords:
 
     def _as_noun(self, condition: query.HasValue) -> bool:
         return bool(self.things.features[condition.feature].nouns[condition.value])
+
+    def _stands_behind(self, condition: query.HasValue) -> str:
+        return self.things.features[condition.feature].behind.get(condition.value, "")
 
     def _selected(self, description: query.Description) -> str:
         match description.selection:
@@ -202,7 +210,7 @@ class ThingWords:
         """Return a condition as it stands behind "is": "red", "left of the blue ball"."""
         match condition:
             case query.HasValue(feature=feature, value=value):
-                said = self.value(feature, value)
+                said = self._stands_behind(condition) or self.value(feature, value)
                 if not self._as_noun(condition):
                     return said
                 return plural(said) if many else with_article(said)
