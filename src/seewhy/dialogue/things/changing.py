@@ -34,6 +34,7 @@ from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
     Compares,
     Concluded,
+    Corner,
     Description,
     Extreme,
     Groups,
@@ -103,6 +104,8 @@ class _Spoken:
                 self.compared.add(feature)
             case Related(relation=relation) | Extreme(relation=relation):
                 self.relations.add(relation)
+            case Corner(relations=relations):
+                self.relations.update(relations)
             case Concluded(conclusion=key) | PartOf(group=key):
                 self.concluded.add(key)
             case Groups(group=key) | Together(group=key):

@@ -11,43 +11,12 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 __all__ = [
-    "All",
-    "AnyOf",
-    "Apart",
-    "Between",
-    "CompareCounts",
-    "CompareNumber",
-    "Compares",
-    "Completing",
-    "Concluded",
-    "Condition",
-    "Consequence",
-    "Count",
-    "Describe",
-    "Description",
-    "Difference",
-    "Exists",
-    "Extreme",
-    "Groups",
-    "HasValue",
-    "Holds",
-    "Is",
-    "Nearest",
-    "Not",
-    "Numbered",
-    "PartOf",
-    "Query",
-    "Ranked",
-    "Reference",
-    "References",
-    "Related",
-    "SameValue",
-    "Shares",
-    "Together",
-    "ValueOf",
-    "Which",
-    "references_in",
-]
+    "All", "AnyOf", "Apart", "Between", "CompareCounts", "CompareNumber", "Compares",
+    "Completing", "Concluded", "Condition", "Consequence", "Corner", "Count", "Describe",
+    "Description", "Difference", "Exists", "Extreme", "Groups", "HasValue", "Holds", "Is",
+    "Nearest", "Not", "Numbered", "PartOf", "Query", "Ranked", "Reference", "References",
+    "Related", "SameValue", "Shares", "Together", "ValueOf", "Which", "references_in",
+]  # fmt: skip
 
 
 class References(StrEnum):
@@ -185,6 +154,17 @@ class Extreme:
 
 
 @dataclass(frozen=True)
+class Corner:
+    """The one that comes first by two relations at once: at the top and to the left.
+
+    It is the one with the fewest others before it in the order in which it has more of them; of
+    several such, the one with the fewest in both orders together.
+    """
+
+    relations: tuple[str, str]
+
+
+@dataclass(frozen=True)
 class Ranked:
     """The one with the most (or least) of an ordered feature."""
 
@@ -207,7 +187,7 @@ class Numbered:
     number: int
 
 
-Selection = Extreme | Ranked | Nearest | Numbered
+Selection = Extreme | Corner | Ranked | Nearest | Numbered
 
 
 @dataclass(frozen=True)

@@ -15,11 +15,13 @@ from seewhy.dialogue.things.query import (
     Concluded,
     Condition,
     Consequence,
+    Corner,
     Count,
     Describe,
     Description,
     Difference,
     Exists,
+    Extreme,
     Groups,
     HasValue,
     Holds,
@@ -46,7 +48,7 @@ from seewhy.dialogue.things.reasons_following import (
     shortened,
     why_concluded,
 )
-from seewhy.dialogue.things.wording import ThingWords
+from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.things import CONCLUDED
 from seewhy.knowledge.justification import Basis, Node
 
@@ -105,6 +107,9 @@ class Reasons:
         if isinstance(one.description.selection, Nearest):
             self._add_reference(one.description.selection.to, nodes, told)
         children = tuple(self._described(one.description))
+        if one.description.selection is not None and one.which is References.THE:
+            chosen, *others = children
+            children = (*chosen.children, *others)
         if one.which is References.THE:
             number = self.evaluation.the(one)
             name, phrase = self.words.name(number), self.words.phrase(one.description, many=False)
@@ -128,6 +133,7 @@ class Reasons:
         fits = self.evaluation.fits(description)
         for number in members(fits.surely):
             children = tuple(self._so(number, c, "it") for c in description.conditions)
+            children += tuple(self._ordered(number, description, "it"))
             name = self.words.name(number)
             if description.selection is None or not children:
                 yield Node(
@@ -157,7 +163,26 @@ class Reasons:
                 return shortened(self._so(number, condition, self.words.name(number)))
         name = self.words.name(number)
         text = f"{name} is not the {self.words.phrase(description, many=False)}"
-        return Node(self.words.term(number), text, Basis.COMPARISON)
+        ordered = tuple(self._ordered(number, description, "it"))
+        return Node(self.words.term(number), text, Basis.COMPARISON, children=ordered)
+
+    def _ordered(self, number: int, description: Description, subject: str) -> Iterator[Node]:
+        """How many others come before a thing, by each order by which one is chosen."""
+        match description.selection:
+            case Extreme(relation=relation):
+                relations: tuple[str, ...] = (relation,)
+            case Corner(relations=relations):
+                pass
+            case _:
+                return
+        others = self.evaluation.fits(Description(description.conditions)).surely
+        for relation in relations:
+            count = self.evaluation.before(others, relation, number) or 0
+            noun = self.words.phrase(Description(description.conditions), many=count > 1)
+            before = f"{number_word(count) if count else 'no other'} {noun}"
+            verb = "are" if count > 1 else "is"
+            text = f"{before} {verb} {self.words.predicate_of(relation, subject)}"
+            yield Node(f"{relation}({self.words.term(number)})", text, Basis.COMPARISON)
 
     def _so(self, number: int, condition: Condition, subject: str) -> Node:
         """Whether a condition holds of a thing, down to what was seen."""

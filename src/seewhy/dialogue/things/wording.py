@@ -171,6 +171,9 @@ class ThingWords:
                 words = self.things.relations[relation].most or (f"most {relation}",)
                 counted = "" if rank == 1 else RANKS[rank - 1] if rank <= len(RANKS) else str(rank)
                 return " ".join(filter(None, ["last" if from_end else counted, words[0]]))
+            case query.Corner(relations=relations):
+                ways = [self.things.relations[relation] for relation in relations]
+                return " ".join([*way.side, *way.most, way.key][0] for way in ways)
             case query.Ranked(feature=feature, most=most):
                 values = self.things.features[feature].values
                 return superlative(self.value(feature, values[-1 if most else 0]))
@@ -239,8 +242,12 @@ class ThingWords:
                 return f"between {self.reference(first)} and {self.reference(second)}"
             case query.Apart(one=one):
                 return "" if one is None else f"other than {self.reference(one)}"
+            case query.Is(one=one) if one.description.selection is not None:
+                return f"the {self.phrase(one.description, many=False)}"
             case query.Is(one=one):
                 return self.reference(one)
+            case query.Not(condition=query.PartOf(group=group)):
+                return f"part of no {self.things.groups[group].one}"
             case query.Not(condition=inner):
                 return f"not {self.predicate(inner, many=many)}"
             case query.All(conditions=inners):
