@@ -39,6 +39,8 @@ from seewhy.dialogue.things.query import (
     Extreme,
     Groups,
     HasValue,
+    MostCommon,
+    Occurring,
     PartOf,
     Query,
     Ranked,
@@ -101,6 +103,8 @@ class _Spoken:
             case Shares(feature=feature) | Compares(feature=feature) | Ranked(feature=feature):
                 self.compared.add(feature)
             case ValueOf(feature=feature) | SameValue(feature=feature):
+                self.compared.add(feature)
+            case MostCommon(feature=feature) | Occurring(feature=feature):
                 self.compared.add(feature)
             case Related(relation=relation) | Extreme(relation=relation):
                 self.relations.add(relation)

@@ -12,10 +12,11 @@ from enum import StrEnum
 
 __all__ = [
     "All", "AnyOf", "Apart", "Between", "CompareCounts", "CompareNumber", "Compares",
-    "Completing", "Concluded", "Condition", "Consequence", "Corner", "Count", "Describe",
-    "Description", "Difference", "Exists", "Extreme", "Groups", "HasValue", "Holds", "Is",
-    "Nearest", "Not", "Numbered", "PartOf", "Query", "Ranked", "Reference", "References",
-    "Related", "SameValue", "Shares", "Together", "ValueOf", "Which", "references_in",
+    "Completing", "Concluded", "Condition", "Consequence", "Corner", "Count", "CountDifference",
+    "Describe", "Description", "Difference", "Exists", "Extreme", "Groups", "HasValue", "Holds",
+    "Is", "Most", "MostCommon", "Nearest", "Not", "Numbered", "Occurring", "PartOf", "Query",
+    "Ranked", "Reference", "References", "Related", "SameValue", "SharedByMost", "Shares",
+    "Together", "ValueOf", "Which", "references_in",
 ]  # fmt: skip
 
 
@@ -246,6 +247,42 @@ class CompareCounts:
 
 
 @dataclass(frozen=True)
+class CountDifference:
+    """How many more (``>``) or fewer (``<``) there are of one than of another."""
+
+    sign: str
+    first: Description
+    second: Description
+
+
+@dataclass(frozen=True)
+class Most(_OfDescribed):
+    """Whether something is so of more than half of them."""
+
+    condition: Condition
+
+
+class SharedByMost(_OfDescribed):
+    """Which values more than half of them have."""
+
+
+@dataclass(frozen=True)
+class MostCommon(_OfDescribed):
+    """Which value of a feature most of them have, or of those that occur the fewest."""
+
+    feature: str
+    least: bool = False
+
+
+@dataclass(frozen=True)
+class Occurring(_OfDescribed):
+    """Which values of a feature they have; with ``counted``, how many different ones."""
+
+    feature: str
+    counted: bool = False
+
+
+@dataclass(frozen=True)
 class CompareNumber:
     """Whether there are so many: ``=``, ``<``, ``>``, ``<=`` or ``>=`` a number."""
 
@@ -332,7 +369,8 @@ class Completing:
 
 Query = (
     Count | Exists | Which | CompareCounts | CompareNumber | ValueOf | SameValue | Holds | Describe
-    | Difference | Consequence | Groups | Together | Completing
+    | Difference | Consequence | Groups | Together | Completing | CountDifference | Most
+    | SharedByMost | MostCommon | Occurring
 )  # fmt: skip
 
 

@@ -17,6 +17,7 @@ from seewhy.dialogue.things.query import (
     Consequence,
     Corner,
     Count,
+    CountDifference,
     Describe,
     Description,
     Difference,
@@ -25,14 +26,18 @@ from seewhy.dialogue.things.query import (
     Groups,
     HasValue,
     Holds,
+    Most,
+    MostCommon,
     Nearest,
     Not,
+    Occurring,
     PartOf,
     Query,
     Reference,
     References,
     Related,
     SameValue,
+    SharedByMost,
     Shares,
     Together,
     ValueOf,
@@ -48,6 +53,7 @@ from seewhy.dialogue.things.reasons_following import (
     shortened,
     why_concluded,
 )
+from seewhy.dialogue.things.reasons_tallies import of_tally
 from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.things import CONCLUDED
 from seewhy.knowledge.justification import Basis, Node
@@ -244,6 +250,9 @@ class Reasons:
             literal = f"{'' if actual == 'yes' else '-'}{feature}({term})"
         return Node(literal, text, Basis.FEATURE, feature=f"{feature}({term})", value=actual)
 
+    def _seen_of(self, number: int, feature: str) -> Node:
+        return self._seen(number, feature, None, self.words.name(number))
+
     def _related(self, number: int, relation: str, to: int, subject: str) -> Node:
         related = self.evaluation.scene.related[relation][to] >> number & 1
         unknown = self.evaluation.scene.unknown.get(relation)
@@ -306,6 +315,12 @@ class Reasons:
                             yield self._seen(number, feature, None, self.words.name(number))
             case Consequence():
                 yield from of_consequence(query, self.words)
+            case Most(described=described, condition=condition):
+                self._add_referred((condition,), nodes, told)
+                for number in members(self.evaluation.fits(described).surely):
+                    yield self._so(number, condition, self.words.name(number))
+            case MostCommon() | Occurring() | SharedByMost():
+                yield from of_tally(query, self.words, self._seen_of)
             case Groups():
                 yield from of_groups(query, self.words)
             case Together():
@@ -328,8 +343,14 @@ def _descriptions(query: Query) -> tuple[Description, ...]:
             return (one,)
         case CompareNumber(described=one):
             return (one,)
-        case CompareCounts(first=first, second=second):
+        case (
+            CompareCounts(first=first, second=second) | CountDifference(first=first, second=second)
+        ):
             return (first, second)
+        case Most(described=one) | SharedByMost(described=one) if one.conditions:
+            return (one,)
+        case MostCommon(described=one) | Occurring(described=one) if one.conditions:
+            return (one,)
     return ()
 
 

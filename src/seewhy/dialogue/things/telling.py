@@ -5,13 +5,14 @@ from __future__ import annotations
 from seewhy.dialogue.things.evaluating import Fits, Obstacle, UnclearReferenceError, members
 from seewhy.dialogue.things.outcome import Outcome
 from seewhy.dialogue.things.query import (
+    AnyOf,
     CompareCounts,
     CompareNumber,
     Completing,
     Concluded,
-    Condition,
     Consequence,
     Count,
+    CountDifference,
     Describe,
     Description,
     Difference,
@@ -20,12 +21,16 @@ from seewhy.dialogue.things.query import (
     HasValue,
     Holds,
     Is,
+    Most,
+    MostCommon,
     Not,
+    Occurring,
     Query,
     Reference,
     References,
     Related,
     SameValue,
+    SharedByMost,
     Together,
     ValueOf,
     Which,
@@ -36,6 +41,7 @@ from seewhy.dialogue.things.telling_following import (
     say_groups,
     say_together,
 )
+from seewhy.dialogue.things.telling_tallies import say_tally
 from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.wording import join_words, sentence
 
@@ -79,6 +85,8 @@ def tell(query: Query, outcome: Outcome, words: ThingWords) -> str:
             ]
             verb = _are(outcome.fits[0].surely.bit_count())
             return sentence(f"{_yes(outcome.value)}: there {verb} {join_words(counts)}")
+        case CountDifference() | Most() | SharedByMost() | MostCommon() | Occurring():
+            return sentence(say_tally(query, outcome.value, words))
         case CompareNumber(described=described):
             return sentence(
                 f"{_yes(outcome.value)}: {_there_are(described, outcome.fits[0], words)}"
@@ -179,28 +187,21 @@ def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
         return clause
     subjects = join_words([words.reference(one) for one in query.ones])
     if not outcome.value and any(one.which is References.EVERY for one in query.ones):
-        return f"not {_being(query.condition, subjects, words)}"
+        return f"not {words.being(query.condition, subjects)}"
     if not outcome.value and any(one.which is References.SOME for one in query.ones):
         some = words.phrase(query.ones[0].description, many=False)
-        return _being(query.condition, f"no {some}", words)
+        return words.being(query.condition, f"no {some}")
     if outcome.value and len(query.ones) == 1:
-        return _being(query.condition, subjects, words)
+        return words.being(query.condition, subjects)
     verb = "are" if len(query.ones) > 1 else "is"
+    if isinstance(query.condition, AnyOf) and not outcome.value and len(query.ones) == 1:
+        neither = [words.predicate(condition) for condition in query.condition.conditions]
+        return f"{subjects} is neither {join_words(neither, word='nor')}"
     if isinstance(query.condition, Not) and not outcome.value and len(query.ones) == 1:
         return f"{subjects} is {words.predicate(query.condition.condition)}"
     denied = "" if outcome.value else "not "
     both = "both " if len(query.ones) > 1 and not outcome.value else ""
     return f"{subjects} {verb} {denied}{both}{words.predicate(query.condition)}"
-
-
-def _being(condition: Condition, subject: str, words: ThingWords) -> str:
-    """That something is so of one or of each; what stands behind nouns stands behind no "is"."""
-    match condition:
-        case HasValue(feature=feature, value=value) if words.things.features[feature].behind.get(
-            value
-        ):
-            return words.clause(feature, value, subject)
-    return f"{subject} is {words.predicate(condition)}"
 
 
 def _single_clause(query: Holds, outcome: Outcome, words: ThingWords) -> str | None:

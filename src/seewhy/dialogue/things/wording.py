@@ -115,6 +115,16 @@ class ThingWords:
         """Return that something has a value."""
         return self.things.features[feature].say[value].replace("{it}", subject)
 
+    def being(self, condition: query.Condition, subject: str, *, many: bool = False) -> str:
+        """Return that something is so of a subject: "two of them are red", "it has two symbols"."""
+        clause = f"{subject} is {self.predicate(condition, many=many)}"
+        if isinstance(condition, query.HasValue) and self._stands_behind(condition):
+            clause = self.clause(condition.feature, condition.value, subject)
+        said = clause.removeprefix(subject)
+        if many:
+            said = re.sub(r"^ (is|has)\b", lambda verb: f" {_PLURAL[verb[1]]}", said)
+        return f"{subject}{said}"
+
     def counted(self, count: int, description: query.Description) -> str:
         """Return so many of a description: "three red cubes"."""
         number = "no" if count == 0 else number_word(count)
