@@ -186,27 +186,41 @@ def test_the_opposite_of_a_word_is_no_misspelling_of_it(
 
 
 SET_ANSWERS = {
-    "is there a set?": "Yes: there are two sets: the one red solid oval card, the two red solid "
-    "oval card and the three red solid oval card; the three red solid oval card, the one green "
-    "striped diamond card and the two purple empty squiggle card.",
+    "is there a set?": "Yes: there are two sets: the red solid oval card with one symbol, the red "
+    "solid oval card with two symbols and the red solid oval card with three symbols; the red "
+    "solid oval card with three symbols, the green striped diamond card with one symbol and the "
+    "purple empty squiggle card with two symbols.",
     "how many sets are there?": (0, 1, 2),
-    "are the first, the second and the third card a set?": "Yes: the one red solid oval card, the "
-    "two red solid oval card and the three red solid oval card are a set.",
-    "do cards 1, 2 and 4 form a set?": "No: the one red solid oval card, the two red solid oval "
-    "card and the one green striped diamond card are no set.",
+    "are the first, the second and the third card a set?": "Yes: the red solid oval card with one "
+    "symbol, the red solid oval card with two symbols and the red solid oval card with three "
+    "symbols are a set.",
+    "do cards 1, 2 and 4 form a set?": "No: the red solid oval card with one symbol, the red solid "
+    "oval card with two symbols and the green striped diamond card with one symbol are no set.",
     "are the first and the second card a set?": "A set takes three cards, and these are two cards.",
-    "is the third card part of a set?": "Yes, the three red solid oval card is part of a set.",
-    "is the fifth card in a set?": "No, the two purple empty diamond card is not part of a set.",
-    "which card would complete the first and the second card?": "The three red solid oval card "
-    "makes a set with the one red solid oval card and the two red solid oval card.",
-    "which card would complete the fourth and the fifth card to a set?": "A three red solid "
-    "diamond card would make a set with the one green striped diamond card and the two purple "
-    "empty diamond card; there is none here.",
+    "is the third card part of a set?": "Yes, the red solid oval card with three symbols is part "
+    "of a set.",
+    "is the fifth card in a set?": "No, the purple empty diamond card with two symbols is not part "
+    "of a set.",
+    "which card would complete the first and the second card?": "The red solid oval card with "
+    "three symbols makes a set with the red solid oval card with one symbol and the red solid "
+    "oval card with two symbols.",
+    "which card would complete the fourth and the fifth card to a set?": "A red solid diamond card "
+    "with three symbols would make a set with the green striped diamond card with one symbol and "
+    "the purple empty diamond card with two symbols; there is none here.",
     "which card would complete the first card?": None,
-    "what do the second and the third card differ in?": "They differ in number of symbols: the two "
-    "red solid oval card has two symbols and the three red solid oval card has three symbols.",
-    "how many symbols does the fourth card have?": "The one green striped diamond card has one "
-    "symbol.",
+    "what do the second and the third card differ in?": "They differ in number of symbols: the red "
+    "solid oval card with two symbols has two symbols and the red solid oval card with three "
+    "symbols has three symbols.",
+    "how many two cards are there?": "There are three cards with two symbols: the red solid oval "
+    "card with two symbols, the purple empty diamond card with two symbols and the purple empty "
+    "squiggle card with two symbols.",
+    "how many red cards with two symbols are there?": "There is one red card with two symbols: the "
+    "red solid oval card with two symbols.",
+    "is the first card two?": "No, the red solid oval card with one symbol has one symbol, not "
+    "two.",
+    "are all red cards single?": "No, not every red card has one symbol.",
+    "how many symbols does the fourth card have?": "The green striped diamond card with one symbol "
+    "has one symbol.",
 }
 
 
@@ -230,10 +244,10 @@ def test_why_three_cards_are_no_set(set_cards: Domain, cards: ThingScene) -> Non
     for question in ("why not?", "why are these three no set?", "why are cards 1, 2 and 4 no set?"):
         text = ask(set_cards, cards, before, question).text
         assert "the colours of the three are all alike or all different, since" in text
-        assert "the one green striped diamond card is green" in text
+        assert "the green striped diamond card with one symbol is green" in text
     tree = ask(set_cards, cards, before).justification.to_text()
     assert 'does not apply: "colours fit that are all alike"' in tree
-    assert "but the one green striped diamond card is green" in tree
+    assert "but the green striped diamond card with one symbol is green" in tree
 
 
 def test_what_would_complete_them(set_cards: Domain, cards: ThingScene) -> None:
@@ -243,7 +257,9 @@ def test_what_would_complete_them(set_cards: Domain, cards: ThingScene) -> None:
         "what do the fourth and the fifth card have in common?",
         "which card would complete them?",
     )
-    assert reply.text.startswith("A three red solid diamond card would make a set with")
+    assert reply.text.startswith(
+        "A red solid diamond card with three symbols would make a set with"
+    )
     assert "numbers fit that are all different" in reply.justification.to_text()
     assert reply.value == ()
 
@@ -267,14 +283,16 @@ def test_they_are_those_that_were_spoken_of(set_cards: Domain, cards: ThingScene
 
 
 @pytest.mark.parametrize(
-    ("begins", "name", "said"),
-    [("## What follows", "tabletop", THINGS), ("## Cards of SET", "set_cards", CARDS[:5])],
+    ("begins", "name", "said", "count"),
+    [("## What follows", "tabletop", THINGS, 5), ("## Cards of SET", "set_cards", CARDS[:5], 6)],
 )
-def test_the_page_says_what_follows(begins: str, name: str, said: Sequence[str]) -> None:
+def test_the_page_says_what_follows(
+    begins: str, name: str, said: Sequence[str], count: int
+) -> None:
     page = (Path(__file__).parents[1] / "docs" / "things.md").read_text("utf-8")
     section = page.split(begins)[1].split("\n## ")[0]
     rows = re.findall(r"^\| [^|]+ \| ([A-Z][^|]+\?) \| ([^|]+) \|$", section, re.M)
-    assert len(rows) == 5
+    assert len(rows) == count
     domain = load_domain(name)
     scene = scene_of(domain, said, {"on": ON} if name == "tabletop" else {})
     for question, answer in rows:

@@ -81,6 +81,12 @@ def domain(folder: Path) -> Domain:
     return load_domain(folder)
 
 
+def test_a_value_may_be_named_by_any_word() -> None:
+    domain = load_domain("set_cards")
+    _, found = named_scene(domain, ["a.number=2", "a.colour=RED"])
+    assert found[0].values == {"number": "two", "colour": "red"}
+
+
 def test_what_follows_why_and_what_would_change_it(run: Run, folder: Path) -> None:
     found = run(
         *("decide", str(folder), "a.colour=red", "b.round=yes", "on=a,b", "--why", "falls(b)"),

@@ -10,7 +10,9 @@ from PIL import Image
 from seewhy.data.dataset import Dataset
 from seewhy.data.table_writing import write_tables
 from seewhy.data.thing import BoundingBox, Thing
+from seewhy.data.thing_tables import things_of_file
 from seewhy.domain.domain import Domain, load_domain
+from seewhy.domain.things import ThingFeature
 from seewhy.errors import DatasetError
 
 DOMAIN = """\
@@ -100,6 +102,28 @@ def test_things_are_read_with_their_boxes(domain: Domain, data: Path) -> None:
         Thing("book", {"kind_of_item": "book"}, BoundingBox(30, 10, 40, 20)),
     )
     assert second.things == (Thing("1", {"colour": "blue"}),)
+
+
+def test_values_may_be_any_word_for_them(tmp_path: Path) -> None:
+    file = tmp_path / "things.csv"
+    file.write_text("number,colour,shading,shape\n1,Red,hatched,wave\nthree,red,solid,oval\n")
+    found, _ = things_of_file(file, load_domain("set_cards"))
+    assert [tuple(thing.values.values()) for thing in found] == [
+        ("one", "red", "striped", "squiggle"),
+        ("three", "red", "solid", "oval"),
+    ]
+    file.write_text("image,kind\na.png,ball\n")
+    found, _ = things_of_file(file, load_domain("tabletop"))
+    assert found[0].values == {"shape": "sphere"}
+
+
+def test_a_word_of_two_values_stands_for_neither() -> None:
+    fill = {"full": ("solid",), "empty": ("hollow",)}
+    feature = ThingFeature(
+        "fill", "fill", tuple(fill), {}, fill, {"full": (), "empty": ("solid",)}, ()
+    )
+    assert feature.value_called("solid") is None
+    assert feature.value_called("HOLLOW") == "empty"
 
 
 def test_relations_are_measured_where_both_boxes_are_known(domain: Domain, data: Path) -> None:

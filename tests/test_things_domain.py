@@ -198,6 +198,12 @@ WRONG: dict[str, tuple[str, str, str]] = {
         '"next to"',
         "domain.toml:37: 'next to' stands for 'above' and for 'touching'; let it stand for one",
     ),
+    "phrase of two values": (
+        'cherry = { nouns = ["cherry"] }\npear = { nouns = ["pear"] }',
+        'cherry = { behind = "with a stone" }\npear = { behind = "with a stone" }',
+        "domain.toml:20: 'with a stone' stands for 'cherry' of 'kind_of_fruit', too; let it stand "
+        "for one",
+    ),
     "key that is none": (
         "most = 8",
         "mots = 8",

@@ -90,18 +90,17 @@ def named_scene(
     return vector_with_things(domain, whole, found, related), found
 
 
-def _take(
-    values: dict[str, str], feature: str, value: str, assignment: str, things: Things
-) -> None:
+def _take(values: dict[str, str], feature: str, said: str, assignment: str, things: Things) -> None:
     if feature not in things.features:
         raise DomainError(
             f"'{assignment}': '{feature}' is no feature of things; "
             f"{did_you_mean(feature, things.features)}"
         )
-    known = things.features[feature].values
-    if value not in known:
+    value = things.features[feature].value_called(said)
+    if value is None:
         raise DomainError(
-            f"'{assignment}': '{value}' is no value of '{feature}'; {did_you_mean(value, known)}"
+            f"'{assignment}': '{said}' is no value of '{feature}'; "
+            f"{did_you_mean(said, things.features[feature].values)}"
         )
     if values.setdefault(feature, value) != value:
         raise DomainError(

@@ -13,7 +13,7 @@ from seewhy.data.scene import Scene, TablePlace
 from seewhy.data.table import Table, read_table
 from seewhy.data.thing import CORNERS, RELATIONS, THINGS, BoundingBox, Related, Thing
 from seewhy.domain.domain import Domain
-from seewhy.domain.things import Things
+from seewhy.domain.things import ThingFeature, Things
 from seewhy.errors import DatasetError, PictureError
 from seewhy.text.nearest import did_you_mean
 
@@ -235,16 +235,22 @@ def _things(
 def _values(cells: _Cells, things: Things) -> dict[str, str]:
     values = {key: cells[key] for key in things.features if cells[key]}
     # What a labelling tool calls the kind of a box is the value of one feature, where one has it.
-    kinds = [key for key, feature in things.features.items() if cells["kind"] in feature.values]
+    kind = cells["kind"]
+    kinds = [key for key, feature in things.features.items() if kind in feature.values]
+    kinds = kinds or [key for key, one in things.features.items() if one.value_called(kind)]
     if len(kinds) == 1:
-        values.setdefault(kinds[0], cells["kind"])
-    for key, value in values.items():
-        known = things.features[key].values
-        if value not in known:
-            raise DatasetError(
-                f"{cells.place}: '{value}' is no value of '{key}'; {did_you_mean(value, known)}"
-            )
-    return values
+        values.setdefault(kinds[0], kind)
+    return {key: _value(said, things.features[key], cells.place) for key, said in values.items()}
+
+
+def _value(said: str, feature: ThingFeature, place: str) -> str:
+    value = feature.value_called(said)
+    if value is None:
+        raise DatasetError(
+            f"{place}: '{said}' is no value of '{feature.key}'; "
+            f"{did_you_mean(said, feature.values)}"
+        )
+    return value
 
 
 def _box(cells: _Cells) -> BoundingBox | None:

@@ -77,6 +77,11 @@ class ThingValueTable(StrictTable):
         description="Nouns, in the singular, by which questions may name a thing of this value, "
         "as in `cube` and `block`; answers use the first.",
     )
+    behind: Word | None = Field(
+        default=None,
+        description="What stands behind the noun for a thing of this value, as in `with two "
+        "symbols`, where no adjective in front of it says the value well.",
+    )
 
 
 class ThingFeatureTable(StrictTable):

@@ -38,6 +38,8 @@ class ThingFeature:
         Value → the clause that says it, with {it}.
     words, nouns : mapping
         Value → the adjectives and the nouns by which questions may name it.
+    behind : mapping
+        Value → what stands behind the noun instead of an adjective; of others nothing.
     called : tuple of str
         The words for the feature itself, its name first.
     how, participles : tuple of str
@@ -56,6 +58,30 @@ class ThingFeature:
     how: tuple[str, ...] = ()
     participles: tuple[str, ...] = ()
     ordered: bool = False
+    behind: Mapping[str, str] = field(default_factory=dict)
+
+    def value_called(self, said: str) -> str | None:
+        """Return the value of a name or of one of its words; None of none, or of several.
+
+        Examples
+        --------
+        >>> from seewhy.domain.domain import load_domain
+        >>> colour = load_domain("tabletop").things.features["colour"]
+        >>> colour.value_called("Grey"), colour.value_called("mauve")
+        ('gray', None)
+        """
+        if said in self.values:
+            return said
+        word = said.casefold()
+        called = [
+            value
+            for value in self.values
+            if any(
+                word == known.casefold()
+                for known in (value, *self.words[value], *self.nouns[value])
+            )
+        ]
+        return called[0] if len(called) == 1 else None
 
 
 @dataclass(frozen=True)
@@ -240,6 +266,7 @@ def _feature(
         how=table.how,
         participles=table.participles,
         ordered=table.ordered,
+        behind={value: said.behind for value, said in table.values.items() if said.behind},
     )
 
 
@@ -323,6 +350,7 @@ def _check_words(things: Things, place: KeyPlace) -> None:
                     f"{place.at('things', 'groups', key)}: '{word}' stands for '{key}' and for "
                     f"'{nouns[word.casefold()]}'; let it stand for one"
                 )
+    spoken_behind: dict[str, tuple[str, str]] = {}
     for key, feature in things.features.items():
         adjectives: dict[str, str] = {}
         for value in feature.values:
@@ -334,6 +362,13 @@ def _check_words(things: Things, place: KeyPlace) -> None:
                             f"stands for '{value}' and for '{spoken[word.casefold()]}'; let it "
                             "stand for one"
                         )
+        for value, phrase in feature.behind.items():
+            if spoken_behind.setdefault(phrase.casefold(), (key, value)) != (key, value):
+                of_feature, of_value = spoken_behind[phrase.casefold()]
+                raise DomainError(
+                    f"{place.at('things', 'features', key, 'values', value, 'behind')}: '{phrase}' "
+                    f"stands for '{of_value}' of '{of_feature}', too; let it stand for one"
+                )
     spoken = {}
     for key, relation in things.relations.items():
         for word in (*relation.words, *relation.verbs, *relation.most):

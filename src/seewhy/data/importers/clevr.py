@@ -201,9 +201,8 @@ def _feature(name: str, things: Things, place: str) -> ThingFeature:
 
 
 def _value(said: str, feature: ThingFeature, place: str) -> str:
-    for value in feature.values:
-        if said == value or said in feature.words[value] or said in feature.nouns[value]:
-            return value
+    if (value := feature.value_called(said)) is not None:
+        return value
     raise DatasetError(
         f"{place}: '{visible(said)}' is no {feature.name} of the domain; "
         f"{did_you_mean(said, feature.values)}"

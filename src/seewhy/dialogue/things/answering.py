@@ -22,9 +22,13 @@ from seewhy.dialogue.things.query import (
     Exists,
     Holds,
     Is,
+    Most,
+    MostCommon,
+    Occurring,
     Query,
     Reference,
     References,
+    SharedByMost,
     Together,
     ValueOf,
     Which,
@@ -248,6 +252,10 @@ def _spoken_of(query: Query) -> Reference | None:
             return one
         case Count(described=described) | Exists(described=described) | Which(described=described):
             return Reference(described)
+        case Most(described=described) | SharedByMost(described=described):
+            return Reference(described, References.EVERY)
+        case MostCommon(described=described) | Occurring(described=described):
+            return Reference(described, References.EVERY)
     return None
 
 
@@ -278,4 +286,6 @@ def _instead(query: Query, instead: Description | Reference | None) -> Query | N
                 return Exists(instead, denied)
             case Which():
                 return Which(instead)
+            case Most() | SharedByMost() | MostCommon() | Occurring():
+                return replace(query, described=instead)
     return None

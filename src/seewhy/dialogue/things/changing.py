@@ -34,10 +34,13 @@ from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
     Compares,
     Concluded,
+    Corner,
     Description,
     Extreme,
     Groups,
     HasValue,
+    MostCommon,
+    Occurring,
     PartOf,
     Query,
     Ranked,
@@ -101,8 +104,12 @@ class _Spoken:
                 self.compared.add(feature)
             case ValueOf(feature=feature) | SameValue(feature=feature):
                 self.compared.add(feature)
+            case MostCommon(feature=feature) | Occurring(feature=feature):
+                self.compared.add(feature)
             case Related(relation=relation) | Extreme(relation=relation):
                 self.relations.add(relation)
+            case Corner(relations=relations):
+                self.relations.update(relations)
             case Concluded(conclusion=key) | PartOf(group=key):
                 self.concluded.add(key)
             case Groups(group=key) | Together(group=key):

@@ -32,6 +32,7 @@ _MOST_TOLD = 3
 _PRESENCE = re.compile(r"(\w+)\(\1\d+\)")
 """A literal that says that a thing is there."""
 _TOLD = (Basis.FEATURE, Basis.AXIOM)
+_TOLD_OF_THINGS = (*_TOLD, Basis.COMPARISON)
 
 
 def tell_why(justification: Node) -> str:
@@ -83,7 +84,7 @@ def _said(justification: Node) -> Iterator[str]:
         if not node.holds:
             yield _denied(node)
             continue
-        leaves = [_reason(child) for child in node.children if child.basis in _TOLD]
+        leaves = [_reason(child) for child in node.children if child.basis in _TOLD_OF_THINGS]
         yield f"{node.text}: {join_words(leaves)}" if leaves else node.text
     if not there or justification.text.startswith("No"):
         for node in justification.children:

@@ -297,6 +297,8 @@ class Evaluation:
         match description.selection:
             case query.Extreme(relation=relation, rank=rank, from_end=from_end):
                 chosen = self._in_order(fits.surely, relation, rank, from_end=from_end)
+            case query.Corner(relations=relations):
+                chosen = self._in_corner(fits.surely, relations)
             case query.Ranked(feature=feature, most=most):
                 chosen = self._ranked(fits.surely, feature, most=most)
             case query.Nearest(to=to, farthest=farthest):
@@ -313,16 +315,34 @@ class Evaluation:
 
     def _in_order(self, things: int, relation: str, rank: int, *, from_end: bool) -> int | None:
         """Those of which so many others come first; None where the order is not known."""
-        related = self.scene.related[relation]
-        unknown = self.scene.unknown.get(relation)
         others = things.bit_count() - 1
-        before = others - (rank - 1) if from_end else rank - 1
+        wanted = others - (rank - 1) if from_end else rank - 1
         found = 0
         for number in members(things):
-            if unknown and unknown[number] & things:
+            before = self.before(things, relation, number)
+            if before is None:
                 return None
-            if (related[number] & things).bit_count() == before:
-                found |= 1 << number
+            found |= (before == wanted) << number
+        return found
+
+    def before(self, things: int, relation: str, number: int) -> int | None:
+        """How many of some things stand in a relation to one; None where that is not known."""
+        unknown = self.scene.unknown.get(relation)
+        if unknown and unknown[number] & things:
+            return None
+        return (self.scene.related[relation][number] & things).bit_count()
+
+    def _in_corner(self, things: int, relations: tuple[str, str]) -> int | None:
+        best: tuple[int, int] | None = None
+        found = 0
+        for number in members(things):
+            one, other = (self.before(things, relation, number) for relation in relations)
+            if one is None or other is None:
+                return None
+            far = (max(one, other), one + other)
+            if best is None or far < best:
+                best, found = far, 0
+            found |= (far == best) << number
         return found
 
     def _ranked(self, things: int, feature: str, *, most: bool) -> int | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import permutations, product
 
 from seewhy.dialogue.grammar import Binding
 from seewhy.dialogue.lexicon import NUMBERS
@@ -11,6 +12,7 @@ from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.things.chart import Category, Chart, Ending
 from seewhy.dialogue.things.query import (
     Concluded,
+    Corner,
     Description,
     Extreme,
     HasValue,
@@ -74,6 +76,7 @@ class Entries:
 _CATEGORIES = (
     "adjective", "noun", "value", "feature", "how", "participle", "preposition", "verb", "verbing",
     "comparative", "superlative", "extreme", "side", "rank", "number", "occurs", "falling", "group",
+    "behind", "corner",
 )  # fmt: skip
 
 
@@ -104,6 +107,7 @@ def lexicon_of(things: Things) -> dict[str, Category]:
             entries["extreme"].add(word, Binding("extreme", Extreme(key)))
         for word in relation.side:
             entries["side"].add(word, Binding("side", key))
+    _add_corners(entries["corner"], things)
     for conclusion in things.conclusions.values():
         _add_conclusion(entries, conclusion)
     for relation in things.relations.values():
@@ -149,6 +153,9 @@ def _add_feature(entries: Mapping[str, Entries], feature: ThingFeature) -> None:
             meant = Binding("condition", HasValue(feature.key, value))
             entries["adjective"].add(word, meant)
             entries["value"].add(word, meant)
+        if value in feature.behind:
+            meant = Binding("condition", HasValue(feature.key, value))
+            entries["behind"].add(feature.behind[value], meant)
         for noun in feature.nouns[value]:
             meant = Binding("condition", HasValue(feature.key, value, noun=True))
             _add_noun(entries["noun"], noun, plural(noun), (meant,))
@@ -163,6 +170,16 @@ def _add_feature(entries: Mapping[str, Entries], feature: ThingFeature) -> None:
             entries["superlative"].add(
                 superlative(word), Binding("ranked", Ranked(feature.key, most=more))
             )
+
+
+def _add_corners(corners: Entries, things: Things) -> None:
+    """Two ways at once, neither of which is the other or its opposite: "top left"."""
+    ways = [relation for relation in things.relations.values() if relation.side or relation.most]
+    for one, other in permutations(ways, 2):
+        if other.key != one.converse:
+            corner = Binding("corner", Corner((one.key, other.key)))
+            for words in product((*one.side, *one.most), (*other.side, *other.most)):
+                corners.add(" ".join(words), corner)
 
 
 def _add_conclusion(entries: Mapping[str, Entries], conclusion: Conclusion) -> None:

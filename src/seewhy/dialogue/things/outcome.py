@@ -14,20 +14,26 @@ from seewhy.dialogue.things.query import (
     Completing,
     Consequence,
     Count,
+    CountDifference,
     Describe,
     Description,
     Difference,
     Exists,
     Groups,
     Holds,
+    Most,
+    MostCommon,
+    Occurring,
     Query,
     Reference,
     References,
     SameValue,
+    SharedByMost,
     Together,
     ValueOf,
     Which,
 )
+from seewhy.dialogue.things.tallies import most_are, most_common, occurring, shared_by_most
 
 __all__ = ["Outcome", "Value", "outcome_of"]
 
@@ -70,6 +76,16 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
         case CompareCounts(sign=sign, first=first, second=second):
             one, other = evaluation.fits(first), evaluation.fits(second)
             return Outcome(_compared(sign, _span(one), _span(other)), (one, other))
+        case CountDifference(sign=sign, first=first, second=second):
+            one, other = evaluation.fits(first), evaluation.fits(second)
+            more = one.surely.bit_count() - other.surely.bit_count()
+            more = more if sign == ">" else -more
+            return Outcome(more if one.known and other.known else None, (one, other))
+        case Most(described=described, condition=condition):
+            fits = evaluation.fits(Description((*described.conditions, condition)))
+            return Outcome(most_are(query, evaluation), (fits,))
+        case SharedByMost() | MostCommon() | Occurring():
+            return _tallied(query, evaluation)
         case CompareNumber(sign=sign, described=described, number=number):
             fits = evaluation.fits(described)
             return Outcome(_compared(sign, _span(fits), (number, number)), (fits,))
@@ -101,6 +117,23 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
         case Completing():
             return Outcome(_completing(query, evaluation))
     raise TypeError(f"must be a query, got {query!r}")
+
+
+def _tallied(query: SharedByMost | MostCommon | Occurring, evaluation: Evaluation) -> Outcome:
+    fits = evaluation.fits(query.described)
+    features = evaluation.scene.values if isinstance(query, SharedByMost) else (query.feature,)
+    known = fits.surely
+    for feature in features:
+        known &= ~evaluation.without_value[feature]
+    asked = (Fits(known, fits.maybe),)
+    if isinstance(query, SharedByMost):
+        shared = shared_by_most(query, evaluation)
+        return Outcome(None if shared is None else tuple(value for _, value in shared), asked)
+    if isinstance(query, Occurring):
+        found = occurring(query, evaluation)
+        return Outcome(len(found) if query.counted and found is not None else found, asked)
+    found = most_common(query, evaluation)
+    return Outcome(found[0] if found is not None and len(found) == 1 else found, asked)
 
 
 def _known_groups(evaluation: Evaluation, group: str) -> tuple[tuple[int, ...], ...] | None:

@@ -130,6 +130,12 @@ def _placed(bindings: Bindings) -> Bindings | None:
     return _of_one_feature(bindings)
 
 
+def _in_corner(bindings: Bindings) -> Bindings:
+    corner = _one(bindings, "corner")
+    described = query.Description(selection=corner)  # type: ignore[arg-type]
+    return _condition(query.Is(query.Reference(described)))
+
+
 def _compares(bindings: Bindings) -> Bindings | None:
     compared = _one(bindings, "compared")
     if not isinstance(compared, tuple):
@@ -172,7 +178,7 @@ def _picked(bindings: Bindings) -> Bindings | None:
     rank, side = _one(bindings, "rank"), _one(bindings, "side")
     extreme, ranked = _one(bindings, "extreme"), _one(bindings, "ranked")
     farthest = _one(bindings, "farthest")
-    selection: object = ranked
+    selection: object = _one(bindings, "corner") or ranked
     if isinstance(extreme, query.Extreme) or side is not None:
         number = rank if isinstance(rank, int) else 1
         relation = extreme.relation if isinstance(extreme, query.Extreme) else str(side)
@@ -249,6 +255,10 @@ PHRASES: dict[str, Fold] = {
     "some_thing": lambda _: (Binding("described", query.Description()),),
     "counted_off": _counted_off,
     "in_group": lambda bindings: _condition(query.PartOf(str(_one(bindings, "group")))),
+    "in_no_group": lambda bindings: _condition(
+        query.Not(query.PartOf(str(_one(bindings, "group"))))
+    ),
+    "in_corner": _in_corner,
     "near": _nearest,
     "far": _farthest,
     "picked": _picked,

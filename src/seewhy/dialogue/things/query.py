@@ -11,43 +11,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 __all__ = [
-    "All",
-    "AnyOf",
-    "Apart",
-    "Between",
-    "CompareCounts",
-    "CompareNumber",
-    "Compares",
-    "Completing",
-    "Concluded",
-    "Condition",
-    "Consequence",
-    "Count",
-    "Describe",
-    "Description",
-    "Difference",
-    "Exists",
-    "Extreme",
-    "Groups",
-    "HasValue",
-    "Holds",
-    "Is",
-    "Nearest",
-    "Not",
-    "Numbered",
-    "PartOf",
-    "Query",
-    "Ranked",
-    "Reference",
-    "References",
-    "Related",
-    "SameValue",
-    "Shares",
-    "Together",
-    "ValueOf",
-    "Which",
-    "references_in",
-]
+    "All", "AnyOf", "Apart", "Between", "CompareCounts", "CompareNumber", "Compares",
+    "Completing", "Concluded", "Condition", "Consequence", "Corner", "Count", "CountDifference",
+    "Describe", "Description", "Difference", "Exists", "Extreme", "Groups", "HasValue", "Holds",
+    "Is", "Most", "MostCommon", "Nearest", "Not", "Numbered", "Occurring", "PartOf", "Query",
+    "Ranked", "Reference", "References", "Related", "SameValue", "SharedByMost", "Shares",
+    "Together", "ValueOf", "Which", "references_in",
+]  # fmt: skip
 
 
 class References(StrEnum):
@@ -185,6 +155,17 @@ class Extreme:
 
 
 @dataclass(frozen=True)
+class Corner:
+    """The one that comes first by two relations at once: at the top and to the left.
+
+    It is the one with the fewest others before it in the order in which it has more of them; of
+    several such, the one with the fewest in both orders together.
+    """
+
+    relations: tuple[str, str]
+
+
+@dataclass(frozen=True)
 class Ranked:
     """The one with the most (or least) of an ordered feature."""
 
@@ -207,7 +188,7 @@ class Numbered:
     number: int
 
 
-Selection = Extreme | Ranked | Nearest | Numbered
+Selection = Extreme | Corner | Ranked | Nearest | Numbered
 
 
 @dataclass(frozen=True)
@@ -263,6 +244,42 @@ class CompareCounts:
     sign: str
     first: Description
     second: Description
+
+
+@dataclass(frozen=True)
+class CountDifference:
+    """How many more (``>``) or fewer (``<``) there are of one than of another."""
+
+    sign: str
+    first: Description
+    second: Description
+
+
+@dataclass(frozen=True)
+class Most(_OfDescribed):
+    """Whether something is so of more than half of them."""
+
+    condition: Condition
+
+
+class SharedByMost(_OfDescribed):
+    """Which values more than half of them have."""
+
+
+@dataclass(frozen=True)
+class MostCommon(_OfDescribed):
+    """Which value of a feature most of them have, or of those that occur the fewest."""
+
+    feature: str
+    least: bool = False
+
+
+@dataclass(frozen=True)
+class Occurring(_OfDescribed):
+    """Which values of a feature they have; with ``counted``, how many different ones."""
+
+    feature: str
+    counted: bool = False
 
 
 @dataclass(frozen=True)
@@ -352,7 +369,8 @@ class Completing:
 
 Query = (
     Count | Exists | Which | CompareCounts | CompareNumber | ValueOf | SameValue | Holds | Describe
-    | Difference | Consequence | Groups | Together | Completing
+    | Difference | Consequence | Groups | Together | Completing | CountDifference | Most
+    | SharedByMost | MostCommon | Occurring
 )  # fmt: skip
 
 

@@ -16,6 +16,7 @@ from seewhy.dialogue.things.query import (
     Condition,
     Consequence,
     Count,
+    CountDifference,
     Describe,
     Description,
     Difference,
@@ -24,9 +25,13 @@ from seewhy.dialogue.things.query import (
     HasValue,
     Holds,
     Is,
+    Most,
+    MostCommon,
+    Occurring,
     Query,
     Reference,
     SameValue,
+    SharedByMost,
     Together,
     ValueOf,
     Which,
@@ -109,7 +114,37 @@ def _number(bindings: Bindings) -> Bindings | None:
     if not isinstance(number, int):
         return None
     sign = str(signs[0]) if signs else "="
-    return _query(CompareNumber(sign, settled(_descriptions(bindings)[0]), number))
+    return _query(CompareNumber(sign, settled(_described(bindings)), number))
+
+
+def _count_difference(bindings: Bindings) -> Bindings:
+    first, second = map(settled, _descriptions(bindings))
+    return _query(CountDifference(str(meanings(bindings, "sign")[0]), first, second))
+
+
+def _mostly(bindings: Bindings) -> Bindings | None:
+    conditions, described = _conditions(bindings), _descriptions(bindings)
+    if not conditions or len(described) != 1:
+        return None
+    return _query(Most(settled(described[0]), all_of(conditions)))
+
+
+def _most_common(bindings: Bindings) -> Bindings | None:
+    feature = _feature(bindings)
+    if feature is None:
+        return None
+    least = bool(meanings(bindings, "least"))
+    return _query(MostCommon(settled(_described(bindings)), feature, least))
+
+
+def _occurring(*, counted: bool) -> Fold:
+    def fold(bindings: Bindings) -> Bindings | None:
+        feature = _feature(bindings)
+        if feature is None:
+            return None
+        return _query(Occurring(settled(_described(bindings)), feature, counted))
+
+    return fold
 
 
 def _signed(sign: str) -> Fold:
@@ -240,6 +275,14 @@ QUESTIONS: dict[str, Fold] = {
     "just": _signed("="),
     "same_number": lambda bindings: _compared(bindings, "="),
     "compare_number": _number,
+    "count_difference": _count_difference,
+    "mostly": _mostly,
+    "shared_by_most": _about(SharedByMost),
+    "most_common": _most_common,
+    "least_so": lambda _: (Binding("least", True),),
+    "least_often": lambda _: (Binding("least", True),),
+    "values_listed": _occurring(counted=False),
+    "values_counted": _occurring(counted=True),
     "same_value": _same_value,
     "unlike": lambda bindings: _alike(bindings, denied=True),
     "holds": _holds,

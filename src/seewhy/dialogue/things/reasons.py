@@ -15,22 +15,29 @@ from seewhy.dialogue.things.query import (
     Concluded,
     Condition,
     Consequence,
+    Corner,
     Count,
+    CountDifference,
     Describe,
     Description,
     Difference,
     Exists,
+    Extreme,
     Groups,
     HasValue,
     Holds,
+    Most,
+    MostCommon,
     Nearest,
     Not,
+    Occurring,
     PartOf,
     Query,
     Reference,
     References,
     Related,
     SameValue,
+    SharedByMost,
     Shares,
     Together,
     ValueOf,
@@ -46,7 +53,8 @@ from seewhy.dialogue.things.reasons_following import (
     shortened,
     why_concluded,
 )
-from seewhy.dialogue.things.wording import ThingWords
+from seewhy.dialogue.things.reasons_tallies import of_tally
+from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.things import CONCLUDED
 from seewhy.knowledge.justification import Basis, Node
 
@@ -105,6 +113,9 @@ class Reasons:
         if isinstance(one.description.selection, Nearest):
             self._add_reference(one.description.selection.to, nodes, told)
         children = tuple(self._described(one.description))
+        if one.description.selection is not None and one.which is References.THE:
+            chosen, *others = children
+            children = (*chosen.children, *others)
         if one.which is References.THE:
             number = self.evaluation.the(one)
             name, phrase = self.words.name(number), self.words.phrase(one.description, many=False)
@@ -128,6 +139,7 @@ class Reasons:
         fits = self.evaluation.fits(description)
         for number in members(fits.surely):
             children = tuple(self._so(number, c, "it") for c in description.conditions)
+            children += tuple(self._ordered(number, description, "it"))
             name = self.words.name(number)
             if description.selection is None or not children:
                 yield Node(
@@ -157,7 +169,26 @@ class Reasons:
                 return shortened(self._so(number, condition, self.words.name(number)))
         name = self.words.name(number)
         text = f"{name} is not the {self.words.phrase(description, many=False)}"
-        return Node(self.words.term(number), text, Basis.COMPARISON)
+        ordered = tuple(self._ordered(number, description, "it"))
+        return Node(self.words.term(number), text, Basis.COMPARISON, children=ordered)
+
+    def _ordered(self, number: int, description: Description, subject: str) -> Iterator[Node]:
+        """How many others come before a thing, by each order by which one is chosen."""
+        match description.selection:
+            case Extreme(relation=relation):
+                relations: tuple[str, ...] = (relation,)
+            case Corner(relations=relations):
+                pass
+            case _:
+                return
+        others = self.evaluation.fits(Description(description.conditions)).surely
+        for relation in relations:
+            count = self.evaluation.before(others, relation, number) or 0
+            noun = self.words.phrase(Description(description.conditions), many=count > 1)
+            before = f"{number_word(count) if count else 'no other'} {noun}"
+            verb = "are" if count > 1 else "is"
+            text = f"{before} {verb} {self.words.predicate_of(relation, subject)}"
+            yield Node(f"{relation}({self.words.term(number)})", text, Basis.COMPARISON)
 
     def _so(self, number: int, condition: Condition, subject: str) -> Node:
         """Whether a condition holds of a thing, down to what was seen."""
@@ -218,6 +249,9 @@ class Reasons:
         if yes_or_no:
             literal = f"{'' if actual == 'yes' else '-'}{feature}({term})"
         return Node(literal, text, Basis.FEATURE, feature=f"{feature}({term})", value=actual)
+
+    def _seen_of(self, number: int, feature: str) -> Node:
+        return self._seen(number, feature, None, self.words.name(number))
 
     def _related(self, number: int, relation: str, to: int, subject: str) -> Node:
         related = self.evaluation.scene.related[relation][to] >> number & 1
@@ -281,6 +315,12 @@ class Reasons:
                             yield self._seen(number, feature, None, self.words.name(number))
             case Consequence():
                 yield from of_consequence(query, self.words)
+            case Most(described=described, condition=condition):
+                self._add_referred((condition,), nodes, told)
+                for number in members(self.evaluation.fits(described).surely):
+                    yield self._so(number, condition, self.words.name(number))
+            case MostCommon() | Occurring() | SharedByMost():
+                yield from of_tally(query, self.words, self._seen_of)
             case Groups():
                 yield from of_groups(query, self.words)
             case Together():
@@ -303,8 +343,14 @@ def _descriptions(query: Query) -> tuple[Description, ...]:
             return (one,)
         case CompareNumber(described=one):
             return (one,)
-        case CompareCounts(first=first, second=second):
+        case (
+            CompareCounts(first=first, second=second) | CountDifference(first=first, second=second)
+        ):
             return (first, second)
+        case Most(described=one) | SharedByMost(described=one) if one.conditions:
+            return (one,)
+        case MostCommon(described=one) | Occurring(described=one) if one.conditions:
+            return (one,)
     return ()
 
 

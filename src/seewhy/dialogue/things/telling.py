@@ -5,25 +5,32 @@ from __future__ import annotations
 from seewhy.dialogue.things.evaluating import Fits, Obstacle, UnclearReferenceError, members
 from seewhy.dialogue.things.outcome import Outcome
 from seewhy.dialogue.things.query import (
+    AnyOf,
     CompareCounts,
     CompareNumber,
     Completing,
     Concluded,
     Consequence,
     Count,
+    CountDifference,
     Describe,
     Description,
     Difference,
     Exists,
     Groups,
+    HasValue,
     Holds,
     Is,
+    Most,
+    MostCommon,
     Not,
+    Occurring,
     Query,
     Reference,
     References,
     Related,
     SameValue,
+    SharedByMost,
     Together,
     ValueOf,
     Which,
@@ -34,6 +41,7 @@ from seewhy.dialogue.things.telling_following import (
     say_groups,
     say_together,
 )
+from seewhy.dialogue.things.telling_tallies import say_tally
 from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.wording import join_words, sentence
 
@@ -77,6 +85,8 @@ def tell(query: Query, outcome: Outcome, words: ThingWords) -> str:
             ]
             verb = _are(outcome.fits[0].surely.bit_count())
             return sentence(f"{_yes(outcome.value)}: there {verb} {join_words(counts)}")
+        case CountDifference() | Most() | SharedByMost() | MostCommon() | Occurring():
+            return sentence(say_tally(query, outcome.value, words))
         case CompareNumber(described=described):
             return sentence(
                 f"{_yes(outcome.value)}: {_there_are(described, outcome.fits[0], words)}"
@@ -177,11 +187,16 @@ def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
         return clause
     subjects = join_words([words.reference(one) for one in query.ones])
     if not outcome.value and any(one.which is References.EVERY for one in query.ones):
-        return f"not {subjects} is {words.predicate(query.condition)}"
+        return f"not {words.being(query.condition, subjects)}"
     if not outcome.value and any(one.which is References.SOME for one in query.ones):
         some = words.phrase(query.ones[0].description, many=False)
-        return f"no {some} is {words.predicate(query.condition)}"
+        return words.being(query.condition, f"no {some}")
+    if outcome.value and len(query.ones) == 1:
+        return words.being(query.condition, subjects)
     verb = "are" if len(query.ones) > 1 else "is"
+    if isinstance(query.condition, AnyOf) and not outcome.value and len(query.ones) == 1:
+        neither = [words.predicate(condition) for condition in query.condition.conditions]
+        return f"{subjects} is neither {join_words(neither, word='nor')}"
     if isinstance(query.condition, Not) and not outcome.value and len(query.ones) == 1:
         return f"{subjects} is {words.predicate(query.condition.condition)}"
     denied = "" if outcome.value else "not "
@@ -201,6 +216,13 @@ def _single_clause(query: Holds, outcome: Outcome, words: ThingWords) -> str | N
         case Concluded(conclusion=conclusion):
             said = words.things.conclusions[conclusion]
             return (said.say if so else said.deny).replace("{it}", name)
+        case HasValue(feature=feature, value=value) if (
+            value in words.things.features[feature].behind
+        ):
+            seen = words.evaluation.scene.values[feature][words.evaluation.the(query.ones[0])]
+            return words.clause(feature, str(seen), name) + (
+                "" if so else words.denied(feature, value)
+            )
         case Related(relation=relation, to=to) if not words.things.relations[relation].words:
             clause = words.things.relations[relation].say.format(name, words.reference(to))
             denied = clause.replace(" would ", " would not ", 1)

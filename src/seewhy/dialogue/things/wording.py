@@ -74,6 +74,7 @@ class ThingWords:
     def described(self, values: Mapping[str, str | None]) -> str:
         """Return a thing of some values, without an article: "small red metal cube"."""
         adjectives: list[str] = []
+        behind: list[str] = []
         noun = self.things.one
         for key, value in values.items():
             if value is None:
@@ -81,9 +82,11 @@ class ThingWords:
             feature = self.things.features[key]
             if feature.nouns[value]:
                 noun = feature.nouns[value][0]
+            elif value in feature.behind:
+                behind.append(feature.behind[value])
             elif feature.words[value]:
                 adjectives.append(feature.words[value][0])
-        return " ".join([*adjectives, noun])
+        return " ".join(filter(None, [*adjectives, noun, " and ".join(behind)]))
 
     def term(self, number: int) -> str:
         """Return what a thing is called in the knowledge language."""
@@ -112,6 +115,16 @@ class ThingWords:
         """Return that something has a value."""
         return self.things.features[feature].say[value].replace("{it}", subject)
 
+    def being(self, condition: query.Condition, subject: str, *, many: bool = False) -> str:
+        """Return that something is so of a subject: "two of them are red", "it has two symbols"."""
+        clause = f"{subject} is {self.predicate(condition, many=many)}"
+        if isinstance(condition, query.HasValue) and self._stands_behind(condition):
+            clause = self.clause(condition.feature, condition.value, subject)
+        said = clause.removeprefix(subject)
+        if many:
+            said = re.sub(r"^ (is|has)\b", lambda verb: f" {_PLURAL[verb[1]]}", said)
+        return f"{subject}{said}"
+
     def counted(self, count: int, description: query.Description) -> str:
         """Return so many of a description: "three red cubes"."""
         number = "no" if count == 0 else number_word(count)
@@ -139,7 +152,9 @@ class ThingWords:
         several = description.many if many is None else many
         adjectives, noun, behind = [], "", []
         for condition in description.conditions:
-            if isinstance(condition, query.HasValue) and not self._as_noun(condition):
+            if isinstance(condition, query.HasValue) and self._stands_behind(condition):
+                behind.append(self._stands_behind(condition))
+            elif isinstance(condition, query.HasValue) and not self._as_noun(condition):
                 words = self.things.features[condition.feature].words[condition.value]
                 adjectives.append(words[0] if words else f"({condition.value})")
             elif isinstance(condition, query.HasValue) and not noun:
@@ -157,12 +172,18 @@ class ThingWords:
     def _as_noun(self, condition: query.HasValue) -> bool:
         return bool(self.things.features[condition.feature].nouns[condition.value])
 
+    def _stands_behind(self, condition: query.HasValue) -> str:
+        return self.things.features[condition.feature].behind.get(condition.value, "")
+
     def _selected(self, description: query.Description) -> str:
         match description.selection:
             case query.Extreme(relation=relation, rank=rank, from_end=from_end):
                 words = self.things.relations[relation].most or (f"most {relation}",)
                 counted = "" if rank == 1 else RANKS[rank - 1] if rank <= len(RANKS) else str(rank)
                 return " ".join(filter(None, ["last" if from_end else counted, words[0]]))
+            case query.Corner(relations=relations):
+                ways = [self.things.relations[relation] for relation in relations]
+                return " ".join([*way.side, *way.most, way.key][0] for way in ways)
             case query.Ranked(feature=feature, most=most):
                 values = self.things.features[feature].values
                 return superlative(self.value(feature, values[-1 if most else 0]))
@@ -202,7 +223,7 @@ class ThingWords:
         """Return a condition as it stands behind "is": "red", "left of the blue ball"."""
         match condition:
             case query.HasValue(feature=feature, value=value):
-                said = self.value(feature, value)
+                said = self._stands_behind(condition) or self.value(feature, value)
                 if not self._as_noun(condition):
                     return said
                 return plural(said) if many else with_article(said)
@@ -231,8 +252,12 @@ class ThingWords:
                 return f"between {self.reference(first)} and {self.reference(second)}"
             case query.Apart(one=one):
                 return "" if one is None else f"other than {self.reference(one)}"
+            case query.Is(one=one) if one.description.selection is not None:
+                return f"the {self.phrase(one.description, many=False)}"
             case query.Is(one=one):
                 return self.reference(one)
+            case query.Not(condition=query.PartOf(group=group)):
+                return f"part of no {self.things.groups[group].one}"
             case query.Not(condition=inner):
                 return f"not {self.predicate(inner, many=many)}"
             case query.All(conditions=inners):
