@@ -635,6 +635,13 @@ def test_a_contact_sheet(run: Run, tiles_folder: Path, fresh_data: Path) -> None
     assert target.is_file()
 
 
+def test_the_demo_is_of_pictures_with_a_class(run: Run, tmp_path: Path) -> None:
+    result = run("demo", "--domain", "tabletop", "--out", tmp_path / "demo")
+    assert result.code == 2
+    assert "'tabletop' has several things in a picture" in result.err.replace("\n", " ")
+    assert not (tmp_path / "demo").exists()
+
+
 @pytest.mark.usefixtures("in_one_process")
 def test_the_demonstration_of_a_domain(
     run: Run, made: Domain, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -39,12 +39,18 @@ def demo(
     from seewhy.data.dataset import Dataset
     from seewhy.data.making import make_dataset
     from seewhy.domain.domain import load_domain
+    from seewhy.errors import SeeWhyError
     from seewhy.evaluation import evaluate
     from seewhy.files.whole_files import write_whole
     from seewhy.report.page import report_page
 
     start = perf_counter()
     loaded = load_domain(domain)
+    if loaded.things is not None or not loaded.classes:
+        raise SeeWhyError(
+            f"the demo is of pictures with a class, and the domain '{loaded.name}' has several "
+            "things in a picture; make some with 'seewhy data make', then 'seewhy train' and 'ask'"
+        )
     quiet = json
 
     def heading(text: str) -> None:
@@ -65,7 +71,8 @@ def demo(
     if not quiet:
         shares = ", ".join(f"{n} {100 * share:.0f} %" for n, share in made.classes.items())
         said = shares if len(made.classes) <= FEW_CLASSES else f"{len(made.classes)} classes"
-        say(f"{said}; the features determine {100 * made.determined:.1f} % of the outcomes")
+        determined = made.determined or 0.0
+        say(f"{said}; the features determine {100 * determined:.1f} % of the outcomes")
     heading("Training what sees, the tree and the answers")
     dataset = Dataset.load(out / "pictures", loaded)
     agent = trained_already(out / "model", dataset, seed=seed)
