@@ -78,7 +78,7 @@ class Evaluation:
     >>> from seewhy.domain.domain import load_domain
     >>> things = load_domain("tabletop").things
     >>> scene = thing_scene(things, [{"colour": "red"}, {"colour": None}], relations={})
-    >>> Evaluation(scene, things).fits(Description((HasValue("colour", "red"),)))
+    >>> Evaluation(scene, things).fits(query.Description((query.HasValue("colour", "red"),)))
     Fits(surely=1, maybe=3)
     """
 

@@ -76,11 +76,8 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
         case CompareCounts(sign=sign, first=first, second=second):
             one, other = evaluation.fits(first), evaluation.fits(second)
             return Outcome(_compared(sign, _span(one), _span(other)), (one, other))
-        case CountDifference(sign=sign, first=first, second=second):
-            one, other = evaluation.fits(first), evaluation.fits(second)
-            more = one.surely.bit_count() - other.surely.bit_count()
-            more = more if sign == ">" else -more
-            return Outcome(more if one.known and other.known else None, (one, other))
+        case CountDifference():
+            return _count_difference(query, evaluation)
         case Most(described=described, condition=condition):
             fits = evaluation.fits(Description((*described.conditions, condition)))
             return Outcome(most_are(query, evaluation), (fits,))
@@ -117,6 +114,13 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
         case Completing():
             return Outcome(_completing(query, evaluation))
     raise TypeError(f"must be a query, got {query!r}")
+
+
+def _count_difference(query: CountDifference, evaluation: Evaluation) -> Outcome:
+    fits = (evaluation.fits(query.first), evaluation.fits(query.second))
+    first, second = (one.surely.bit_count() for one in fits)
+    more = first - second if query.sign == ">" else second - first
+    return Outcome(more if all(one.known for one in fits) else None, fits)
 
 
 def _tallied(query: SharedByMost | MostCommon | Occurring, evaluation: Evaluation) -> Outcome:

@@ -52,7 +52,7 @@ class ThingWords:
     >>> words = ThingWords(Evaluation(scene, things))
     >>> words.name(0), words.name(1)
     ('the small red metal cube', 'the red thing')
-    >>> words.phrase(Description((HasValue("colour", "red"),), many=True))
+    >>> words.phrase(query.Description((query.HasValue("colour", "red"),), many=True))
     'red things'
     """
 
