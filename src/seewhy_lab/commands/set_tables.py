@@ -29,7 +29,8 @@ from seewhy.data.scene import Scene
 from seewhy.data.table_writing import write_tables
 from seewhy.data.thing import BoundingBox, Thing
 from seewhy.domain.domain import load_domain
-from seewhy.errors import DatasetError
+from seewhy.errors import DatasetError, PictureError
+from seewhy.perception.picture_file import open_picture
 
 __all__ = ["compose", "main", "photographs"]
 
@@ -102,8 +103,7 @@ def compose(
     found = []
     for card, place in zip(cards, sorted(int(place) for place in places), strict=True):
         row, column = divmod(place, columns)
-        with Image.open(card.file) as opened:
-            picture, mask = _turned(opened.convert("RGB"), cell, rng)
+        picture, mask = _turned(_photograph(card.file), cell, rng)
         spare = (cell[0] - picture.width, cell[1] - picture.height)
         left = round(column * cell[0] + spare[0] * rng.uniform(0.2, 0.8))
         top = round(row * cell[1] + spare[1] * rng.uniform(0.2, 0.8))
@@ -198,3 +198,11 @@ def _drawn(cards: list[Photograph], rng: np.random.Generator, source: Path) -> l
 
 if __name__ == "__main__":
     typer.run(main)
+
+
+def _photograph(file: Path) -> Image.Image:
+    try:
+        with open_picture(file) as opened:
+            return opened.convert("RGB")
+    except PictureError as problem:
+        raise PictureError(f"{file} {problem}") from None
