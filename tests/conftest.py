@@ -351,5 +351,5 @@ def page(chromium: Browser) -> Iterator[Page]:
     # A refused script or style (Content-Security-Policy) is an error of the console; so is an
     # answer that says what was wrong with a form, which is meant. The page may ask for news once
     # more when the server has ended.
-    meant = ("422", "ERR_CONNECTION_REFUSED")
+    meant = ("422", "ERR_CONNECTION_REFUSED", "htmx:afterRequest", "htmx:sendError")
     assert [said for said in problems if not any(word in said for word in meant)] == []
