@@ -100,7 +100,7 @@ def show(request: Request, start: Annotated[int, Query(ge=0, le=1_000_000)] = 0)
         start=start,
         suggested=suggested_pattern(project),
         tiles=TILES,
-        counts=kept(project.labels()),
+        counts=kept(project.labels(), domain.things),
         **shown,
     )
 
@@ -159,7 +159,7 @@ def page(request: Request) -> Response:
 def _problem(project: Project) -> str:
     if not project.has_model:
         return _NO_MODEL
-    return "" if kept(project.labels())["test"] else _NONE_KEPT
+    return "" if kept(project.labels(), project.domain().things)["test"] else _NONE_KEPT
 
 
 def _is_stale(project: Project, job: Job) -> bool:
