@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import html
+import re
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,6 +12,7 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
+from conftest import Shelf
 from seewhy.studio import jobs
 from seewhy.studio.drawing import draw, say_of_thing
 from seewhy.studio.jobs import Jobs
@@ -95,3 +99,127 @@ def test_training_on_things_is_the_same_command(
     assert (task, module) == ("train", "seewhy")
     assert said == ["train", "piles", "--data", ".", "--out", "model"]
     assert asked["pictures"] == 14
+
+
+# Asking ---------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def shown(shelf: Shelf, tmp_path: Path) -> Project:
+    """A project with shapes on a shelf, and a model of them."""
+    folder = tmp_path / "shapes"
+    shutil.copytree(shelf.data, folder)
+    shutil.copytree(shelf.domain, folder / "shelf")
+    shutil.copytree(shelf.model, folder / "model")
+    return Project(folder)
+
+
+@pytest.fixture
+def asking(shown: Project) -> Iterator[Browser]:
+    with TestClient(site(shown, rules=RULES, embed=embed)) as client:
+        yield Browser(client)
+
+
+PICTURE = "images/003.png"
+
+
+def suggested(text: str) -> list[str]:
+    return [html.unescape(one) for one in re.findall(r'name="question" value="([^"]+)"', text)]
+
+
+def count_of(project: Project, value: str = "") -> int:
+    rows = (project.folder / "things.csv").read_text().splitlines()
+    return sum(row.startswith(PICTURE) and value in row for row in rows)
+
+
+def test_what_was_seen_of_each_thing_is_shown(asking: Browser, shown: Project) -> None:
+    text = asking.get(f"/ask?picture={PICTURE}")
+    count = count_of(shown)
+    assert text.count('<rect class="line"') >= count
+    assert len(re.findall(r'<tr><th scope="row">\d: ', text)) == count
+    assert re.search(r"<td>(small|large) <span class=\"soft\">\d+ %</span></td>", text)
+    assert 'viewBox="0 0 128 96"' in text
+    assert "what is there?" in text
+    for control in ("/ask/what-if", "/ask/doubt", "/ask/where", "/share/answers.html"):
+        assert control not in text
+
+
+def test_questions_are_answered_in_one_conversation(asking: Browser, shown: Project) -> None:
+    asked = {"picture": PICTURE}
+    text = asking.post("/ask", **asked, question="how many red shapes are there?")
+    reds = count_of(shown, ",red,")
+    assert re.search(
+        rf'<p class="text">[^<]*\b({reds}|{["no", "one", "two", "three", "four"][reds]})\b', text
+    )
+    assert 'class="tree"' in text
+    assert "chosen" in text or not reds
+    text = asking.post("/ask", **asked, question="and the blue ones?")
+    assert "blue" in re.findall(r'<p class="text">([^<]+)', text)[0]
+    text = asking.post("/ask", **asked, question="why?")
+    assert text.count('<li><span class="soft">') == 2
+    refused = asking.client.post("/ask", data={"csrf": asking.csrf, **asked, "question": "moo"})
+    assert refused.status_code == 422
+    assert asking.get("/ask").count('<li><span class="soft">') == 2  # the talk goes on
+    other = asking.get("/ask?picture=images/004.png")
+    assert '<li><span class="soft">' not in other
+    refused = asking.client.post("/ask", data={"csrf": asking.csrf, **asked, "question": " "})
+    assert "nothing is asked" in refused.text
+
+
+def test_every_question_that_is_suggested_is_answered(asking: Browser) -> None:
+    first = suggested(asking.get(f"/ask?picture={PICTURE}"))
+    assert "how many shapes are there?" in first
+    assert "why?" in first
+    assert 4 <= len(first) <= 7
+    for question in first:
+        asking.post("/ask", picture=PICTURE, question="what is there?")
+        asking.post("/ask", picture=PICTURE, question=question)
+    following = suggested(asking.post("/ask", picture=PICTURE, question="how many red shapes?"))
+    assert any(one.startswith("and the ") for one in following)
+    assert "and the red ones?" not in following
+
+
+def test_a_rule_that_is_revised_holds_at_once(asking: Browser, shown: Project) -> None:
+    before = asking.get(f"/ask?picture={PICTURE}")
+    assert "contradicts the knowledge" not in before
+    file = shown.folder / "shelf" / "knowledge.al"
+    file.write_text(file.read_text() + "tidy(P) if picture(P).\nuntidy(P) if tidy(P).\n")
+    shown.refresh()
+    assert "contradicts the knowledge" in asking.get(f"/ask?picture={PICTURE}")
+
+
+def test_a_model_that_was_trained_for_other_features_says_so(
+    asking: Browser, shown: Project
+) -> None:
+    file = shown.folder / "shelf" / "domain.toml"
+    file.write_text(file.read_text().replace('measure = "left"', 'measure = "seen"'))
+    shown.refresh()
+    assert "were changed since the model was trained" in asking.get(f"/ask?picture={PICTURE}")
+
+
+def test_what_is_missing_for_asking_is_a_sentence(
+    browser: Browser, project: Project, model_folder: Path
+) -> None:
+    assert "There is no model yet: draw boxes and train." in browser.get("/ask")
+    shutil.copytree(model_folder, project.folder / "model")
+    text = browser.get("/ask")
+    assert "The model is of one thing in a picture, and the domain has several: train anew." in text
+    refused = browser.client.post(
+        "/ask", data={"csrf": browser.csrf, "picture": "a.png", "question": "what is there?"}
+    )
+    assert refused.status_code == 422
+    assert "train anew" in refused.text
+
+
+def test_what_is_for_one_thing_says_so(asking: Browser) -> None:
+    assert "This is for pictures of one thing" in asking.get("/share")
+    for path in ("/ask/what-if", "/ask/doubt", "/share/answers.html"):
+        refused = asking.client.get(path, params={"picture": PICTURE})
+        assert refused.status_code == 422
+
+
+def test_a_picture_that_cannot_be_read_is_said(asking: Browser, shown: Project) -> None:
+    (shown.folder / PICTURE).write_bytes(b"no picture")
+    text = asking.get(f"/ask?picture={PICTURE}")
+    assert 'class="problem" role="alert"' in text
+    assert "003.png" in text
