@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import html
+import json
 import re
 import shutil
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,11 +17,11 @@ from fastapi.testclient import TestClient
 from conftest import Shelf
 from seewhy.studio import jobs
 from seewhy.studio.drawing import draw, say_of_thing
-from seewhy.studio.jobs import Jobs
+from seewhy.studio.jobs import Jobs, jobs_of
 from seewhy.studio.keeping_back import keep_back, kept, place
 from seewhy.studio.project import Project
 from seewhy.studio.site import site
-from studio_builder import RULES, Browser, embed
+from studio_builder import RULES, Browser, embed, ended_job
 from thing_pictures import piles
 
 
@@ -223,3 +225,92 @@ def test_a_picture_that_cannot_be_read_is_said(asking: Browser, shown: Project) 
     text = asking.get(f"/ask?picture={PICTURE}")
     assert 'class="problem" role="alert"' in text
     assert "003.png" in text
+
+
+# Evaluating -----------------------------------------------------------------------------------
+
+
+def test_figures_and_wrong_pictures_of_things(asking: Browser, shown: Project) -> None:
+    thing, drawn = next(iter(shown.labels().drawn_in(PICTURE).things.items()))
+    other = "blue" if drawn.values["colour"].value == "red" else "red"
+    say_of_thing(shown, PICTURE, thing, "colour", other, who="Ada")
+    asking.post("/evaluate", part=False)
+    end = time.monotonic() + 240
+    while jobs_of(shown).of("evaluate")[0].runs:
+        assert time.monotonic() < end
+        time.sleep(0.2)
+    job = jobs_of(shown).of("evaluate")[0]
+    assert job.state == "finished", job.lines()
+    found, text = job.printed(), asking.get("/evaluate")
+    assert found["known"] == 0
+    assert f"{found['things']['annotated']} drawn" in text
+    assert "colour of a shape" in text
+    assert "one is left of another" in text
+    whole = found["scenes_wholly_right"]
+    assert f"<strong>{whole['right']} of {whole['of']}</strong> pictures are wholly right" in text
+    assert f'href="/label?picture={PICTURE}"' in text
+    assert f'href="/ask?picture={PICTURE}"' in text
+    assert re.search(rf'class="wrong">colour of {other}', text)
+    assert "page.html" not in text
+    say_of_thing(shown, PICTURE, thing, "colour", drawn.values["colour"].value, who="Ada")
+    assert "Its boxes or labels were changed since" in asking.get("/evaluate")
+    (shown.folder / "model" / "model.json").touch()
+    assert "The model was trained again since" in asking.get("/evaluate")
+
+
+SHARE = {"right": 1, "of": 2, "accuracy": 0.5}
+PRINTED: dict[str, Any] = {
+    "pictures": 70,
+    "things": {"annotated": 2, "found": 2, "missed": 0, "imagined": 1},
+    "features": {"colour": {**SHARE, "majority": 0.6}, "gone": {**SHARE, "majority": 0.6}},
+    "relations": {"on": {**SHARE, "majority": 0.9}},
+    "scenes_wholly_right": SHARE,
+    "scenes_wholly_right_with_relations": SHARE,
+    "class": {**SHARE, "majority": 0.7},
+    "inconsistent": 3,
+    "pictures_per_second": 1.0,
+    "known": 4,
+    "wrong": [
+        {"image": f"images/{n:03}.png", "wrong": ["a", "b<", "c", "d", "e"]} for n in range(99)
+    ],
+}
+
+
+def test_what_the_evaluation_of_things_printed_is_told(asking: Browser, shown: Project) -> None:
+    ended_job(shown, "evaluate", json.dumps(PRINTED))
+    text = asking.get("/evaluate")
+    assert "4 of the pictures taught the model" in text
+    assert "3 could not be read as the knowledge allows" in text
+    assert "one is on another" in text
+    assert "gone" not in text
+    assert "b&lt;" in text
+    assert "and 1 more" in text
+    assert text.count('class="tile"') == 48  # the others are no pictures of the project
+
+
+def test_an_evaluation_of_the_other_kind_is_not_shown(asking: Browser, shown: Project) -> None:
+    ended_job(shown, "evaluate", json.dumps({"scenes": 3, "wrong": []}))
+    text = asking.get("/evaluate")
+    assert "Figures" not in text
+    assert "on 12 pictures kept for it" in text
+
+
+def test_what_is_missing_for_evaluating_things_is_a_sentence(
+    browser: Browser, project: Project, shelf: Shelf, model_folder: Path
+) -> None:
+    assert "There is no model yet" in browser.get("/evaluate")
+    shutil.copytree(shelf.model, project.folder / "model")
+    draw_in(project, 0, 8)
+    assert "No labelled picture is kept for evaluation" in browser.get("/evaluate")
+    browser.post("/evaluate/keep-back", part=False)
+    assert "on 2 pictures kept for it" in browser.get("/evaluate")
+    shutil.rmtree(project.model_folder)
+    shutil.copytree(model_folder, project.model_folder)
+    text = browser.get("/evaluate")
+    assert "The model is of one thing in a picture, and the domain has several" in text
+    assert "Keep a quarter" not in text
+    refused = browser.client.post("/evaluate", data={"csrf": browser.csrf})
+    assert refused.status_code == 422
+    (project.model_folder / "model.json").write_text("{")
+    assert "model.json" in browser.get("/evaluate")
+    assert "model.json" in browser.get("/ask")

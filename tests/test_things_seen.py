@@ -42,6 +42,18 @@ def test_things_are_found_and_read(shelf: Shelf, agent: ThingAgent) -> None:
     assert result.classes is not None
     assert result.pictures == result.scenes.of == 12
     assert len(result.wrong) == 12 - result.scenes_with_relations.right
+    assert result.known == 0
+
+
+def test_pictures_that_taught_the_model_are_counted_and_said(
+    shelf: Shelf, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    agent = ThingAgent.load(shelf.model)
+    tested = Dataset.load(shelf.data, agent.domain).of_split("test")
+    agent.trained_on = frozenset(tested.picture_digests()[:3])
+    monkeypatch.setattr(ThingAgent, "load", lambda *_, **__: agent)
+    judged = run("evaluate", str(shelf.model), "--data", str(shelf.data))
+    assert "3 of the pictures taught the model" in judged.err
 
 
 def _test_scenes(shelf: Shelf, agent: ThingAgent) -> tuple[object, ...]:

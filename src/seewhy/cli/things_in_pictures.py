@@ -278,16 +278,15 @@ def evaluate_things_seen(
 
     agent = _loaded(model, device)
     dataset = read_data(data, agent.domain, outside=outside, evaluated=True)
-    known = agent.trained_on.intersection(dataset.of_split("test").picture_digests())
-    if known:
-        warn(
-            f"{len(known):,} of the pictures taught the model: of those it knows too much for the "
-            "figures to hold for others"
-        )
     with progress() as bars:
         task = bars.add_task("looking at pictures", total=len(dataset.of_split("test")))
         result = evaluate_things(
             agent, dataset, on_progress=lambda done: bars.update(task, completed=done)
+        )
+    if result.known:
+        warn(
+            f"{result.known:,} of the pictures taught the model: of those it knows too much for "
+            "the figures to hold for others"
         )
     if json:
         print_json(result.to_dict())

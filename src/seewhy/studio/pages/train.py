@@ -176,8 +176,8 @@ def _ready(project: Project, jobs: Sequence[Job]) -> Ready:
     done = next((job.number for job in jobs if job.state == FINISHED), None)
     since = 0
     if done is not None:
-        said = [entry for kind in (LABEL, BOXES) for entry in project.record.holding(kind)]
-        since = sum(entry.number > done for entry in said)
+        entries = [entry for kind in (LABEL, BOXES) for entry in project.record.holding(kind)]
+        since = sum(entry.number > done for entry in entries)
     goes_on = _checkpoints(project).is_dir()
     return Ready(counts["train"], counts["test"], problem, since, goes_on, things)
 
