@@ -31,6 +31,7 @@ os.environ["SEEWHY_PROGRESS_SECONDS"] = "3600"
 from PIL import Image, ImageDraw
 
 from seewhy.agent.agent import Agent
+from seewhy.agent.things.thing_agent import ThingAgent
 from seewhy.cli.main import main
 from seewhy.data.dataset import Dataset
 from seewhy.dialogue import recurrent
@@ -39,6 +40,9 @@ from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception import fitting_extractor, fitting_eyes, parallel
 from seewhy.perception.course import Course
+from seewhy.perception.things import fitting_detector
+from things_builder import write_domain as write_shelf_domain
+from things_builder import write_shelf
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -260,6 +264,35 @@ def model_folder(agent: Agent, tmp_path_factory: pytest.TempPathFactory) -> Path
     folder = tmp_path_factory.mktemp("models") / "model"
     agent.save(folder)
     return folder
+
+
+class Shelf(NamedTuple):
+    domain: Path
+    data: Path
+    model: Path
+
+
+@pytest.fixture(scope="session")
+def shelf(tmp_path_factory: pytest.TempPathFactory) -> Shelf:
+    """A model of shapes, trained in seconds: with so plain ones, few passes are enough."""
+    folder = tmp_path_factory.mktemp("things")
+    domain = write_shelf_domain(folder / "shelf")
+    data = write_shelf(folder / "data", 48)
+    with pytest.MonkeyPatch.context() as patch:
+        _quickly(patch)
+        agent = ThingAgent(load_domain(domain)).fit(Dataset.load(data, load_domain(domain)))
+    agent.save(folder / "model")
+    return Shelf(domain, data, folder / "model")
+
+
+def _quickly(patch: pytest.MonkeyPatch) -> None:
+    patch.setattr(fitting_eyes, "FEW", 20)
+    patch.setattr(fitting_eyes, "_PASSES", (2, 2))
+    patch.setattr(fitting_eyes, "_PASSES_AGAIN", (1, 1))
+    patch.setattr(fitting_eyes, "_VIEWS", (1, 1))
+    patch.setattr(fitting_detector, "FEW", 20)
+    patch.setattr(fitting_detector, "_PASSES", (20, 20))
+    patch.setattr(fitting_detector, "_MOST_VIEWS", 2)
 
 
 @pytest.fixture(scope="session")

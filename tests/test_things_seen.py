@@ -7,13 +7,12 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
-from typing import NamedTuple
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from conftest import Run
+from conftest import Run, Shelf
 from seewhy.agent.agent import Agent
 from seewhy.agent.things import thing_fitting
 from seewhy.agent.things.thing_agent import ThingAgent
@@ -22,38 +21,6 @@ from seewhy.data.thing import BoundingBox
 from seewhy.domain.domain import load_domain
 from seewhy.errors import DatasetError, DomainError, ModelError, NotFittedError
 from seewhy.evaluation.things_seen import evaluate_things
-from seewhy.perception import fitting_eyes
-from seewhy.perception.things import fitting_detector
-from things_builder import write_domain, write_shelf
-
-
-class Shelf(NamedTuple):
-    domain: Path
-    data: Path
-    model: Path
-
-
-@pytest.fixture(scope="module")
-def shelf(tmp_path_factory: pytest.TempPathFactory) -> Shelf:
-    """A model of shapes, trained in seconds: with so plain ones, few passes are enough."""
-    folder = tmp_path_factory.mktemp("things")
-    domain = write_domain(folder / "shelf")
-    data = write_shelf(folder / "data", 48)
-    with pytest.MonkeyPatch.context() as patch:
-        _quickly(patch)
-        agent = ThingAgent(load_domain(domain)).fit(Dataset.load(data, load_domain(domain)))
-    agent.save(folder / "model")
-    return Shelf(domain, data, folder / "model")
-
-
-def _quickly(patch: pytest.MonkeyPatch) -> None:
-    patch.setattr(fitting_eyes, "FEW", 20)
-    patch.setattr(fitting_eyes, "_PASSES", (2, 2))
-    patch.setattr(fitting_eyes, "_PASSES_AGAIN", (1, 1))
-    patch.setattr(fitting_eyes, "_VIEWS", (1, 1))
-    patch.setattr(fitting_detector, "FEW", 20)
-    patch.setattr(fitting_detector, "_PASSES", (20, 20))
-    patch.setattr(fitting_detector, "_MOST_VIEWS", 2)
 
 
 @pytest.fixture(scope="module")
@@ -75,6 +42,18 @@ def test_things_are_found_and_read(shelf: Shelf, agent: ThingAgent) -> None:
     assert result.classes is not None
     assert result.pictures == result.scenes.of == 12
     assert len(result.wrong) == 12 - result.scenes_with_relations.right
+    assert result.known == 0
+
+
+def test_pictures_that_taught_the_model_are_counted_and_said(
+    shelf: Shelf, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    agent = ThingAgent.load(shelf.model)
+    tested = Dataset.load(shelf.data, agent.domain).of_split("test")
+    agent.trained_on = frozenset(tested.picture_digests()[:3])
+    monkeypatch.setattr(ThingAgent, "load", lambda *_, **__: agent)
+    judged = run("evaluate", str(shelf.model), "--data", str(shelf.data))
+    assert "3 of the pictures taught the model" in judged.err
 
 
 def _test_scenes(shelf: Shelf, agent: ThingAgent) -> tuple[object, ...]:

@@ -197,7 +197,7 @@ def _print_scene(read: ReadScene) -> None:
             f"perhaps a {read.things.one}, too ({thing.probability:.2f}), around "
             f"({box.middle[0]:.0f}, {box.middle[1]:.0f})"
         )
-    for said in notices(read):
+    for said in read.notices():
         say(said)
     for key, seen in reading.whole.items():
         say(f"seen: {domain.features[key].name} {seen.value} ({seen.probability:.2f})")
@@ -210,31 +210,6 @@ def _print_scene(read: ReadScene) -> None:
     concluded = {read.beliefs.named(literal): literal for literal in read.beliefs.concluded}
     for name in said_once(concluded):
         say(f"it follows that {read.beliefs.say(concluded[name])}")
-
-
-def notices(read: ReadScene) -> list[str]:
-    """What has to be said of a reading that is not as it should be."""
-    reading = read.reading
-    found = []
-    if reading.left_out:
-        found.append(
-            f"{reading.left_out} more may be there: the domain allows {read.things.most} at most, "
-            "and the surest are read"
-        )
-    if not reading.settled:
-        found.append(
-            f"what is seen contradicts the knowledge, and so do the {reading.tried} likeliest "
-            "readings: it is told as seen"
-        )
-    for number, thing in enumerate(reading.things):
-        for key, seen in thing.values.items():
-            if seen.overruled is not None:
-                value, probability = seen.overruled
-                found.append(
-                    f"the knowledge overruled: {key} of {read.names[number]} seen as {value} "
-                    f"({probability:.2f}), {seen.value} ({seen.probability:.2f}) is what fits"
-                )
-    return found
 
 
 def chat_about_things(model: Path, image: Path, *, device: str, json: bool, voice: Any) -> None:
@@ -303,16 +278,15 @@ def evaluate_things_seen(
 
     agent = _loaded(model, device)
     dataset = read_data(data, agent.domain, outside=outside, evaluated=True)
-    known = agent.trained_on.intersection(dataset.of_split("test").picture_digests())
-    if known:
-        warn(
-            f"{len(known):,} of the pictures taught the model: of those it knows too much for the "
-            "figures to hold for others"
-        )
     with progress() as bars:
         task = bars.add_task("looking at pictures", total=len(dataset.of_split("test")))
         result = evaluate_things(
             agent, dataset, on_progress=lambda done: bars.update(task, completed=done)
+        )
+    if result.known:
+        warn(
+            f"{result.known:,} of the pictures taught the model: of those it knows too much for "
+            "the figures to hold for others"
         )
     if json:
         print_json(result.to_dict())

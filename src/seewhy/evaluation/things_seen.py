@@ -73,6 +73,9 @@ class ThingsSeen:
         Pictures of which no reading that was tried is consistent with the knowledge.
     pictures_per_second : float
         Read, from the file on.
+    known : int
+        Pictures that taught the model: of those it knows too much for the figures to hold for
+        others.
     wrong : tuple of WrongScene
         The pictures that are not wholly right.
     """
@@ -88,6 +91,7 @@ class ThingsSeen:
     classes: SeenFeature | None
     inconsistent: int
     pictures_per_second: float
+    known: int
     wrong: tuple[WrongScene, ...]
 
     def to_dict(self) -> dict[str, Any]:
@@ -107,6 +111,7 @@ class ThingsSeen:
             "class": None if self.classes is None else _as_dict(self.classes),
             "inconsistent": self.inconsistent,
             "pictures_per_second": round(self.pictures_per_second, 2),
+            "known": self.known,
             "wrong": [{"image": one.image, "wrong": list(one.wrong)} for one in self.wrong],
         }
 
@@ -270,6 +275,7 @@ class _Counts:
         relations = {
             key: _seen(self.outcomes[key]) for key in self.things.relations if key in self.outcomes
         }
+        digests = self.dataset.of_split("test").picture_digests()
         return ThingsSeen(
             pictures=self.pictures,
             found=self.found,
@@ -282,6 +288,7 @@ class _Counts:
             classes=_seen(self.classes) if self.classes else None,
             inconsistent=self.inconsistent,
             pictures_per_second=pictures_per_second,
+            known=len(self.agent.trained_on.intersection(digests)),
             wrong=tuple(self.wrong),
         )
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from hashlib import sha256
 
 from seewhy.data.importers.groups import SUGGESTED, group_of, grouping, suggested_groups
 from seewhy.domain.tables import CLASS
+from seewhy.domain.things import Things
 from seewhy.errors import DatasetError
 from seewhy.studio.labels import ROWS, Labels
 from seewhy.studio.project import Project
@@ -25,7 +26,9 @@ Kept = Counter[str]
 """How many labelled pictures are trained on (``train``) and evaluated on (``test``)."""
 
 
-def splits(labels: Labels, groups: Mapping[str, str] | None = None) -> dict[str, str]:
+def splits(
+    labels: Labels, groups: Mapping[str, str] | None = None, *, things: Things | None = None
+) -> dict[str, str]:
     """Picture → split, for labelled pictures that have none yet; groups stay together.
 
     Parameters
@@ -33,6 +36,8 @@ def splits(labels: Labels, groups: Mapping[str, str] | None = None) -> dict[str,
     labels : Labels
     groups : mapping of str to str or None
         Picture → its group, beside those that the labels have.
+    things : Things or None
+        The domain's, where its pictures show several: those in which each has a box are kept.
 
     What is kept is spread over the classes: of each every fourth, in an order that follows from
     the pictures' names alone.
@@ -45,7 +50,7 @@ def splits(labels: Labels, groups: Mapping[str, str] | None = None) -> dict[str,
     ['test', 'test', 'train', 'train', 'train', 'train', 'train', 'train']
     """
     together: dict[str, list[str]] = {}
-    for picture in labels.of:
+    for picture in _annotated(labels, things):
         group = labels.rows.get(picture, {}).get("group") or (groups or {}).get(picture)
         together.setdefault(group or f"/{picture}", []).append(picture)
     shown: Counter[tuple[str | None, str]] = Counter()
@@ -53,11 +58,11 @@ def splits(labels: Labels, groups: Mapping[str, str] | None = None) -> dict[str,
     for group in sorted(together, key=lambda name: sha256(name.encode()).digest()):
         pictures = together[group]
         given = {split for name in pictures if (split := _split(labels.rows, name))}
-        label = labels.value(pictures[0], CLASS)
+        label = _stratum(labels, pictures, things)
         if given:
             split = TRAIN if TRAIN in given else TEST
         else:
-            # What has no class tells nothing of classes: it trains.
+            # What has no class, or no boxes where there are things, tells too little: it trains.
             few = (
                 _SHARE * (shown[label, TEST] + 1)
                 <= sum(shown[label, one] for one in (TRAIN, TEST)) + 1
@@ -68,9 +73,13 @@ def splits(labels: Labels, groups: Mapping[str, str] | None = None) -> dict[str,
     return found
 
 
-def kept(labels: Labels) -> Kept:
-    """How many labelled pictures are of each split; all train where none is kept."""
-    return Counter(_split(labels.rows, picture) or TRAIN for picture in labels.of)
+def kept(labels: Labels, things: Things | None = None) -> Kept:
+    """How many labelled pictures are of each split; all train where none is kept.
+
+    Where the domain has things, only pictures count whose things have boxes.
+    """
+    counted = labels.of if things is None else filter(labels.is_boxed, labels.drawn)
+    return Counter(_split(labels.rows, picture) or TRAIN for picture in counted)
 
 
 def keep_back(project: Project, *, who: str, pattern: str | None = None) -> None:
@@ -89,10 +98,10 @@ def keep_back(project: Project, *, who: str, pattern: str | None = None) -> None
     DatasetError
         If it is no regular expression, or in no picture's name.
     """
-    labels = project.labels()
+    labels, things = project.labels(), project.domain().things
     pattern = _pattern_said(project) if pattern is None else pattern.strip()
-    groups = _groups(labels.of, pattern)
-    found = splits(labels, groups)
+    groups = _groups(_annotated(labels, things), pattern)
+    found = splits(labels, groups, things=things)
     if not found:
         return
     rows: dict[str, dict[str, str]] = {}
@@ -107,7 +116,8 @@ def suggested_pattern(project: Project) -> str:
     labels = project.labels()
     if any(row.get("group") for row in labels.rows.values()):
         return ""
-    named = ((name, labels.value(name, CLASS) or "") for name in labels.of)
+    things = project.domain().things
+    named = ((name, labels.value(name, CLASS) or "") for name in _annotated(labels, things))
     return SUGGESTED if suggested_groups(named) else ""
 
 
@@ -116,9 +126,22 @@ def place(project: Project, *, who: str) -> None:
 
     Without one they would neither be trained nor evaluated on.
     """
-    labels = project.labels()
-    if any(_split(labels.rows, picture) for picture in labels.of):
+    labels, things = project.labels(), project.domain().things
+    if any(_split(labels.rows, picture) for picture in _annotated(labels, things)):
         keep_back(project, who=who)
+
+
+def _annotated(labels: Labels, things: Things | None) -> Sequence[str]:
+    """The pictures of which anything is said."""
+    return tuple(labels.of if things is None else {**labels.of, **labels.drawn})
+
+
+def _stratum(labels: Labels, pictures: Sequence[str], things: Things | None) -> str | None:
+    """Over what pictures that belong together are spread: the class; None where they all train."""
+    if things is None:
+        return labels.value(pictures[0], CLASS)
+    boxed = (labels.value(name, CLASS) or "" for name in pictures if labels.is_boxed(name))
+    return next(boxed, None)
 
 
 def _pattern_said(project: Project) -> str:

@@ -60,6 +60,11 @@ class Labels:
         """The things in a picture."""
         return self.drawn.get(picture, PictureThings())
 
+    def is_boxed(self, picture: str) -> bool:
+        """Whether things are drawn in a picture, and each has a box."""
+        things = self.drawn_in(picture).things.values()
+        return bool(things) and all(thing.box for thing in things)
+
     def is_complete(self, picture: str, domain: Domain) -> bool:
         """Whether everything is said of a picture that the domain asks for.
 

@@ -131,6 +131,12 @@ class Project:
                 self._domain = (texts, load_domain(folder))
             return self._domain[1]
 
+    @property
+    def has_things(self) -> bool:
+        """Whether the domain's pictures show several things; not where its files are wrong."""
+        domain = None if self.domain_folder is None else self._usable_domain()
+        return domain is not None and domain.things is not None
+
     def pictures(self) -> Sequence[str]:
         """The names of the pictures, as scenes.csv has them: paths from the folder."""
         with self._lock:

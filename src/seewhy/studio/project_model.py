@@ -6,15 +6,16 @@ import copy
 from collections import OrderedDict
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from threading import RLock
 from typing import TYPE_CHECKING
 
+from seewhy.agent.manifest_file import MANIFEST
 from seewhy.errors import RevisionError, SeeWhyError
 from seewhy.revision.correction import corrected
 from seewhy.revision.edit import KNOWLEDGE, LEARNED, Edit
 from seewhy.revision.proposal import Texts, known_by, texts_of
+from seewhy.studio.model_there import Missing, missing_of, stamp_of
 from seewhy.studio.project import Project
 from seewhy.studio.writing import FILES, learned_edits, read_text
 
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from seewhy.dialogue.reply import Classification
     from seewhy.perception.where import Where
 
-__all__ = ["CORRECTED", "Missing", "ProjectModel"]
+__all__ = ["CORRECTED", "ProjectModel"]
 
 CORRECTED = "corrected"
 """How a label was said that an answer got wrong; it holds on the page until the next training."""
@@ -31,16 +32,11 @@ CORRECTED = "corrected"
 _REMEMBERED = 200
 """Pictures of which it is remembered what they show."""
 
-_MANIFEST = "model.json"
-
-
-@dataclass(frozen=True)
-class Missing:
-    """What a page lacks, in one sentence, and the page where it comes from."""
-
-    sentence: str
-    path: str
-    words: str
+_OF_ONE = Missing(
+    "This is for pictures of one thing, and those of the domain show several: ask about them.",
+    "/ask",
+    "Ask",
+)
 
 
 class ProjectModel:
@@ -65,13 +61,9 @@ class ProjectModel:
     @property
     def missing(self) -> Missing | None:
         """What there must be before a question can be answered; None where all is there."""
-        if self.project.domain_folder is None:
-            return Missing("There is no domain yet: name classes and features.", "/begin", "Begin")
-        if not self.project.has_model:
-            return Missing("There is no model yet: label pictures and train.", "/train", "Train")
-        if not self.project.pictures():
-            return Missing("There is no picture yet: send some.", "/begin", "Begin")
-        return None
+        if self.project.has_things:
+            return _OF_ONE
+        return missing_of(self.project)
 
     @contextmanager
     def at_work(self) -> Iterator[Agent]:
@@ -137,8 +129,7 @@ class ProjectModel:
         missing = self.missing
         if missing is not None:
             raise SeeWhyError(f"{missing.sentence} The page {missing.words} does that.")
-        state = (self.project.model_folder / _MANIFEST).stat()
-        stamp = (state.st_mtime_ns, state.st_size, state.st_ino)
+        stamp = stamp_of(self.project)
         if self._loaded is None or self._loaded[0] != stamp:
             from seewhy.agent.agent import Agent
 
@@ -182,7 +173,7 @@ class ProjectModel:
         return learned_edits(self.project.record.holding(FILES))
 
     def _corrections(self, picture: str, agent: Agent) -> dict[str, str]:
-        trained = (self.project.model_folder / _MANIFEST).stat().st_mtime
+        trained = (self.project.model_folder / MANIFEST).stat().st_mtime
         since = datetime.fromtimestamp(trained, UTC).isoformat(timespec="milliseconds")
         features = agent.domain.features
         return {

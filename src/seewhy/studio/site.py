@@ -20,11 +20,13 @@ from seewhy.studio.pages import PAGES, pictures
 from seewhy.studio.per_session import PerSession
 from seewhy.studio.project import Project
 from seewhy.studio.project_model import ProjectModel
+from seewhy.studio.project_things import ProjectThings
 from seewhy.studio.proposing import Embed, Proposer, backbone_embedding
 from seewhy.studio.rendering import STATIC, from_script, render
 from seewhy.studio.session import THEMES, Theme, keep_theme, keep_who
 from seewhy.studio.state import Studio
 from seewhy.studio.talk import Talk
+from seewhy.studio.thing_talk import ThingTalk
 from seewhy.studio.trail import Trail
 
 __all__ = ["site"]
@@ -58,6 +60,8 @@ def site(project: Project, *, rules: AccessRules, embed: Embed | None = None) ->
         PerSession(Trail),
         ProjectModel(project),
         PerSession(Talk),
+        ProjectThings(project),
+        PerSession(ThingTalk),
         local=not rules.token,
     )
     app.state.csrf_key = secrets.token_bytes(32)

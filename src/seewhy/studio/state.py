@@ -9,8 +9,10 @@ from fastapi import Request
 from seewhy.studio.per_session import PerSession
 from seewhy.studio.project import Project
 from seewhy.studio.project_model import ProjectModel
+from seewhy.studio.project_things import ProjectThings
 from seewhy.studio.proposing import Proposer
 from seewhy.studio.talk import Talk
+from seewhy.studio.thing_talk import ThingTalk
 from seewhy.studio.trail import Trail
 
 __all__ = ["Studio", "studio_of"]
@@ -31,6 +33,10 @@ class Studio:
         Answers the questions.
     talks : PerSession of Talk
         What each browser asked.
+    things : ProjectThings
+        Answers the questions about pictures of several things.
+    thing_talks : PerSession of ThingTalk
+        What each browser asked about such.
     local : bool
         Whether only browsers of this machine are let in, who may name its paths.
     """
@@ -40,6 +46,8 @@ class Studio:
     trails: PerSession[Trail]
     model: ProjectModel
     talks: PerSession[Talk]
+    things: ProjectThings
+    thing_talks: PerSession[ThingTalk]
     local: bool
 
 

@@ -96,6 +96,30 @@ class ReadScene:
         words = ThingWords(Evaluation(self._with_doubtful, self.things))
         return [words.name(number) for number in range(self._with_doubtful.count)]
 
+    def notices(self) -> list[str]:
+        """What has to be said of a reading that is not as it should be."""
+        reading = self.reading
+        found = []
+        if reading.left_out:
+            found.append(
+                f"{reading.left_out} more may be there: the domain allows {self.things.most} at "
+                "most, and the surest are read"
+            )
+        if not reading.settled:
+            found.append(
+                f"what is seen contradicts the knowledge, and so do the {reading.tried} likeliest "
+                "readings: it is told as seen"
+            )
+        for number, thing in enumerate(reading.things):
+            for key, seen in thing.values.items():
+                if seen.overruled is not None:
+                    value, probability = seen.overruled
+                    found.append(
+                        f"the knowledge overruled: {key} of {self.names[number]} seen as {value} "
+                        f"({probability:.2f}), {seen.value} ({seen.probability:.2f}) is what fits"
+                    )
+        return found
+
     # What may be otherwise --------------------------------------------------------------------
 
     @cached_property

@@ -12,6 +12,7 @@ from seewhy.dialogue.asked import Asks, Question
 from seewhy.errors import PictureError, QuestionError, SeeWhyError
 from seewhy.studio.incoming import sent_picture
 from seewhy.studio.pages import ask_doubt, ask_where
+from seewhy.studio.pages.ask_things import answer_about_things, things_or_problem
 from seewhy.studio.pages.asking import asked_again, chosen, shown_answer, understood
 from seewhy.studio.pages.page import Page
 from seewhy.studio.rendering import from_script, render
@@ -19,6 +20,7 @@ from seewhy.studio.session import who_of
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.suggesting import suggested_questions
 from seewhy.studio.supposing import suppose
+from seewhy.studio.thing_talk import ThingTalk
 
 __all__ = ["PAGE"]
 
@@ -43,10 +45,11 @@ def show(
 ) -> Response:
     """The page, with the picture that was chosen last."""
     studio = studio_of(request)
-    missing = studio.model.missing
+    several = studio.project.has_things
+    missing = (studio.things if several else studio.model).missing
     if missing is not None:
         return render(request, "ask.html", missing=missing)
-    talk = studio.talks.of(request.state.session)
+    talk = (studio.thing_talks if several else studio.talks).of(request.state.session)
     name = chosen(studio, picture) if picture else talk.picture
     if name not in set(studio.project.pictures()):
         name = studio.project.pictures()[0]
@@ -62,7 +65,12 @@ def show(
         find=find,
         at=at,
         last=max(0, len(names) - 1) // _STRIP,
-        **_bench_or_problem(studio, request),
+        bench="_ask_things.html" if several else "_ask_bench.html",
+        **(
+            things_or_problem(studio, talk)
+            if isinstance(talk, ThingTalk)
+            else _bench_or_problem(studio, request)
+        ),
     )
 
 
@@ -85,6 +93,8 @@ def answer(
 ) -> Response:
     """Answer a question; one that leaves something out is about what was spoken of."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        return answer_about_things(request, picture, question)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     if not question.strip():

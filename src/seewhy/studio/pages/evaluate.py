@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Annotated, Any
@@ -16,6 +16,12 @@ from seewhy.errors import SeeWhyError
 from seewhy.studio.jobs import FINISHED, Job, jobs_of
 from seewhy.studio.keeping_back import keep_back, kept, suggested_pattern
 from seewhy.studio.labelling import pictures_of
+from seewhy.studio.model_there import other_kind
+from seewhy.studio.pages.evaluate_things import (
+    is_of_things_seen,
+    rows_of_things,
+    wrong_pictures,
+)
 from seewhy.studio.pages.page import Page
 from seewhy.studio.project import Project
 from seewhy.studio.rendering import render
@@ -81,15 +87,11 @@ def show(request: Request, start: Annotated[int, Query(ge=0, le=1_000_000)] = 0)
     done = next((job for job in jobs if job.state == FINISHED), None)
     found = done.printed() if done else None
     domain = project.domain()
+    if is_of_things_seen(found) != (domain.things is not None):
+        found = None  # it is of the domain as it was, which had things, or had none
     shown: dict[str, Any] = {"rows": (), "wrong": (), "more": 0, "stale": False}
-    if done is not None and found is not None:
-        wrong = [one for one in found["wrong"] if one["image"] in set(project.pictures())]
-        shown = {
-            "rows": list(_rows(domain, found)),
-            "wrong": list(_tiles(project, domain, done, wrong[start : start + TILES])),
-            "more": max(0, len(wrong) - start - TILES),
-            "stale": _is_stale(project, done),
-        }
+    if done is not None and found:
+        shown = {**_figures(project, done, found, start), "stale": _is_stale(project, done)}
     return render(
         request,
         "evaluate.html",
@@ -97,10 +99,11 @@ def show(request: Request, start: Annotated[int, Query(ge=0, le=1_000_000)] = 0)
         job=jobs[0] if jobs else None,
         done=done,
         found=found,
+        things=domain.things,
         start=start,
         suggested=suggested_pattern(project),
         tiles=TILES,
-        counts=kept(project.labels()),
+        counts=kept(project.labels(), domain.things),
         **shown,
     )
 
@@ -123,7 +126,9 @@ def begin(request: Request) -> Response:
     if problem:
         raise SeeWhyError(problem)
     model = project.model_folder.name
-    command = [TASK, model, "--data", ".", "--json", "--page", "{job}/page.html"]
+    command = [TASK, model, "--data", ".", "--json"]
+    if not project.has_things:
+        command += ["--page", "{job}/page.html"]
     jobs_of(project).start(TASK, "seewhy", command, who=who_of(request))
     return RedirectResponse(PAGE.path, 303)
 
@@ -159,7 +164,32 @@ def page(request: Request) -> Response:
 def _problem(project: Project) -> str:
     if not project.has_model:
         return _NO_MODEL
-    return "" if kept(project.labels())["test"] else _NONE_KEPT
+    other = other_kind(project)
+    if other is not None:
+        return other.sentence[:-1]
+    return "" if kept(project.labels(), project.domain().things)["test"] else _NONE_KEPT
+
+
+def _figures(project: Project, done: Job, found: Mapping[str, Any], start: int) -> dict[str, Any]:
+    """The rows and the wrong pictures of an evaluation, from one of them on."""
+    domain, pictures = project.domain(), set(project.pictures())
+    changed = {
+        picture
+        for entry in project.record.holding()
+        if entry.number > done.number
+        for picture in pictures_of(entry)
+    }
+    some = slice(start, start + TILES)
+    if domain.things is not None:
+        tiles = wrong_pictures(found, pictures=pictures, changed=changed)
+        rows: list[Any] = list(rows_of_things(domain, found))
+        return {"rows": rows, "wrong": tiles[some], "more": max(0, len(tiles) - start - TILES)}
+    wrong = [one for one in found["wrong"] if one["image"] in pictures]
+    return {
+        "rows": list(_rows(domain, found)),
+        "wrong": list(_tiles(domain, wrong[some], changed=changed)),
+        "more": max(0, len(wrong) - start - TILES),
+    }
 
 
 def _is_stale(project: Project, job: Job) -> bool:
@@ -198,14 +228,8 @@ def _rows(domain: Domain, found: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _tiles(
-    project: Project, domain: Domain, job: Job, wrong: list[Mapping[str, Any]]
+    domain: Domain, wrong: list[Mapping[str, Any]], *, changed: Collection[str]
 ) -> Iterator[Wrong]:
-    changed = {
-        picture
-        for entry in project.record.holding()
-        if entry.number > job.number
-        for picture in pictures_of(entry)
-    }
     for one in wrong:
         misread = [
             {**read, "words": domain.features[read["feature"]].name}

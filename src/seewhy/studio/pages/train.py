@@ -12,7 +12,9 @@ from fastapi import APIRouter, Form, Request, Response
 from fastapi.responses import RedirectResponse
 
 from seewhy.data.training_needs import require_feature_labels, require_two_classes
+from seewhy.domain.things import Things
 from seewhy.errors import SeeWhyError
+from seewhy.studio.drawn_things import BOXES
 from seewhy.studio.jobs import FINISHED, Job, jobs_of
 from seewhy.studio.keeping_back import keep_back, kept, place, suggested_pattern
 from seewhy.studio.labels import LABEL
@@ -40,13 +42,16 @@ class Ready:
     Attributes
     ----------
     train, test : int
-        Labelled pictures to train on, and those kept for evaluation.
+        Labelled pictures to train on, and those kept for evaluation; where the domain has things,
+        pictures with a box around each.
     problem : str
         What is missing, as ``seewhy train`` says it.
     since : int
         Labels that came since the last training that was finished.
     goes_on : bool
         Whether a training was stopped that goes on where it was.
+    things : Things or None
+        The domain's, where its pictures show several.
     """
 
     train: int
@@ -54,6 +59,7 @@ class Ready:
     problem: str
     since: int
     goes_on: bool
+    things: Things | None
 
 
 @router.get(PAGE.path)
@@ -99,7 +105,7 @@ def begin(request: Request) -> Response:
     arguments = [TASK, name, "--data", ".", "--out", project.model_folder.name]
     asked = {
         "domain": domain.name,
-        PICTURES: kept(project.labels())["train"],
+        PICTURES: kept(project.labels(), domain.things)["train"],
         WENT_ON: _checkpoints(project).is_dir(),
     }
     jobs_of(project).start(TASK, "seewhy", arguments, who=who, asked=asked)
@@ -133,6 +139,10 @@ def keep(request: Request, together: Annotated[str, Form(max_length=200)] = "") 
 
 
 def _require_enough(project: Project) -> None:
+    things = project.domain().things
+    if things is not None:
+        _require_boxes(project, things)
+        return
     if not project.labels().of:
         raise SeeWhyError(
             "no picture is labelled yet; label some of at least two classes, a few dozen of each "
@@ -143,19 +153,33 @@ def _require_enough(project: Project) -> None:
     require_feature_labels(train)
 
 
+def _require_boxes(project: Project, things: Things) -> None:
+    # What teaches things brings the networks along, which no other page of the studio waits for.
+    from seewhy.agent.things.thing_lessons import FEWEST, require_boxes
+
+    if not any(here.things for here in project.labels().drawn.values()):
+        raise SeeWhyError(
+            f"no {things.one} is drawn yet; draw a box around each in at least {FEWEST} pictures, "
+            "a hundred if you can"
+        )
+    require_boxes(project.dataset().of_split("train"))
+
+
 def _ready(project: Project, jobs: Sequence[Job]) -> Ready:
-    problem = ""
+    problem, things = "", None
     try:
+        things = project.domain().things
         _require_enough(project)
     except SeeWhyError as said:
         problem = str(said)
-    counts = kept(project.labels())
+    counts = kept(project.labels(), things)
     done = next((job.number for job in jobs if job.state == FINISHED), None)
     since = 0
     if done is not None:
-        since = sum(entry.number > done for entry in project.record.holding(LABEL))
+        entries = [entry for kind in (LABEL, BOXES) for entry in project.record.holding(kind)]
+        since = sum(entry.number > done for entry in entries)
     goes_on = _checkpoints(project).is_dir()
-    return Ready(counts["train"], counts["test"], problem, since, goes_on)
+    return Ready(counts["train"], counts["test"], problem, since, goes_on, things)
 
 
 def _checkpoints(project: Project) -> Path:

@@ -1,0 +1,316 @@
+"""A project with things in the studio: trained by boxes, asked about, evaluated."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+import shutil
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+from conftest import Shelf
+from seewhy.studio import jobs
+from seewhy.studio.drawing import draw, say_of_thing
+from seewhy.studio.jobs import Jobs, jobs_of
+from seewhy.studio.keeping_back import keep_back, kept, place
+from seewhy.studio.project import Project
+from seewhy.studio.site import site
+from studio_builder import RULES, Browser, embed, ended_job
+from thing_pictures import piles
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return Project(piles(tmp_path / "p", 14))
+
+
+@pytest.fixture
+def browser(project: Project) -> Iterator[Browser]:
+    with TestClient(site(project, rules=RULES, embed=embed)) as client:
+        yield Browser(client)
+
+
+def draw_in(project: Project, start: int, end: int) -> None:
+    """Draw a red block in some of the pictures, and say all of it."""
+    for name in project.pictures()[start:end]:
+        thing = draw(project, name, (20, 50, 60, 90), who="Ada")
+        say_of_thing(project, name, thing, "colour", "red", who="Ada")
+        say_of_thing(project, name, thing, "round", "no", who="Ada")
+
+
+def test_what_training_on_things_lacks_is_said(browser: Browser, project: Project) -> None:
+    text = browser.get("/train")
+    assert "no block is drawn yet; draw a box around each in at least 10 pictures" in text
+    assert "classes" not in text
+    thing = draw(project, "a.png", (20, 50, 60, 90), who="Ada")
+    assert "no thing with a box has a value of" in browser.get("/train")
+    say_of_thing(project, "a.png", thing, "colour", "red", who="Ada")
+    say_of_thing(project, "a.png", thing, "round", "no", who="Ada")
+    text = browser.get("/train")
+    assert "1 picture has a box around each thing; to find things, at least 10 are needed" in text
+    refused = browser.client.post("/train", data={"csrf": browser.csrf})
+    assert refused.status_code == 422
+    assert "at least 10 are needed" in refused.text
+    assert not project.record.holding(jobs.JOB)
+
+
+def test_pictures_with_boxes_are_counted_and_a_quarter_is_kept(
+    browser: Browser, project: Project
+) -> None:
+    draw_in(project, 0, 12)
+    draw(project, "m.png", None, who="Ada")  # a box in the middle
+    table = project.folder / "things.csv"
+    table.write_text(table.read_text() + "n.png,1,,,,,red,no\n")  # a thing without a box
+    project.label({"n.png": {"class": "stable"}}, who="Ada")
+    assert "13 pictures with a box around each block" in browser.get("/train")
+    browser.post("/train/keep-back", part=False)
+    things = project.domain().things
+    assert kept(project.labels(), things) == {"train": 10, "test": 3}
+    rows = project.labels().rows
+    assert rows["n.png"]["split"] == "train"
+    assert "10 pictures with a box" in browser.get("/train")
+    assert "3 more are kept for evaluation" in browser.get("/train")
+
+
+def test_what_is_drawn_later_is_placed_when_training_begins(project: Project) -> None:
+    draw_in(project, 0, 8)
+    keep_back(project, who="Ada")
+    draw_in(project, 8, 14)
+    place(project, who="Ada")
+    labels = project.labels()
+    assert set(labels.rows) == set(project.pictures())
+    assert kept(labels, project.domain().things) == {"train": 10, "test": 4}
+
+
+def test_training_on_things_is_the_same_command(
+    browser: Browser, project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    draw_in(project, 0, 14)
+    begun: list[Any] = []
+    monkeypatch.setattr(
+        Jobs, "start", lambda _, *said, **options: begun.append((*said, options["asked"]))
+    )
+    browser.post("/train", part=False)
+    task, module, said, asked = begun[0]
+    assert (task, module) == ("train", "seewhy")
+    assert said == ["train", "piles", "--data", ".", "--out", "model"]
+    assert asked["pictures"] == 14
+
+
+# Asking ---------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def shown(shelf: Shelf, tmp_path: Path) -> Project:
+    """A project with shapes on a shelf, and a model of them."""
+    folder = tmp_path / "shapes"
+    shutil.copytree(shelf.data, folder)
+    shutil.copytree(shelf.domain, folder / "shelf")
+    shutil.copytree(shelf.model, folder / "model")
+    return Project(folder)
+
+
+@pytest.fixture
+def asking(shown: Project) -> Iterator[Browser]:
+    with TestClient(site(shown, rules=RULES, embed=embed)) as client:
+        yield Browser(client)
+
+
+PICTURE = "images/003.png"
+
+
+def suggested(text: str) -> list[str]:
+    return [html.unescape(one) for one in re.findall(r'name="question" value="([^"]+)"', text)]
+
+
+def count_of(project: Project, value: str = "") -> int:
+    rows = (project.folder / "things.csv").read_text().splitlines()
+    return sum(row.startswith(PICTURE) and value in row for row in rows)
+
+
+def test_what_was_seen_of_each_thing_is_shown(asking: Browser, shown: Project) -> None:
+    text = asking.get(f"/ask?picture={PICTURE}")
+    count = count_of(shown)
+    assert text.count('<rect class="line"') >= count
+    assert len(re.findall(r'<tr><th scope="row">\d: ', text)) == count
+    assert re.search(r"<td>(small|large) <span class=\"soft\">\d+ %</span></td>", text)
+    assert 'viewBox="0 0 128 96"' in text
+    assert "what is there?" in text
+    for control in ("/ask/what-if", "/ask/doubt", "/ask/where", "/share/answers.html"):
+        assert control not in text
+
+
+def test_questions_are_answered_in_one_conversation(asking: Browser, shown: Project) -> None:
+    asked = {"picture": PICTURE}
+    text = asking.post("/ask", **asked, question="how many red shapes are there?")
+    reds = count_of(shown, ",red,")
+    assert re.search(
+        rf'<p class="text">[^<]*\b({reds}|{["no", "one", "two", "three", "four"][reds]})\b', text
+    )
+    assert 'class="tree"' in text
+    assert "chosen" in text or not reds
+    text = asking.post("/ask", **asked, question="and the blue ones?")
+    assert "blue" in re.findall(r'<p class="text">([^<]+)', text)[0]
+    text = asking.post("/ask", **asked, question="why?")
+    assert text.count('<li><span class="soft">') == 2
+    refused = asking.client.post("/ask", data={"csrf": asking.csrf, **asked, "question": "moo"})
+    assert refused.status_code == 422
+    assert asking.get("/ask").count('<li><span class="soft">') == 2  # the talk goes on
+    other = asking.get("/ask?picture=images/004.png")
+    assert '<li><span class="soft">' not in other
+    refused = asking.client.post("/ask", data={"csrf": asking.csrf, **asked, "question": " "})
+    assert "nothing is asked" in refused.text
+
+
+def test_every_question_that_is_suggested_is_answered(asking: Browser) -> None:
+    first = suggested(asking.get(f"/ask?picture={PICTURE}"))
+    assert "how many shapes are there?" in first
+    assert "why?" in first
+    assert 4 <= len(first) <= 7
+    for question in first:
+        asking.post("/ask", picture=PICTURE, question="what is there?")
+        asking.post("/ask", picture=PICTURE, question=question)
+    following = suggested(asking.post("/ask", picture=PICTURE, question="how many red shapes?"))
+    assert any(one.startswith("and the ") for one in following)
+    assert "and the red ones?" not in following
+
+
+def test_a_rule_that_is_revised_holds_at_once(asking: Browser, shown: Project) -> None:
+    before = asking.get(f"/ask?picture={PICTURE}")
+    assert "contradicts the knowledge" not in before
+    file = shown.folder / "shelf" / "knowledge.al"
+    file.write_text(file.read_text() + "tidy(P) if picture(P).\nuntidy(P) if tidy(P).\n")
+    shown.refresh()
+    assert "contradicts the knowledge" in asking.get(f"/ask?picture={PICTURE}")
+
+
+def test_a_model_that_was_trained_for_other_features_says_so(
+    asking: Browser, shown: Project
+) -> None:
+    file = shown.folder / "shelf" / "domain.toml"
+    file.write_text(file.read_text().replace('measure = "left"', 'measure = "seen"'))
+    shown.refresh()
+    assert "were changed since the model was trained" in asking.get(f"/ask?picture={PICTURE}")
+
+
+def test_what_is_missing_for_asking_is_a_sentence(
+    browser: Browser, project: Project, model_folder: Path
+) -> None:
+    assert "There is no model yet: draw boxes and train." in browser.get("/ask")
+    shutil.copytree(model_folder, project.folder / "model")
+    text = browser.get("/ask")
+    assert "The model is of one thing in a picture, and the domain has several: train anew." in text
+    refused = browser.client.post(
+        "/ask", data={"csrf": browser.csrf, "picture": "a.png", "question": "what is there?"}
+    )
+    assert refused.status_code == 422
+    assert "train anew" in refused.text
+
+
+def test_what_is_for_one_thing_says_so(asking: Browser) -> None:
+    assert "This is for pictures of one thing" in asking.get("/share")
+    for path in ("/ask/what-if", "/ask/doubt", "/share/answers.html"):
+        refused = asking.client.get(path, params={"picture": PICTURE})
+        assert refused.status_code == 422
+
+
+def test_a_picture_that_cannot_be_read_is_said(asking: Browser, shown: Project) -> None:
+    (shown.folder / PICTURE).write_bytes(b"no picture")
+    text = asking.get(f"/ask?picture={PICTURE}")
+    assert 'class="problem" role="alert"' in text
+    assert "003.png" in text
+
+
+# Evaluating -----------------------------------------------------------------------------------
+
+
+def test_figures_and_wrong_pictures_of_things(asking: Browser, shown: Project) -> None:
+    thing, drawn = next(iter(shown.labels().drawn_in(PICTURE).things.items()))
+    other = "blue" if drawn.values["colour"].value == "red" else "red"
+    say_of_thing(shown, PICTURE, thing, "colour", other, who="Ada")
+    asking.post("/evaluate", part=False)
+    end = time.monotonic() + 240
+    while jobs_of(shown).of("evaluate")[0].runs:
+        assert time.monotonic() < end
+        time.sleep(0.2)
+    job = jobs_of(shown).of("evaluate")[0]
+    assert job.state == "finished", job.lines()
+    found, text = job.printed(), asking.get("/evaluate")
+    assert found["known"] == 0
+    assert f"{found['things']['annotated']} drawn" in text
+    assert "colour of a shape" in text
+    assert "one is left of another" in text
+    whole = found["scenes_wholly_right"]
+    assert f"<strong>{whole['right']} of {whole['of']}</strong> pictures are wholly right" in text
+    assert f'href="/label?picture={PICTURE}"' in text
+    assert f'href="/ask?picture={PICTURE}"' in text
+    assert re.search(rf'class="wrong">colour of {other}', text)
+    assert "page.html" not in text
+    say_of_thing(shown, PICTURE, thing, "colour", drawn.values["colour"].value, who="Ada")
+    assert "Its boxes or labels were changed since" in asking.get("/evaluate")
+    (shown.folder / "model" / "model.json").touch()
+    assert "The model was trained again since" in asking.get("/evaluate")
+
+
+SHARE = {"right": 1, "of": 2, "accuracy": 0.5}
+PRINTED: dict[str, Any] = {
+    "pictures": 70,
+    "things": {"annotated": 2, "found": 2, "missed": 0, "imagined": 1},
+    "features": {"colour": {**SHARE, "majority": 0.6}, "gone": {**SHARE, "majority": 0.6}},
+    "relations": {"on": {**SHARE, "majority": 0.9}},
+    "scenes_wholly_right": SHARE,
+    "scenes_wholly_right_with_relations": SHARE,
+    "class": {**SHARE, "majority": 0.7},
+    "inconsistent": 3,
+    "pictures_per_second": 1.0,
+    "known": 4,
+    "wrong": [
+        {"image": f"images/{n:03}.png", "wrong": ["a", "b<", "c", "d", "e"]} for n in range(99)
+    ],
+}
+
+
+def test_what_the_evaluation_of_things_printed_is_told(asking: Browser, shown: Project) -> None:
+    ended_job(shown, "evaluate", json.dumps(PRINTED))
+    text = asking.get("/evaluate")
+    assert "4 of the pictures taught the model" in text
+    assert "3 could not be read as the knowledge allows" in text
+    assert "one is on another" in text
+    assert "gone" not in text
+    assert "b&lt;" in text
+    assert "and 1 more" in text
+    assert text.count('class="tile"') == 48  # the others are no pictures of the project
+
+
+def test_an_evaluation_of_the_other_kind_is_not_shown(asking: Browser, shown: Project) -> None:
+    ended_job(shown, "evaluate", json.dumps({"scenes": 3, "wrong": []}))
+    text = asking.get("/evaluate")
+    assert "Figures" not in text
+    assert "on 12 pictures kept for it" in text
+
+
+def test_what_is_missing_for_evaluating_things_is_a_sentence(
+    browser: Browser, project: Project, shelf: Shelf, model_folder: Path
+) -> None:
+    assert "There is no model yet" in browser.get("/evaluate")
+    shutil.copytree(shelf.model, project.folder / "model")
+    draw_in(project, 0, 8)
+    assert "No labelled picture is kept for evaluation" in browser.get("/evaluate")
+    browser.post("/evaluate/keep-back", part=False)
+    assert "on 2 pictures kept for it" in browser.get("/evaluate")
+    shutil.rmtree(project.model_folder)
+    shutil.copytree(model_folder, project.model_folder)
+    text = browser.get("/evaluate")
+    assert "The model is of one thing in a picture, and the domain has several" in text
+    assert "Keep a quarter" not in text
+    refused = browser.client.post("/evaluate", data={"csrf": browser.csrf})
+    assert refused.status_code == 422
+    (project.model_folder / "model.json").write_text("{")
+    assert "model.json" in browser.get("/evaluate")
+    assert "model.json" in browser.get("/ask")
