@@ -141,6 +141,8 @@ def test_what_was_seen_of_each_thing_is_shown(asking: Browser, shown: Project) -
     assert len(re.findall(r'<tr><th scope="row">\d: ', text)) == count
     assert re.search(r"<td>(small|large) <span class=\"soft\">\d+ %</span></td>", text)
     assert 'viewBox="0 0 128 96"' in text
+    assert 'text-anchor="end"' in text  # a name at the right is not cut off
+    assert "Sure." in text or "Not sure: " in text
     assert "what is there?" in text
     for control in ("/ask/what-if", "/ask/doubt", "/ask/where", "/share/answers.html"):
         assert control not in text
