@@ -9,7 +9,7 @@ import shutil
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from fastapi.testclient import TestClient
@@ -21,8 +21,12 @@ from seewhy.studio.jobs import Jobs, jobs_of
 from seewhy.studio.keeping_back import keep_back, kept, place
 from seewhy.studio.project import Project
 from seewhy.studio.site import site
+from studio_browsing import NEEDS_CHROMIUM, hindrances, served
 from studio_builder import RULES, Browser, embed, ended_job
 from thing_pictures import piles
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser as Chromium
 
 
 @pytest.fixture
@@ -316,3 +320,24 @@ def test_what_is_missing_for_evaluating_things_is_a_sentence(
     (project.model_folder / "model.json").write_text("{")
     assert "model.json" in browser.get("/evaluate")
     assert "model.json" in browser.get("/ask")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_everybody_can_use_the_pages_of_things(
+    chromium: Chromium, shown: Project, scheme: Any
+) -> None:
+    ended_job(shown, "evaluate", json.dumps(PRINTED))
+    width = 390 if scheme == "dark" else 1280
+    for address in served(shown):
+        context = chromium.new_context(
+            viewport={"width": width, "height": 800}, color_scheme=scheme, bypass_csp=True
+        )
+        page = context.new_page()
+        for path in ("/train", f"/ask?picture={PICTURE}", "/evaluate"):
+            page.goto(f"{address}{path}")
+            assert hindrances(page, width) == []
+        context.close()
+
+
+for needed in NEEDS_CHROMIUM:
+    test_everybody_can_use_the_pages_of_things = needed(test_everybody_can_use_the_pages_of_things)
