@@ -9,7 +9,7 @@ import shutil
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from fastapi.testclient import TestClient
@@ -21,8 +21,12 @@ from seewhy.studio.jobs import Jobs, jobs_of
 from seewhy.studio.keeping_back import keep_back, kept, place
 from seewhy.studio.project import Project
 from seewhy.studio.site import site
+from studio_browsing import NEEDS_CHROMIUM, hindrances, served
 from studio_builder import RULES, Browser, embed, ended_job
 from thing_pictures import piles
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser as Chromium
 
 
 @pytest.fixture
@@ -141,6 +145,8 @@ def test_what_was_seen_of_each_thing_is_shown(asking: Browser, shown: Project) -
     assert len(re.findall(r'<tr><th scope="row">\d: ', text)) == count
     assert re.search(r"<td>(small|large) <span class=\"soft\">\d+ %</span></td>", text)
     assert 'viewBox="0 0 128 96"' in text
+    assert 'text-anchor="end"' in text  # a name at the right is not cut off
+    assert "Sure." in text or "Not sure: " in text
     assert "what is there?" in text
     for control in ("/ask/what-if", "/ask/doubt", "/ask/where", "/share/answers.html"):
         assert control not in text
@@ -314,3 +320,24 @@ def test_what_is_missing_for_evaluating_things_is_a_sentence(
     (project.model_folder / "model.json").write_text("{")
     assert "model.json" in browser.get("/evaluate")
     assert "model.json" in browser.get("/ask")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_everybody_can_use_the_pages_of_things(
+    chromium: Chromium, shown: Project, scheme: Any
+) -> None:
+    ended_job(shown, "evaluate", json.dumps(PRINTED))
+    width = 390 if scheme == "dark" else 1280
+    for address in served(shown):
+        context = chromium.new_context(
+            viewport={"width": width, "height": 800}, color_scheme=scheme, bypass_csp=True
+        )
+        page = context.new_page()
+        for path in ("/train", f"/ask?picture={PICTURE}", "/evaluate"):
+            page.goto(f"{address}{path}")
+            assert hindrances(page, width) == []
+        context.close()
+
+
+for needed in NEEDS_CHROMIUM:
+    test_everybody_can_use_the_pages_of_things = needed(test_everybody_can_use_the_pages_of_things)
