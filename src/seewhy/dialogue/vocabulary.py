@@ -124,7 +124,9 @@ class Vocabulary:
         return any(map(self._is_of_many, words_of(text)))
 
     def _is_of_many(self, word: str) -> bool:
-        """Whether a word is the plural of what a picture shows."""
+        """Whether a word is the plural of what a picture shows; "sign's" is none."""
+        if word.endswith("'s"):
+            return False
         one = self._one_of_it.get(lemma(word), word)
         return word != one and word.endswith("s") and not one.endswith("s")
 
