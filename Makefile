@@ -55,6 +55,10 @@ figures: $(INSTALLED)
 	$(VENV)/bin/seewhy data make traffic_signs --count 124 --seed 0 --size 96 --out runs/signs
 	$(VENV)/bin/seewhy data show runs/signs --domain traffic_signs --rows 3 --columns 10 --out docs/pictures/signs.png
 	$(VENV)/bin/seewhy ask runs/model runs/pictures/images/000056.png "what is making this structure unstable?" --picture docs/pictures/answer.svg
+	$(VENV)/bin/seewhy data make tabletop --count 660 --seed 0 --out runs/tables
+	$(VENV)/bin/seewhy train tabletop --data runs/tables --out runs/tables_model
+	$(VENV)/bin/seewhy evaluate runs/tables_model --data runs/tables
+	$(VENV)/bin/seewhy ask runs/tables_model runs/tables/images/000002.png "what would happen if the brown cube were removed?" --picture docs/pictures/table.svg
 
 tutorials: $(INSTALLED)
 	$(VENV)/bin/python docs/site/tutorials.py docs/start/your_own_*.md --folder runs/tutorials

@@ -205,11 +205,6 @@ def _print_scene(read: ReadScene) -> None:
         sure = "" if reading.class_probability is None else f" ({reading.class_probability:.2f})"
         by = "concluded" if reading.method == "knowledge" else "seen"
         say(f"class: {domain.classes[reading.label].say}, {by}{sure if by == 'seen' else ''}")
-    from seewhy.dialogue.things.said_once import said_once
-
-    concluded = {read.beliefs.named(literal): literal for literal in read.beliefs.concluded}
-    for name in said_once(concluded):
-        say(f"it follows that {read.beliefs.say(concluded[name])}")
 
 
 def chat_about_things(model: Path, image: Path, *, device: str, json: bool, voice: Any) -> None:
