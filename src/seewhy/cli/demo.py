@@ -71,8 +71,8 @@ def demo(
     if not quiet:
         shares = ", ".join(f"{n} {100 * share:.0f} %" for n, share in made.classes.items())
         said = shares if len(made.classes) <= FEW_CLASSES else f"{len(made.classes)} classes"
-        determined = made.determined or 0.0
-        say(f"{said}; the features determine {100 * determined:.1f} % of the outcomes")
+        assert made.determined is not None, "the domain has classes"
+        say(f"{said}; the features determine {100 * made.determined:.1f} % of the outcomes")
     heading("Training what sees, the tree and the answers")
     dataset = Dataset.load(out / "pictures", loaded)
     agent = trained_already(out / "model", dataset, seed=seed)

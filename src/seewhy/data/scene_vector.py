@@ -109,11 +109,11 @@ def feet_of(things: Things, names: Iterable[str], related: Iterable[Related]) ->
         return {name: name for name in names}
     converse = things.relations[support].converse
     pairs = []
-    for one in related:
-        if one.holds and one.relation == support:
-            pairs.append((one.thing, one.other))
-        elif one.holds and one.relation == converse:
-            pairs.append((one.other, one.thing))
+    for said in related:
+        if said.holds and said.relation == support:
+            pairs.append((said.thing, said.other))
+        elif said.holds and said.relation == converse:
+            pairs.append((said.other, said.thing))
     return feet(names, pairs)
 
 

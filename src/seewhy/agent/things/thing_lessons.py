@@ -221,7 +221,9 @@ def _pairs(
     start = 0
     for scene, things in zip(shown, boxed, strict=True):
         said = {
-            (one.thing, one.other): one.holds for one in scene.related if one.relation == relation
+            (related.thing, related.other): related.holds
+            for related in scene.related
+            if related.relation == relation
         }
         for first, second in permutations(range(len(things)), 2):
             value = said.get((things[first].name, things[second].name))

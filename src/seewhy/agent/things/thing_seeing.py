@@ -108,8 +108,12 @@ class ThingSeeing:
         counts = [len(found.boxes) for found in located]
         side = self.eyes.side
         seen = self.eyes.see(
-            np.concatenate([np.zeros((0, side, side, 3), np.uint8), *(f.regions for f in located)]),
-            np.concatenate([of_boxes(np.zeros((0, 4)), (1, 1)), *(f.numbers for f in located)]),
+            np.concatenate(
+                [np.zeros((0, side, side, 3), np.uint8), *(place.regions for place in located)]
+            ),
+            np.concatenate(
+                [of_boxes(np.zeros((0, 4)), (1, 1)), *(place.numbers for place in located)]
+            ),
         )
         whole = self._whole(pictures)
         found: list[Sighting] = []

@@ -123,7 +123,7 @@ class _Spoken:
 
     def resting(self, scene: ThingScene, things: Things) -> None:
         """Take what is concluded for what it rests on."""
-        relations = {r for r in self.relations if things.relations[r].measure == CONCLUDED}
+        relations = {key for key in self.relations if things.relations[key].measure == CONCLUDED}
         self.concluded |= relations
         self.relations -= relations
         if scene.conclusions is None:
@@ -147,7 +147,7 @@ def smallest_change(query: Query, aim: Value, words: ThingWords) -> Found:
     concluding = scene.conclusions if spoken.concluded else None
     most = MOST_CONCLUDED if concluding else MOST_LOOKED_AT
     tried = dict(values_to_try(things, spoken.values, spoken.compared))
-    orders = _one_way(words, {r for r in spoken.relations if is_in_order(scene, r)})
+    orders = _one_way(words, {key for key in spoken.relations if is_in_order(scene, key)})
     loose = _one_way(words, {r for r in spoken.relations if not is_in_order(scene, r)})
     plain = [*_edits(scene, tried, orders, loose)]
     full = concluding is not None and scene.count >= things.most
