@@ -9,10 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from seewhy.agent.settings import Settings
+from seewhy.files.cache_folder import cache_folder
 from seewhy.perception.backbones import load_backbone
 from seewhy.perception.course import Course
 from seewhy.perception.domain_options import given_variations, seen_labels, seen_values
-from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
+from seewhy.perception.embedding_cache import EmbeddingCache
 from seewhy.perception.eyes import SCENE, Eyes
 from seewhy.perception.familiarity import MOST, Familiarity, TrainingPicture, fit_familiarity
 from seewhy.perception.fitting_eyes import FittedEyes, fit_eyes

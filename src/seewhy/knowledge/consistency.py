@@ -5,6 +5,7 @@ from __future__ import annotations
 import clingo
 
 from seewhy.errors import KnowledgeError
+from seewhy.files.found_sound import FoundSound
 from seewhy.knowledge.axiom import Axiom, AxiomKind
 from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.grounding import Grounding, Search
@@ -15,6 +16,8 @@ from seewhy.knowledge.scene import FeatureVector, SceneSchema
 
 _SCENES = 1_000
 """The scenes that are looked at for one that an exception makes consistent."""
+
+_SOUND = FoundSound("consistency 1")
 
 
 def check_consistency(knowledge: Knowledge, schema: SceneSchema) -> None:
@@ -29,7 +32,10 @@ def check_consistency(knowledge: Knowledge, schema: SceneSchema) -> None:
     KnowledgeError
         Names the first such axiom and the one that it contradicts.
     """
-    probe = _Probe(knowledge, schema)
+    text = program_text(knowledge, schema, exceptions=True, firings=True)
+    if text in _SOUND:
+        return
+    probe = _Probe(knowledge, schema, text)
     for axiom in knowledge.axioms:
         if axiom.kind is AxiomKind.DEFAULT or not probe.can_fire(axiom, strict=False):
             continue
@@ -44,6 +50,7 @@ def check_consistency(knowledge: Knowledge, schema: SceneSchema) -> None:
                 f"{axiom.location}: '{axiom}' can never be used: whenever its conditions hold, "
                 f"{against}; change or remove one of the two"
             )
+    _SOUND.add(text)
 
 
 def never_applies(knowledge: Knowledge, schema: SceneSchema) -> tuple[Axiom, ...]:
@@ -57,19 +64,19 @@ def never_applies(knowledge: Knowledge, schema: SceneSchema) -> tuple[Axiom, ...
         for literal in schema.classes.values()
         if (literal.predicate, literal.positive) not in concluded
     )
-    probe = _Probe(knowledge, schema, also=f"{{ {told} }}.\n")
+    text = program_text(knowledge, schema, exceptions=True, firings=True)
+    probe = _Probe(knowledge, schema, text + f"{{ {told} }}.\n")
     return tuple(a for a in knowledge.axioms if not probe.can_fire(a, strict=False))
 
 
 class _Probe:
     """The program with its features left open, asked which axioms can fire."""
 
-    def __init__(self, knowledge: Knowledge, schema: SceneSchema, *, also: str = "") -> None:
+    def __init__(self, knowledge: Knowledge, schema: SceneSchema, program: str) -> None:
         self.knowledge = knowledge
         self.schema = schema
-        text = program_text(knowledge, schema, exceptions=True, firings=True)
         self.grounding = Grounding(
-            text + also + "used(I) :- fires(I, V).\n", schema, size=grounding_size(knowledge)
+            program + "used(I) :- fires(I, V).\n", schema, size=grounding_size(knowledge)
         )
         self.used = self.grounding.with_predicate("used", 1)
         self.exceptions = self.grounding.with_predicate("exception", 2)

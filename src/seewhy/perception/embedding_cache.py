@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import logging
-import os
 import sqlite3
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -12,10 +11,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["FOLDER", "EmbeddingCache", "cache_folder", "key_of"]
-
-FOLDER = "SEEWHY_CACHE"
-"""The environment variable that names the folder; empty: nothing is kept."""
+__all__ = ["EmbeddingCache", "key_of"]
 
 LARGEST = 4 << 30
 """Bytes on disk, above which what was not used for longest is forgotten."""
@@ -27,19 +23,6 @@ _COLUMNS = "key BLOB PRIMARY KEY, shape TEXT, content BLOB, bytes INTEGER, used 
 _logger = logging.getLogger(__name__)
 
 Array = npt.NDArray[np.float16]
-
-
-def cache_folder() -> Path | None:
-    """Where embeddings are kept: ``$SEEWHY_CACHE``, else the user's folder for caches.
-
-    None where the variable is set to nothing.
-    """
-    from platformdirs import user_cache_path
-
-    chosen = os.environ.get(FOLDER)
-    if chosen is not None:
-        return Path(chosen) if chosen else None
-    return user_cache_path("seewhy", appauthor=False)
 
 
 def key_of(picture: npt.NDArray[np.uint8], *made_with: object) -> bytes:

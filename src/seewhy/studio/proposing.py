@@ -300,9 +300,10 @@ def backbone_embedding() -> Embed:
     """
 
     def embed(files: Sequence[Path], domain: Domain) -> npt.NDArray[np.floating]:
+        from seewhy.files.cache_folder import cache_folder
         from seewhy.perception.backbones import EMBEDDED, NONE, load_backbone
         from seewhy.perception.embedding import embed_pictures
-        from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
+        from seewhy.perception.embedding_cache import EmbeddingCache
         from seewhy.perception.picture import read_picture
 
         eyes = domain.eyes_after(0)

@@ -28,11 +28,12 @@ from seewhy.data.importers import ImportRequest, read_source
 from seewhy.data.importers.reading import ReadSource, detect_format
 from seewhy.data.reading_ahead import read_ahead
 from seewhy.domain.tables import CLASS
+from seewhy.files.cache_folder import cache_folder
 from seewhy.labelling.labelling_order import labelling_order, landscape
 from seewhy.labelling.quick_heads import QuickHeads
 from seewhy.perception.backbones import EMBEDDED, load_backbone
 from seewhy.perception.embedding import embed_pictures
-from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
+from seewhy.perception.embedding_cache import EmbeddingCache
 from seewhy.perception.picture import read_picture
 
 BATCH = 64

@@ -7,10 +7,11 @@ from typing import Any
 
 from seewhy.agent.teaching import lesson_of
 from seewhy.data.dataset import Dataset
+from seewhy.files.cache_folder import cache_folder
 from seewhy.perception.backbones import EMBEDDED, load_backbone
 from seewhy.perception.domain_options import given_variations
 from seewhy.perception.embedding import embed_pictures
-from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
+from seewhy.perception.embedding_cache import EmbeddingCache
 from seewhy.perception.options import VARIATIONS, TrainingOptions
 from seewhy.perception.variations import chosen_variations
 

@@ -11,9 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from seewhy.data.dataset import Dataset
+from seewhy.files.cache_folder import cache_folder
 from seewhy.perception.backbones import EMBEDDED, load_backbone
 from seewhy.perception.embedding import embed_pictures
-from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
+from seewhy.perception.embedding_cache import EmbeddingCache
 from seewhy.perception.heads import Projection, fit_projection
 from seewhy.perception.validation import folds
 

@@ -11,11 +11,12 @@ from seewhy.agent.things.thing_lessons import Lessons, boxes_of, lessons_of, req
 from seewhy.agent.things.thing_seeing import ThingSeeing
 from seewhy.agent.training_pictures import require_same_domain
 from seewhy.data.dataset import Dataset
+from seewhy.files.cache_folder import cache_folder
 from seewhy.perception.backbones import load_backbone
 from seewhy.perception.backbones.backbone import Backbone
 from seewhy.perception.course import Course
 from seewhy.perception.domain_options import given_variations
-from seewhy.perception.embedding_cache import EmbeddingCache, cache_folder
+from seewhy.perception.embedding_cache import EmbeddingCache
 from seewhy.perception.eyes import Eyes
 from seewhy.perception.fitting_eyes import fit_eyes
 from seewhy.perception.lesson import Lesson
