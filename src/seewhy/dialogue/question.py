@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 from seewhy.dialogue.asked import Asks, Query, Question
 from seewhy.dialogue.clarification import Suggestions
@@ -74,16 +75,24 @@ class Questions:
         self._known: dict[tuple[str, ...], Question] = {}
         for question in expanded(domain, self._vocabulary.for_templates):
             self._known.setdefault(question.words, question)
-        self._embedded: dict[tuple[str, ...], Question] = {}
-        for words, question in self._known.items():
-            for variant in embedded(words):
-                self._embedded.setdefault(variant, question)
         self._by_query: dict[Query, Question] = {}
         for question in self._known.values():
             self._by_query.setdefault(question.query, question)
         self._readings = Readings(domain, self._vocabulary.for_grammar)
         self._spelling = Spelling(self._spelled())
-        self._suggestions = Suggestions(domain, tuple(self._known.values()))
+
+    @cached_property
+    def _embedded(self) -> dict[tuple[str, ...], Question]:
+        """The templates as they stand behind "tell me"."""
+        found: dict[tuple[str, ...], Question] = {}
+        for words, question in self._known.items():
+            for variant in embedded(words):
+                found.setdefault(variant, question)
+        return found
+
+    @cached_property
+    def _suggestions(self) -> Suggestions:
+        return Suggestions(self.domain, tuple(self._known.values()))
 
     @property
     def all(self) -> tuple[Question, ...]:
@@ -194,8 +203,8 @@ class Questions:
         spelled.update(grammar_words())
         for group in (aside_phrases(), *around_phrases()):
             spelled.update(word for phrase in group for word in words_of(phrase))
-        for question in self._known.values():
-            spelled.update(words_of(question.text))
+        tokens = {token for question in self._known.values() for token in question.text.split()}
+        spelled.update(words_of(" ".join(tokens)))
         for scene_class in domain.classes.values():
             for phrase in (*scene_class.words, scene_class.say, *scene_class.verbs):
                 spelled.update(words_of(phrase))

@@ -21,6 +21,7 @@ CONTRACTIONS = {
     "let's": "let us", "wheres": "where is", "hows": "how is", "whos": "who is",
     "howmany": "how many",
 }  # fmt: skip
+_WORD = re.compile(r"(?<!\w)-\d+|[\w']+")
 
 
 def words_of(text: str) -> list[str]:
@@ -35,6 +36,11 @@ def words_of(text: str) -> list[str]:
     if not plain.isascii():
         plain = unicodedata.normalize("NFKD", text).casefold().replace("’", "'")
         plain = "".join(c for c in plain if not unicodedata.combining(c))
-    words = re.findall(r"(?<!\w)-\d+|[\w']+", plain.replace("_", " "))
-    expanded = " ".join(CONTRACTIONS.get(word, word) for word in words)
-    return [word.strip("'") for word in expanded.split() if word.strip("'")]
+    words: list[str] = []
+    for word in _WORD.findall(plain.replace("_", " ")):
+        written_out = CONTRACTIONS.get(word)
+        if written_out is not None:
+            words += written_out.split()
+        elif bare := word.strip("'"):
+            words.append(bare)
+    return words

@@ -34,13 +34,17 @@ def check_numbers(rule: ast.AST, sorts: Mapping[str, Sort], statement: Statement
     KnowledgeError
         With the place, the term, and what it may come to.
     """
+    found = _collected(rule)
+    terms = [*found["BinaryOperation"], *found["UnaryOperation"]]
+    if not terms and not found["Interval"]:
+        return
     known = {name: bounds for name, sort in sorts.items() if (bounds := _of_sort(sort)) is not None}
-    computed = [*_computed(rule)]
+    computed = [*_computed(found["Comparison"])]
     for _ in computed:  # one may be computed from another, in any order
         for name, term in computed:
             if name not in known and (bounds := _bounds(term, known)) is not None:
                 known[name] = bounds
-    for term in _terms(rule):
+    for term in terms:
         bounds = _bounds(term, known)
         if bounds is not None and max(map(abs, bounds)) > LARGEST:
             begin = term.location.begin
@@ -51,7 +55,7 @@ def check_numbers(rule: ast.AST, sorts: Mapping[str, Sort], statement: Statement
                 f"numbers go from -{LARGEST} to {LARGEST}; use smaller numbers"
             )
 
-    for term in _collected(rule, "Interval"):
+    for term in found["Interval"]:
         bounds = _bounds(term, known)
         if bounds is not None and bounds[1] - bounds[0] >= LONGEST_RANGE:
             begin = term.location.begin
@@ -66,35 +70,39 @@ def _of_sort(sort: Sort) -> Bounds | None:
     return (min(numbers), max(numbers)) if numbers else None
 
 
-def _computed(rule: ast.AST) -> Iterator[tuple[str, ast.AST]]:
+def _computed(comparisons: Iterable[ast.AST]) -> Iterator[tuple[str, ast.AST]]:
     """The variables that a comparison says the value of, with the term that is."""
-    for comparison in _collected(rule, "Comparison"):
+    for comparison in comparisons:
         guards = comparison.guards
         if len(guards) == 1 and guards[0].comparison == ast.ComparisonOperator.Equal:
-            for one, other in (
+            for variable, term in (
                 (comparison.term, guards[0].term),
                 (guards[0].term, comparison.term),
             ):
-                if one.ast_type is ast.ASTType.Variable:
-                    yield one.name, other
+                if variable.ast_type is ast.ASTType.Variable:
+                    yield variable.name, term
 
 
-def _terms(rule: ast.AST) -> list[ast.AST]:
-    return [*_collected(rule, "BinaryOperation"), *_collected(rule, "UnaryOperation")]
+_KINDS = ("BinaryOperation", "UnaryOperation", "Interval", "Comparison")
 
 
-def _collected(node: ast.AST, kind: str) -> list[ast.AST]:
-    found: list[ast.AST] = []
+class _Collect(ast.Transformer):
+    def __init__(self) -> None:
+        self.found: dict[str, list[ast.AST]] = {kind: [] for kind in _KINDS}
 
-    class Collect(ast.Transformer):
-        def visit(self, ast: ast.AST, *args: Any, **kwargs: Any) -> Any:
-            if ast.ast_type.name == kind:
-                found.append(ast)
-            return super().visit(ast, *args, **kwargs)
+    def visit(self, ast: ast.AST, *args: Any, **kwargs: Any) -> Any:
+        of_kind = self.found.get(ast.ast_type.name)
+        if of_kind is not None:
+            of_kind.append(ast)
+        return super().visit(ast, *args, **kwargs)
 
-    Collect().visit(node)
+
+def _collected(node: ast.AST) -> dict[str, list[ast.AST]]:
+    """The nodes that numbers come from, by kind."""
+    collect = _Collect()
+    collect.visit(node)
     # The innermost first: what is inside of a term that is too large says more.
-    return found[::-1]
+    return {kind: nodes[::-1] for kind, nodes in collect.found.items()}
 
 
 def _bounds(term: ast.AST, known: Mapping[str, Bounds]) -> Bounds | None:

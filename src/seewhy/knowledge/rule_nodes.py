@@ -68,17 +68,21 @@ def atoms(node: ast.AST) -> list[ast.AST]:
 
 def nodes(node: ast.AST, *kinds: ast.ASTType) -> list[ast.AST]:
     """The nodes of some kinds, those inside of such left out, in the order of the text."""
-    found: list[ast.AST] = []
+    collect = _Collect(kinds)
+    collect.visit(node)
+    return collect.found
 
-    class Collect(ast.Transformer):
-        def visit(self, ast: ast.AST, *args: Any, **kwargs: Any) -> Any:
-            if ast.ast_type in kinds:
-                found.append(ast)
-                return ast
-            return super().visit(ast, *args, **kwargs)
 
-    Collect().visit(node)
-    return found
+class _Collect(ast.Transformer):
+    def __init__(self, kinds: tuple[ast.ASTType, ...]) -> None:
+        self.kinds = kinds
+        self.found: list[ast.AST] = []
+
+    def visit(self, ast: ast.AST, *args: Any, **kwargs: Any) -> Any:
+        if ast.ast_type in self.kinds:
+            self.found.append(ast)
+            return ast
+        return super().visit(ast, *args, **kwargs)
 
 
 def body_atoms(rule: ast.AST) -> Iterator[ast.AST]:
