@@ -39,6 +39,7 @@ from seewhy.dialogue.reply import Classification, FeatureReading
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception import fitting_extractor, fitting_eyes, parallel
+from seewhy.perception.backbones import embedded
 from seewhy.perception.course import Course
 from seewhy.perception.things import fitting_detector
 from things_builder import write_domain as write_shelf_domain
@@ -190,13 +191,18 @@ def write_tiles(folder: Path, *, count: int = 60) -> Path:
     return folder
 
 
+EYES_SIDE = 64
+"""Pixels of what eyes see in tests, instead of 112."""
+
+
 @pytest.fixture(scope="session", autouse=True)
 def taught_in_seconds() -> Iterator[None]:
-    """Eyes go over pictures three times: those that tests make are plain.
+    """Eyes go over pictures three times, and see a third of the pixels: what tests make is plain.
 
     What answers goes over few questions a third as often: those that tests ask are plain, too.
     """
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(embedded, "SIDE", EYES_SIDE)
         patch.setattr(fitting_eyes, "_PASSES", (3, 3))
         patch.setattr(fitting_eyes, "_PASSES_AGAIN", (3, 3))
         patch.setattr(fitting_eyes, "_VIEWS", (2, 2))

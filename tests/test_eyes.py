@@ -12,7 +12,7 @@ import pytest
 import torch
 from PIL import Image, ImageDraw
 
-from conftest import DOMAIN, Run, draw_tile, write_domain, write_tiles
+from conftest import DOMAIN, EYES_SIDE, Run, draw_tile, write_domain, write_tiles
 from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import Domain, load_domain
@@ -64,7 +64,7 @@ def saved(taught: Agent, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def shown(count: int, *, side: int = 112) -> np.ndarray:
+def shown(count: int, *, side: int = EYES_SIDE) -> np.ndarray:
     pictures = [draw_tile(colour, "yes", n) for n in range(count) for colour in ("red", "blue")]
     return np.stack([as_picture(picture, size=side) for picture in pictures[:count]])
 
@@ -98,7 +98,7 @@ def test_forty_tiles_are_enough(taught: Agent, scenes: Dataset) -> None:
 
 def test_a_model_is_read_as_it_was_written(taught: Agent, saved: Path, scenes: Dataset) -> None:
     again = Agent.load(saved)
-    pictures = scenes.of_split("test").pictures(112)
+    pictures = scenes.of_split("test").pictures(EYES_SIDE)
     assert taught.extractor is not None
     assert again.extractor is not None
     before, after = taught.extractor.see(pictures), again.extractor.see(pictures)
@@ -110,7 +110,7 @@ def test_a_model_is_read_as_it_was_written(taught: Agent, saved: Path, scenes: D
 
 
 def test_one_picture_is_seen_as_among_many(taught: Agent, scenes: Dataset) -> None:
-    pictures = scenes.pictures(112)[:20]
+    pictures = scenes.pictures(EYES_SIDE)[:20]
     assert taught.extractor is not None
     together = taught.extractor.see(pictures)
     for number in (0, 19):
@@ -121,7 +121,7 @@ def test_one_picture_is_seen_as_among_many(taught: Agent, scenes: Dataset) -> No
 
 def test_probabilities_sum_to_one_and_every_value_stays_possible(taught: Agent) -> None:
     assert taught.extractor is not None
-    noise = np.random.default_rng(0).integers(0, 256, (3, 112, 112, 3), dtype=np.uint8)
+    noise = np.random.default_rng(0).integers(0, 256, (3, EYES_SIDE, EYES_SIDE, 3), dtype=np.uint8)
     for name, table in taught.extractor.probabilities(noise).items():
         assert table.shape == (3, len(taught.extractor.values[name]))
         np.testing.assert_allclose(table.sum(axis=1), 1.0)
@@ -138,8 +138,8 @@ def test_the_record_says_what_a_feature_is_seen_by(taught: Agent) -> None:
 
 def test_pictures_of_another_size_are_refused(taught: Agent) -> None:
     assert taught.extractor is not None
-    with pytest.raises(DatasetError, match=r"pictures must be uint8 of shape \(n, 112, 112, 3\)"):
-        taught.extractor.see(np.zeros((2, 64, 64, 3), dtype=np.uint8))
+    with pytest.raises(DatasetError, match=r"pictures must be uint8 of shape \(n, 64, 64, 3\)"):
+        taught.extractor.see(np.zeros((2, 48, 48, 3), dtype=np.uint8))
 
 
 @pytest.fixture(scope="module")
@@ -246,7 +246,7 @@ def bars(*, turned: bool) -> Lesson:
     pictures, labels = [], []
     for number in range(96):
         first = number < 48
-        image = Image.new("RGB", (112, 112), (200, 205, 210))
+        image = Image.new("RGB", (EYES_SIDE, EYES_SIDE), (200, 205, 210))
         length = 36 if turned or first else 24
         box = (50, 56 - length, 62, 56 + length)
         ImageDraw.Draw(image).rectangle(box, fill=(60, 40, 30))
@@ -513,12 +513,14 @@ def test_what_shows_no_tile_is_less_like_training_than_any_tile(
 ) -> None:
     assert taught.extractor is not None
     assert taught.familiarity is not None
-    noise = np.random.default_rng(1).integers(0, 256, (2, 112, 112, 3), dtype=np.uint8)
-    blank = np.stack([np.full((112, 112, 3), level, np.uint8) for level in (0, 128, 255)])
+    noise = np.random.default_rng(1).integers(0, 256, (2, EYES_SIDE, EYES_SIDE, 3), dtype=np.uint8)
+    blank = np.stack(
+        [np.full((EYES_SIDE, EYES_SIDE, 3), level, np.uint8) for level in (0, 128, 255)]
+    )
     stripes = blank.copy()
     stripes[:, ::9] = 255 - stripes[:, ::9]
     strangers = taught.extractor.see(np.concatenate([noise, blank, stripes]))
-    tiles = taught.extractor.see(scenes.of_split("test").pictures(112))
+    tiles = taught.extractor.see(scenes.of_split("test").pictures(EYES_SIDE))
     values = {"scene": ["scene"] * 20}
     least = taught.familiarity.likeness(tiles.embeddings, values).min()
     found = taught.familiarity.likeness(strangers.embeddings, {"scene": ["scene"] * 8})

@@ -71,12 +71,15 @@ def read_sensing(literal: str, where: str, knowledge: Knowledge, *, error: float
         raise SensingError(
             f"nothing is said; write where the robot senses this, such as {example}", part="where"
         )
-    # The literal first by itself: what is then still wrong is wrong with the conditions.
-    for part, text in (("literal", f"{literal}."), ("where", f"{literal} if {where}.")):
-        try:
-            axioms = read_axioms(text, signature, file="sensing")
-        except KnowledgeError as problem:
-            raise SensingError(_PLACE.sub("", str(problem)), part=part) from None
+    try:
+        axioms = read_axioms(f"{literal} if {where}.", signature, file="sensing")
+    except KnowledgeError:
+        part = "where"
+        try:  # the literal by itself: what is not wrong with it is wrong with the conditions
+            read_axioms(f"{literal}.", signature, file="sensing")
+        except KnowledgeError as of_literal:
+            part, problem = "literal", of_literal
+        raise SensingError(_PLACE.sub("", str(problem)), part=part) from None
     if len(axioms) != 1:
         raise SensingError(
             f"found {len(axioms)} statements in '{where}'; write conditions with commas between "
