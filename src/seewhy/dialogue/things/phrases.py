@@ -238,6 +238,7 @@ PHRASES: dict[str, Fold] = {
     "standing": _standing,
     "stood_to": _stood_to,
     "carried": _stood_to,
+    "borne": _stood_to,
     "either_kind": _either_kind,
     "best": _picked,
     "verb_and_one": _standing,
