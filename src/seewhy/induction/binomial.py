@@ -24,7 +24,7 @@ def at_least(successes: ArrayLike, trials: ArrayLike, share: float) -> NDArray[n
     >>> at_least([0, 1, 2], 2, 0.5).tolist()
     [1.0, 0.75, 0.25]
     """
-    from scipy.stats import binom  # slow to import, and answering needs none of it
+    from scipy.special import bdtrc  # answering needs none of it
 
-    found: Any = binom.sf(np.asarray(successes) - 1, np.asarray(trials), share)
+    found: Any = bdtrc(np.asarray(successes) - 1, np.asarray(trials), share)
     return np.asarray(found, dtype=np.float64)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.stats import binom
 
 from seewhy.induction.axiom_learning import BY_CHANCE, Decide, LearningOptions, learn_axioms
+from seewhy.induction.binomial import at_least
 from seewhy.induction.candidate import Candidate, chance, is_borne_out, tally
 from seewhy.induction.generalisation import most_general
 from seewhy.induction.scene_table import SceneTable, scene_table
@@ -100,7 +100,7 @@ def _is_usual(candidate: Candidate, table: SceneTable) -> bool:
     A candidate about several things may owe its evidence to some of them.
     """
     found = tally(candidate, table)
-    if binom.sf(found.right - 1, found.right + found.wrong, 0.5) > _AS_OFTEN_WRONG:
+    if at_least(found.right, found.right + found.wrong, 0.5) > _AS_OFTEN_WRONG:
         return False
     return not candidate.conditions or chance(candidate, table, found) <= BY_CHANCE
 
