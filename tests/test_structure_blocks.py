@@ -56,8 +56,7 @@ def scene(domain: Domain) -> ThingScene:
     assert things is not None
     colours = ("red", "green", "purple", "teal")
     blocks = [{"colour": colour, "width": "narrow"} for colour in colours]
-    on, left = [(3, 0), (0, 1), (1, 2)], [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
-    said = {"on": on, "beyond": [(3, 0)], "left": left}
+    said = {"on": [(3, 0), (0, 1), (1, 2)], "beyond": [(3, 0)]}
     return SceneConclusions(domain).conclude(thing_scene(things, blocks, relations=said))
 
 

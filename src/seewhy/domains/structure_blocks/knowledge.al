@@ -6,8 +6,6 @@
 #static colour(block, hue).
 #static width(block, extent).
 
-#static left(block, block).
-#static right(block, block).
 #static on(block, block).
 #static under(block, block).
 #static beyond(block, block).
