@@ -23,6 +23,7 @@ from seewhy.studio.project import Project
 from seewhy.studio.site import site
 from studio_browsing import NEEDS_CHROMIUM, hindrances, served
 from studio_builder import RULES, Browser, embed, ended_job
+from test_studio_share import is_whole
 from thing_pictures import piles
 
 if TYPE_CHECKING:
@@ -148,7 +149,7 @@ def test_what_was_seen_of_each_thing_is_shown(asking: Browser, shown: Project) -
     assert 'text-anchor="end"' in text  # a name at the right is not cut off
     assert "Sure." in text or "Not sure: " in text
     assert "what is there?" in text
-    for control in ("/ask/what-if", "/ask/doubt", "/ask/where", "/share/answers.html"):
+    for control in ("/ask/what-if", "/ask/doubt", "/ask/where"):
         assert control not in text
 
 
@@ -219,9 +220,26 @@ def test_what_is_missing_for_asking_is_a_sentence(
     assert "train anew" in refused.text
 
 
+def test_answers_about_things_are_a_whole_file(asking: Browser, shown: Project) -> None:
+    address = f"/share/answers.html?picture={PICTURE}"
+    nothing = asking.client.get(address)
+    assert nothing.status_code == 422
+    assert f"nothing was asked of {PICTURE} yet" in nothing.text
+    assert address in asking.get(f"/ask?picture={PICTURE}")
+    asking.post("/ask", picture=PICTURE, question="how many red shapes are there?")
+    assert f"2 answers about {PICTURE}, with the reasons and where each thing is" in asking.get(
+        "/share"
+    )
+    kept = is_whole(asking.client, address, "003.html")
+    assert kept.count("<image") == 1  # the picture stands once, and is shown twice
+    assert kept.count("href='#picture'") == 2
+    assert kept.count("class='box-") == 2 * count_of(shown)
+    assert "<h2>how many red shapes are there?</h2>" in kept
+    assert re.search(r'class="holds of-\d" tabindex="0">[^<]* red', kept)
+
+
 def test_what_is_for_one_thing_says_so(asking: Browser) -> None:
-    assert "This is for pictures of one thing" in asking.get("/share")
-    for path in ("/ask/what-if", "/ask/doubt", "/share/answers.html"):
+    for path in ("/ask/what-if", "/ask/doubt"):
         refused = asking.client.get(path, params={"picture": PICTURE})
         assert refused.status_code == 422
 
@@ -257,7 +275,12 @@ def test_figures_and_wrong_pictures_of_things(asking: Browser, shown: Project) -
     assert f'href="/label?picture={PICTURE}"' in text
     assert f'href="/ask?picture={PICTURE}"' in text
     assert re.search(rf'class="wrong">colour of {other}', text)
-    assert "page.html" not in text
+    assert re.search(rf'class="wrong">colour of {other}[^<]*</span> \(\d+ % sure\)', text)
+    assert "/evaluate/page.html" in text
+    name = "shapes-evaluation.html"
+    kept = asking.client.get("/evaluate/page.html")
+    assert kept.headers["Content-Disposition"] == f'attachment; filename="{name}"'
+    assert f'<p class="name">{PICTURE}</p>' in kept.text
     say_of_thing(shown, PICTURE, thing, "colour", drawn.values["colour"].value, who="Ada")
     assert "Its boxes or labels were changed since" in asking.get("/evaluate")
     (shown.folder / "model" / "model.json").touch()

@@ -108,9 +108,12 @@ def test_commands(shelf: Shelf, run: Run, tmp_path: Path) -> None:
     assert plain.code == 0
     assert "because:" in plain.out
     assert "<svg" in card.read_text(encoding="utf-8")
-    judged = run("evaluate", str(shelf.model), "--data", str(shelf.data))
+    page = tmp_path / "page.html"
+    judged = run("evaluate", str(shelf.model), "--data", str(shelf.data), "--page", str(page))
     assert "scenes wholly right" in judged.out
     assert "majority" in judged.out
+    assert f"page: {page}" in judged.out
+    assert "<h1>Shapes on a shelf, evaluated</h1>" in page.read_text(encoding="utf-8")
     table = tmp_path / "found.csv"
     assert run("classify", str(shelf.model), str(picture), "--out", str(table)).code == 0
     with table.open(encoding="utf-8") as stream:

@@ -13,7 +13,8 @@ from seewhy.errors import PictureError, QuestionError, SeeWhyError
 from seewhy.studio.incoming import sent_picture
 from seewhy.studio.pages import ask_doubt, ask_where
 from seewhy.studio.pages.ask_things import answer_about_things, things_or_problem
-from seewhy.studio.pages.asking import asked_again, chosen, shown_answer, understood
+from seewhy.studio.pages.asking import asked_again, shown_answer, understood
+from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.pages.page import Page
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.session import who_of
@@ -45,11 +46,10 @@ def show(
 ) -> Response:
     """The page, with the picture that was chosen last."""
     studio = studio_of(request)
-    several = studio.project.has_things
-    missing = (studio.things if several else studio.model).missing
+    missing = studio.answering.missing
     if missing is not None:
         return render(request, "ask.html", missing=missing)
-    talk = (studio.thing_talks if several else studio.talks).of(request.state.session)
+    talk = studio.talk_of(request.state.session)
     name = chosen(studio, picture) if picture else talk.picture
     if name not in set(studio.project.pictures()):
         name = studio.project.pictures()[0]
@@ -65,7 +65,7 @@ def show(
         find=find,
         at=at,
         last=max(0, len(names) - 1) // _STRIP,
-        bench="_ask_things.html" if several else "_ask_bench.html",
+        bench="_ask_things.html" if isinstance(talk, ThingTalk) else "_ask_bench.html",
         **(
             things_or_problem(studio, talk)
             if isinstance(talk, ThingTalk)

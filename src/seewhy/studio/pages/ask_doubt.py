@@ -13,7 +13,7 @@ from seewhy.errors import SeeWhyError
 from seewhy.revision.proposal import Proposal
 from seewhy.revision.remarks import Remark, Says, remark_of
 from seewhy.studio import doubting
-from seewhy.studio.pages.asking import chosen
+from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.talk import Talk

@@ -11,7 +11,7 @@ from fastapi.responses import RedirectResponse
 from seewhy.errors import PictureError, QuestionError
 from seewhy.report.thing_card import rests_on
 from seewhy.studio.drawing import picture_size
-from seewhy.studio.pages.asking import chosen
+from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.suggesting_about_things import FIRST, suggested_about_things

@@ -16,7 +16,8 @@ from seewhy.studio.drawing import (
     say_of_thing,
     things_of,
 )
-from seewhy.studio.pages.label_shown import Name, require_picture, shown
+from seewhy.studio.pages.chosen_picture import chosen
+from seewhy.studio.pages.label_shown import GO_ON, Name, shown
 from seewhy.studio.session import who_of
 from seewhy.studio.state import studio_of
 
@@ -103,5 +104,5 @@ def relate_things(request: Request, picture: Name, thing: Name, choice: Name) ->
 def _stand(request: Request, picture: str) -> None:
     """Stand at a picture of the project."""
     studio = studio_of(request)
-    require_picture(studio, picture)
+    chosen(studio, picture, remedy=GO_ON)
     studio.trails.of(request.state.session).visit(picture)
