@@ -143,14 +143,16 @@ def test_what_was_seen_of_each_thing_is_shown(asking: Browser, shown: Project) -
     text = asking.get(f"/ask?picture={PICTURE}")
     count = count_of(shown)
     assert text.count('<rect class="line"') >= count
-    assert len(re.findall(r'<tr><th scope="row">\d: ', text)) == count
+    assert len(re.findall(r'<th scope="row"><a href="[^>]*>\d: ', text)) == count
     assert re.search(r"<td>(small|large) <span class=\"soft\">\d+ %</span></td>", text)
     assert 'viewBox="0 0 128 96"' in text
     assert 'text-anchor="end"' in text  # a name at the right is not cut off
     assert "Sure." in text or "Not sure: " in text
     assert "what is there?" in text
-    for control in ("/ask/what-if", "/ask/doubt", "/ask/where"):
-        assert control not in text
+    assert "/ask/where" not in text
+    assert re.findall(r'<span class="holds" data-of="(\d)" tabindex="0">', text) == [
+        str(number) for number in range(count)
+    ]
 
 
 def test_questions_are_answered_in_one_conversation(asking: Browser, shown: Project) -> None:
@@ -238,10 +240,39 @@ def test_answers_about_things_are_a_whole_file(asking: Browser, shown: Project) 
     assert re.search(r'class="holds of-\d" tabindex="0">[^<]* red', kept)
 
 
+def test_what_if_is_a_function_of_its_address(asking: Browser, shown: Project) -> None:
+    address = f"/ask/what-if?picture={PICTURE}"
+    text = asking.get(f"/ask?picture={PICTURE}")
+    count = count_of(shown)
+    boxes = re.findall(
+        rf'<a class="box" data-number="(\d)" href="{re.escape(address)}&amp;go=(\d)"', text
+    )
+    assert boxes == [(str(number), str(number + 1)) for number in range(count)]
+    assert "As it was seen" not in text
+    asking.post("/ask", picture=PICTURE, question="how many red shapes are there?")
+    reds = count_of(shown, ",red,")
+    fields = "&".join(f"shows.{number + 1}.colour=red" for number in range(count))
+    then = asking.get(f"{address}&{fields}&gone=1&at=2&more=1", part=True)
+    assert then.startswith('<section id="what-if"')
+    said = re.findall(r'<p class="small soft">If (.*?):</p>', then)
+    assert said[0].count(" were red") == count - reds
+    assert "were not there" in said[0]
+    words = ["no", "one", "two", "three", "four", "five"]
+    assert f"<strong>There are {words[count]} red shapes: " in then
+    assert f'<input type="hidden" name="at" value="{count + 1}">' in then
+    assert '<input type="hidden" name="gone" value="1">' in then
+    assert "taken away</a>" in then
+    assert "By the rules the picture would " in then
+    page = asking.get(f"{address}&gone=1")
+    assert "<h1>What if</h1>" in page
+    refused = asking.client.get(f"{address}&shows.1.colour=mauve")
+    assert refused.status_code == 422
+    assert "&#39;mauve&#39; is no value of &#39;colour&#39;" in refused.text
+
+
 def test_what_is_for_one_thing_says_so(asking: Browser) -> None:
-    for path in ("/ask/what-if", "/ask/doubt"):
-        refused = asking.client.get(path, params={"picture": PICTURE})
-        assert refused.status_code == 422
+    refused = asking.client.get("/ask/doubt", params={"picture": PICTURE})
+    assert refused.status_code == 422
 
 
 def test_a_picture_that_cannot_be_read_is_said(asking: Browser, shown: Project) -> None:
@@ -359,6 +390,16 @@ def test_everybody_can_use_the_pages_of_things(
         for path in ("/train", f"/ask?picture={PICTURE}", "/evaluate"):
             page.goto(f"{address}{path}")
             assert hindrances(page, width) == []
+        page.goto(f"{address}/ask?picture={PICTURE}")
+        page.locator(".answer .holds[tabindex]").nth(1).focus()
+        assert page.locator(".box.pointed").get_attribute("data-number") == "1"
+        page.locator(".boxes.read a").nth(1).focus()
+        page.keyboard.press("Enter")
+        page.locator("[name='shows.2.form']:checked").focus()
+        page.keyboard.press("ArrowRight")
+        page.get_by_text("As it was seen").wait_for()
+        assert page.evaluate("document.activeElement.name") == "shows.2.form"
+        assert hindrances(page, width) == []
         context.close()
 
 

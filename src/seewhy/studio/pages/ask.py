@@ -12,7 +12,11 @@ from seewhy.dialogue.asked import Asks, Question
 from seewhy.errors import PictureError, QuestionError, SeeWhyError
 from seewhy.studio.incoming import sent_picture
 from seewhy.studio.pages import ask_doubt, ask_where
-from seewhy.studio.pages.ask_things import answer_about_things, things_or_problem
+from seewhy.studio.pages.ask_things import (
+    answer_about_things,
+    things_or_problem,
+    what_if_about_things,
+)
 from seewhy.studio.pages.asking import asked_again, shown_answer, understood
 from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.pages.page import Page
@@ -119,6 +123,8 @@ def answer(
 def what_if(request: Request, picture: Name) -> Response:
     """Class, reasons and smallest change if the picture showed other values."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        return what_if_about_things(request, picture)
     name = chosen(studio, picture)
     given = [
         f"{key.removeprefix('shows.')}={value}"
@@ -129,7 +135,8 @@ def what_if(request: Request, picture: Name) -> Response:
         supposed = suppose(agent, studio.model.look(name), given)
         domain = agent.domain
     template = "_ask_supposed.html" if from_script(request) else "ask_what_if.html"
-    return render(request, template, supposed=supposed, picture=name, domain=domain)
+    part = "_ask_supposed.html"
+    return render(request, template, part=part, supposed=supposed, picture=name, domain=domain)
 
 
 @router.post("/ask/take")
