@@ -270,9 +270,102 @@ def test_what_if_is_a_function_of_its_address(asking: Browser, shown: Project) -
     assert "&#39;mauve&#39; is no value of &#39;colour&#39;" in refused.text
 
 
-def test_what_is_for_one_thing_says_so(asking: Browser) -> None:
-    refused = asking.client.get("/ask/doubt", params={"picture": PICTURE})
+def test_a_misread_value_is_one_more_label_and_is_taken_back(
+    asking: Browser, shown: Project
+) -> None:
+    """In a picture that is annotated: the label of the thing whose box it is."""
+    asked = {"picture": PICTURE}
+    before = asking.post("/ask", **asked, question="how many red shapes are there?")
+    panel = asking.post("/ask", **asked, question="no, that is wrong")
+    assert "No box is drawn" not in panel
+    assert asking.client.get("/ask/doubt", params=asked).status_code == 200
+    place, value = next(
+        (number, value)
+        for number, value in re.findall(r'<option value="(\d)\.colour=(red|blue)"', panel)
+    )
+    drawn, held = shown.labels().drawn_in(PICTURE), len(shown.record.holding())
+    text = asking.post("/ask/correct", **asked, choice=f"{place}.colour={value}")
+    number = shown.record.all()[-1].number
+    assert f"Kept as entry {number}. What sees learns from it" in text
+    assert "are kept with it" not in text
+    changed = [
+        (name, thing)
+        for name, thing in shown.labels().drawn_in(PICTURE).things.items()
+        if thing != drawn.things[name]
+    ]
+    assert [thing.values["colour"].value for _, thing in changed] == [value]
+    assert f"{PICTURE},{changed[0][0]}," in (shown.folder / "things.csv").read_text()
+    after = re.findall(r'<p class="text">([^<]+)', text)
+    assert after != re.findall(r'<p class="text">([^<]+)', before)
+    assert f'<td>{value} <span class="soft">100 %</span></td>' in text
+    assert "Taken back" in asking.post("/ask/take-back", **asked, number=number)
+    assert shown.labels().drawn_in(PICTURE) == drawn
+    assert len(shown.record.holding()) == held
+
+
+def test_where_nothing_is_drawn_all_that_was_found_is_kept(asking: Browser, shown: Project) -> None:
+    things = shown.folder / "things.csv"
+    rows = things.read_text().splitlines()
+    relations = shown.folder / "relations.csv"
+    for file in (relations, things):
+        kept = [row for row in file.read_text().splitlines() if not row.startswith(PICTURE)]
+        file.write_text("\n".join(kept) + "\n")
+    shown.refresh()
+    asked = {"picture": PICTURE}
+    panel = asking.get(f"/ask/doubt?picture={PICTURE}", part=True)
+    assert "the boxes of all shapes are kept as they were found" in panel
+    text = asking.post("/ask/correct", **asked, choice="gone.1")
+    assert "The boxes of all other shapes are kept with it, as they were found." in text
+    count = sum(row.startswith(PICTURE) for row in rows)
+    assert sorted(shown.labels().drawn_in(PICTURE).things) == list(map(str, range(2, count + 1)))
+    assert len(re.findall(r'<th scope="row"><a href="[^>]*>\d: ', text)) == count - 1
+    for left in range(count - 1, 0, -1):
+        text = asking.post("/ask/correct", **asked, choice=f"gone.{left}")
+    assert "No shape is left: the picture is said to show none." in text
+    assert shown.labels().drawn_in(PICTURE).none
+    assert any(scene.no_things for scene in shown.dataset().scenes)
+    assert "No shape was found." in text
+    refused = asking.client.post(
+        "/ask/correct", data={"csrf": asking.csrf, **asked, "choice": "gone.1"}
+    )
     assert refused.status_code == 422
+    assert "there is no shape 1 in what was read" in refused.text
+
+
+def test_what_was_missed_is_drawn_beside_what_was_found(
+    browser: Browser, asking: Browser, shown: Project
+) -> None:
+    picture = shown.pictures()[0]
+    drawn = shown.labels().drawn_in(picture)
+    answered = asking.client.post(
+        "/ask/missing", data={"csrf": asking.csrf, "picture": picture}, follow_redirects=False
+    )
+    assert answered.headers["Location"] == f"/label?picture={picture.replace('/', '%2F')}"
+    assert shown.labels().drawn_in(picture) == drawn  # it has boxes already
+    refused = browser.client.post("/ask/missing", data={"csrf": browser.csrf, "picture": "a.png"})
+    assert "There is no model yet" in refused.text
+
+
+@pytest.mark.parametrize(
+    ("choice", "complaint"),
+    [
+        ("9.colour=red", "there is no shape 9 in what was read"),
+        ("0.colour=red", "things are counted from 1"),
+        ("1.hue=red", "is no feature of things"),
+        ("1.colour=mauve", "is no value of"),
+        ("there.9", "what was doubtful is not any more"),
+    ],
+)
+def test_a_correction_of_what_is_not_there_is_refused(
+    asking: Browser, shown: Project, choice: str, complaint: str
+) -> None:
+    held = len(shown.record.all())
+    refused = asking.client.post(
+        "/ask/correct", data={"csrf": asking.csrf, "picture": PICTURE, "choice": choice}
+    )
+    assert refused.status_code == 422
+    assert complaint in refused.text
+    assert len(shown.record.all()) == held
 
 
 def test_a_picture_that_cannot_be_read_is_said(asking: Browser, shown: Project) -> None:
@@ -399,6 +492,8 @@ def test_everybody_can_use_the_pages_of_things(
         page.keyboard.press("ArrowRight")
         page.get_by_text("As it was seen").wait_for()
         assert page.evaluate("document.activeElement.name") == "shows.2.form"
+        page.get_by_text("No, that is wrong").click()
+        page.get_by_label("1: ", exact=False).first.wait_for()
         assert hindrances(page, width) == []
         context.close()
 

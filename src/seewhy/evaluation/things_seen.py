@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from seewhy.agent.things.thing_agent import ThingAgent
-from seewhy.agent.things.thing_lessons import boxes_of
+from seewhy.agent.things.thing_lessons import boxes_of, is_whole
 from seewhy.agent.things.thing_reading import ThingReading, named
 from seewhy.data.dataset import Dataset
 from seewhy.data.measured import MEASURES, how_probable
@@ -165,18 +165,15 @@ def evaluate_things(
 ) -> ThingsSeen:
     """Return how well the things in a dataset's pictures are seen.
 
-    Of its splits, "test" is used, and of that the pictures in which all things have boxes.
+    Of its splits, "test" is used, and of that the pictures in which all things have boxes, and
+    those that are said to show none.
 
     Raises
     ------
     DatasetError
         If there is no such picture.
     """
-    scenes = [
-        scene
-        for scene in dataset.of_split("test").scenes
-        if scene.things and all(thing.box for thing in scene.things)
-    ]
+    scenes = [scene for scene in dataset.of_split("test").scenes if is_whole(scene)]
     if not scenes:
         raise DatasetError(
             f"{dataset.folder / THINGS}: no picture to evaluate on has a box around each of its "

@@ -10,8 +10,9 @@ from fastapi.responses import RedirectResponse
 
 from seewhy.dialogue.asked import Asks, Question
 from seewhy.errors import PictureError, QuestionError, SeeWhyError
+from seewhy.revision.remarks import says_wrong
 from seewhy.studio.incoming import sent_picture
-from seewhy.studio.pages import ask_doubt, ask_where
+from seewhy.studio.pages import ask_doubt, ask_things_doubt, ask_where
 from seewhy.studio.pages.ask_things import (
     answer_about_things,
     things_or_problem,
@@ -19,6 +20,7 @@ from seewhy.studio.pages.ask_things import (
 )
 from seewhy.studio.pages.asking import asked_again, shown_answer, understood
 from seewhy.studio.pages.chosen_picture import chosen
+from seewhy.studio.pages.done import Done
 from seewhy.studio.pages.page import Page
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.session import who_of
@@ -31,6 +33,7 @@ __all__ = ["PAGE"]
 
 router = APIRouter()
 router.include_router(ask_doubt.router)
+router.include_router(ask_things_doubt.router)
 router.include_router(ask_where.router)
 PAGE = Page("/ask", "Ask", router)
 
@@ -98,6 +101,8 @@ def answer(
     """Answer a question; one that leaves something out is about what was spoken of."""
     studio = studio_of(request)
     if studio.project.has_things:
+        if says_wrong(question):
+            return ask_things_doubt.doubt_about_things(request, picture)
         return answer_about_things(request, picture, question)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
@@ -158,13 +163,15 @@ def take(
 def take_back(request: Request, picture: NameField, number: Annotated[int, Form(ge=1)]) -> Response:
     """Take back what was taken, and answer the last question anew."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        return ask_things_doubt.take_back_about_things(request, picture, number)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     studio.project.take_back(number, who=who_of(request))
     asked_again(studio, talk)
     if not from_script(request):
         return RedirectResponse(f"{PAGE.path}?{urlencode({'picture': talk.picture})}", 303)
-    done = ask_doubt.Done(f"Taken back: entry {number}.", None)
+    done = Done(f"Taken back: entry {number}.", None)
     return render(request, "_ask_bench.html", **{**_bench(studio, request), "done": done})
 
 

@@ -15,6 +15,7 @@ from seewhy.errors import PictureError, QuestionError
 from seewhy.report.thing_card import rests_on, spoken_of
 from seewhy.studio.drawing import picture_size
 from seewhy.studio.pages.chosen_picture import chosen
+from seewhy.studio.pages.done import Done
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.suggesting_about_things import FIRST, suggested_about_things
@@ -31,7 +32,13 @@ if TYPE_CHECKING:
     from seewhy.agent.things.thing_agent import ThingAgent
     from seewhy.agent.things.thing_reply import PictureReply
 
-__all__ = ["answer_about_things", "begin", "things_or_problem", "what_if_about_things"]
+__all__ = [
+    "answer_about_things",
+    "begin",
+    "shown_anew",
+    "things_or_problem",
+    "what_if_about_things",
+]
 
 
 def things_or_problem(studio: Studio, talk: ThingTalk) -> dict[str, Any]:
@@ -56,6 +63,21 @@ def begin(studio: Studio, talk: ThingTalk) -> None:
             talk.remember(agent.answer(FIRST, scene))
 
 
+def shown_anew(request: Request, studio: Studio, talk: ThingTalk, done: Done) -> Response:
+    """The bench when something was done: the picture is read and the question asked anew."""
+    question = talk.replies[-1].reply.question if talk.replies else FIRST
+    with studio.things.at_work() as agent:
+        scene = studio.things.look(talk.picture)
+        talk.about(talk.picture, scene)
+        try:
+            talk.remember(agent.answer(question, scene))
+        except QuestionError:  # it was about the answer before
+            begin(studio, talk)
+    if not from_script(request):
+        return RedirectResponse(f"/ask?{urlencode({'picture': talk.picture})}", 303)
+    return render(request, "_ask_things.html", **_shown(studio, talk, done=done))
+
+
 def answer_about_things(request: Request, picture: str, question: str) -> Response:
     """Answer a question; one that leaves something out is about what was answered last."""
     studio = studio_of(request)
@@ -72,12 +94,13 @@ def answer_about_things(request: Request, picture: str, question: str) -> Respon
     return render(request, "_ask_things.html", **_shown(studio, talk))
 
 
-def _shown(studio: Studio, talk: ThingTalk) -> dict[str, Any]:
+def _shown(studio: Studio, talk: ThingTalk, *, done: Done | None = None) -> dict[str, Any]:
     """What the template of the bench shows."""
     reply = talk.replies[-1]
     with studio.things.at_work() as agent:
         return {
             "picture": talk.picture,
+            "done": done,
             "size": picture_size(studio.project.picture_file(talk.picture)),
             "reply": reply,
             "read": reply.read,

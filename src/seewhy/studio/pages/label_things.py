@@ -13,6 +13,7 @@ from seewhy.studio.drawing import (
     relate,
     relate_to_no_other,
     remove,
+    say_none,
     say_of_thing,
     things_of,
 )
@@ -62,6 +63,19 @@ def remove_thing(request: Request, picture: Name, thing: Name) -> Response:
     _stand(request, picture)
     remove(studio.project, picture, thing, who=who_of(request))
     return shown(request, done=f"{one} {thing} is removed")
+
+
+@router.post("/label/thing/none")
+def set_none(request: Request, picture: Name, choice: Name) -> Response:
+    """Say that nothing is in the picture (``yes``), or leave it open again (``open``)."""
+    studio = studio_of(request)
+    many = things_of(studio.project).many
+    _stand(request, picture)
+    if choice not in ("yes", "open"):
+        raise SeeWhyError(f"there are no {many} (yes), or it is open, got '{choice}'")
+    say_none(studio.project, picture, choice == "yes", who=who_of(request))
+    done = f"no {many} here" if choice == "yes" else f"open again whether there are {many}"
+    return shown(request, done=done)
 
 
 @router.post("/label/thing/set")
