@@ -399,3 +399,15 @@ def test_what_a_table_says_of_none_is_taken_in(project: Project) -> None:
     table.write_text("image,light\na.png,yes\n")
     project.refresh()
     assert not project.labels().drawn_in("a.png").none
+
+
+def test_pictures_with_things_have_proposals_for_the_whole(
+    browser: Browser, project: Project
+) -> None:
+    for name, light, label in (("a.png", "yes", "stable"), ("b.png", "no", "unstable")):
+        browser.post("/label/set", picture=name, choice=f"light={light}")
+        browser.post("/label/set", picture=name, choice=f"class={label}")
+    text = browser.get("/label?picture=c.png")
+    assert "there are no proposals" not in text
+    assert "Confirm 2 proposed" in text
+    assert project.labels().values("a.png") == {"light": "yes", "class": "stable"}
