@@ -116,6 +116,16 @@ def test_every_wording_of_the_templates_means_what_the_template_says() -> None:
         assert QUESTIONS.understand(question.text.upper()).query == question.query
 
 
+def test_wordings_of_templates_agree_in_number() -> None:
+    texts = {question.text: question.words for question in QUESTIONS.all}
+    assert "does the structure have two blocks" in texts
+    assert "are there two blocks" in texts
+    assert not any("one blocks" in text for text in texts)
+    # What is understood is told apart as the pattern has it.
+    assert texts["is there one block"] == ("are", "there", "one", "block")
+    assert texts["does the structure have one block"] == ("doe", "it", "have", "one", "block")
+
+
 def _words(text: str) -> list[tuple[int, int]]:
     return [match.span() for match in re.finditer("[a-z]{5,}", text)]
 

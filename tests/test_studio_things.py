@@ -353,3 +353,61 @@ def test_pictures_without_classes_are_labelled_by_their_things(tmp_path: Path) -
         sheet = client.get("/label/sheet")
         assert (sheet.status_code, "one picture at a time" in sheet.text) == (422, True)
         assert 'data-picture="a.png"' not in browser.get("/label?go=on", part=True)
+
+
+# Pictures that show none ----------------------------------------------------------------------
+
+
+def test_that_nothing_is_there_is_a_label(browser: Browser, project: Project) -> None:
+    assert 'data-key="n">No blocks here' in browser.get("/label?picture=b.png")
+    text = browser.post("/label/thing/none", picture="b.png", choice="yes")
+    assert "no blocks here" in text
+    assert "it teaches where none are" in text
+    table = project.folder / "scenes.csv"
+    assert table.read_text() == "image,split,class,light,things,group,reasons\nb.png,,,,none,,\n"
+    labels = project.labels()
+    assert labels.is_boxed("b.png")
+    assert [scene.no_things for scene in project.dataset().scenes] == [True]
+    browser.post("/label/thing/draw", picture="b.png", **RED)
+    assert not project.labels().drawn_in("b.png").none
+    assert rows(project, "scenes.csv") == ["b.png,,,,,"]
+    refused = browser.client.post(
+        "/label/thing/none", data={"csrf": browser.csrf, "picture": "b.png", "choice": "yes"}
+    )
+    assert refused.status_code == 422
+    assert "has 1 block; remove it before saying that there are none" in refused.text
+    browser.post("/label/undo")
+    assert project.labels().drawn_in("b.png").none
+    assert "none there" in browser.get("/label/history")
+    browser.post("/label/thing/none", picture="b.png", choice="open")
+    assert rows(project, "scenes.csv") == []
+    refused = browser.client.post(
+        "/label/thing/none", data={"csrf": browser.csrf, "picture": "b.png", "choice": "no"}
+    )
+    assert refused.status_code == 422
+
+
+def test_what_a_table_says_of_none_is_taken_in(project: Project) -> None:
+    draw(project, "a.png", (20, 50, 60, 90), who="Ada")
+    project.label({"a.png": {"light": "yes"}}, who="Ada")
+    (project.folder / "things.csv").write_text("image,thing\n")
+    table = project.folder / "scenes.csv"
+    table.write_text("image,light,things\na.png,yes,none\n")
+    project.refresh()
+    assert project.labels().drawn_in("a.png").none
+    assert rows(project, "scenes.csv") == ["a.png,,,yes,none,,"]
+    table.write_text("image,light\na.png,yes\n")
+    project.refresh()
+    assert not project.labels().drawn_in("a.png").none
+
+
+def test_pictures_with_things_have_proposals_for_the_whole(
+    browser: Browser, project: Project
+) -> None:
+    for name, light, label in (("a.png", "yes", "stable"), ("b.png", "no", "unstable")):
+        browser.post("/label/set", picture=name, choice=f"light={light}")
+        browser.post("/label/set", picture=name, choice=f"class={label}")
+    text = browser.get("/label?picture=c.png")
+    assert "there are no proposals" not in text
+    assert "Confirm 2 proposed" in text
+    assert project.labels().values("a.png") == {"light": "yes", "class": "stable"}

@@ -23,6 +23,7 @@ from seewhy.studio.project import Project
 from seewhy.studio.site import site
 from studio_browsing import NEEDS_CHROMIUM, hindrances, served
 from studio_builder import RULES, Browser, embed, ended_job
+from test_studio_share import is_whole
 from thing_pictures import piles
 
 if TYPE_CHECKING:
@@ -142,14 +143,16 @@ def test_what_was_seen_of_each_thing_is_shown(asking: Browser, shown: Project) -
     text = asking.get(f"/ask?picture={PICTURE}")
     count = count_of(shown)
     assert text.count('<rect class="line"') >= count
-    assert len(re.findall(r'<tr><th scope="row">\d: ', text)) == count
+    assert len(re.findall(r'<th scope="row"><a href="[^>]*>\d: ', text)) == count
     assert re.search(r"<td>(small|large) <span class=\"soft\">\d+ %</span></td>", text)
     assert 'viewBox="0 0 128 96"' in text
     assert 'text-anchor="end"' in text  # a name at the right is not cut off
     assert "Sure." in text or "Not sure: " in text
     assert "what is there?" in text
-    for control in ("/ask/what-if", "/ask/doubt", "/ask/where", "/share/answers.html"):
-        assert control not in text
+    assert "/ask/where" not in text
+    assert re.findall(r'<span class="holds" data-of="(\d)" tabindex="0">', text) == [
+        str(number) for number in range(count)
+    ]
 
 
 def test_questions_are_answered_in_one_conversation(asking: Browser, shown: Project) -> None:
@@ -219,11 +222,150 @@ def test_what_is_missing_for_asking_is_a_sentence(
     assert "train anew" in refused.text
 
 
-def test_what_is_for_one_thing_says_so(asking: Browser) -> None:
-    assert "This is for pictures of one thing" in asking.get("/share")
-    for path in ("/ask/what-if", "/ask/doubt", "/share/answers.html"):
-        refused = asking.client.get(path, params={"picture": PICTURE})
-        assert refused.status_code == 422
+def test_answers_about_things_are_a_whole_file(asking: Browser, shown: Project) -> None:
+    address = f"/share/answers.html?picture={PICTURE}"
+    nothing = asking.client.get(address)
+    assert nothing.status_code == 422
+    assert f"nothing was asked of {PICTURE} yet" in nothing.text
+    assert address in asking.get(f"/ask?picture={PICTURE}")
+    asking.post("/ask", picture=PICTURE, question="how many red shapes are there?")
+    assert f"2 answers about {PICTURE}, with the reasons and where each thing is" in asking.get(
+        "/share"
+    )
+    kept = is_whole(asking.client, address, "003.html")
+    assert kept.count("<image") == 1  # the picture stands once, and is shown twice
+    assert kept.count("href='#picture'") == 2
+    assert kept.count("class='box-") == 2 * count_of(shown)
+    assert "<h2>how many red shapes are there?</h2>" in kept
+    assert re.search(r'class="holds of-\d" tabindex="0">[^<]* red', kept)
+
+
+def test_what_if_is_a_function_of_its_address(asking: Browser, shown: Project) -> None:
+    address = f"/ask/what-if?picture={PICTURE}"
+    text = asking.get(f"/ask?picture={PICTURE}")
+    count = count_of(shown)
+    boxes = re.findall(
+        rf'<a class="box" data-number="(\d)" href="{re.escape(address)}&amp;go=(\d)"', text
+    )
+    assert boxes == [(str(number), str(number + 1)) for number in range(count)]
+    assert "As it was seen" not in text
+    asking.post("/ask", picture=PICTURE, question="how many red shapes are there?")
+    reds = count_of(shown, ",red,")
+    fields = "&".join(f"shows.{number + 1}.colour=red" for number in range(count))
+    then = asking.get(f"{address}&{fields}&gone=1&at=2&more=1", part=True)
+    assert then.startswith('<section id="what-if"')
+    said = re.findall(r'<p class="small soft">If (.*?):</p>', then)
+    assert said[0].count(" were red") == count - reds
+    assert "were not there" in said[0]
+    words = ["no", "one", "two", "three", "four", "five"]
+    assert f"<strong>There are {words[count]} red shapes: " in then
+    assert f'<input type="hidden" name="at" value="{count + 1}">' in then
+    assert '<input type="hidden" name="gone" value="1">' in then
+    assert "taken away</a>" in then
+    assert "By the rules the picture would " in then
+    page = asking.get(f"{address}&gone=1")
+    assert "<h1>What if</h1>" in page
+    refused = asking.client.get(f"{address}&shows.1.colour=mauve")
+    assert refused.status_code == 422
+    assert "&#39;mauve&#39; is no value of &#39;colour&#39;" in refused.text
+
+
+def test_a_misread_value_is_one_more_label_and_is_taken_back(
+    asking: Browser, shown: Project
+) -> None:
+    """In a picture that is annotated: the label of the thing whose box it is."""
+    asked = {"picture": PICTURE}
+    before = asking.post("/ask", **asked, question="how many red shapes are there?")
+    panel = asking.post("/ask", **asked, question="no, that is wrong")
+    assert "No box is drawn" not in panel
+    assert asking.client.get("/ask/doubt", params=asked).status_code == 200
+    place, value = next(
+        (number, value)
+        for number, value in re.findall(r'<option value="(\d)\.colour=(red|blue)"', panel)
+    )
+    drawn, held = shown.labels().drawn_in(PICTURE), len(shown.record.holding())
+    text = asking.post("/ask/correct", **asked, choice=f"{place}.colour={value}")
+    number = shown.record.all()[-1].number
+    assert f"Kept as entry {number}. What sees learns from it" in text
+    assert "are kept with it" not in text
+    changed = [
+        (name, thing)
+        for name, thing in shown.labels().drawn_in(PICTURE).things.items()
+        if thing != drawn.things[name]
+    ]
+    assert [thing.values["colour"].value for _, thing in changed] == [value]
+    assert f"{PICTURE},{changed[0][0]}," in (shown.folder / "things.csv").read_text()
+    after = re.findall(r'<p class="text">([^<]+)', text)
+    assert after != re.findall(r'<p class="text">([^<]+)', before)
+    assert f'<td>{value} <span class="soft">100 %</span></td>' in text
+    assert "Taken back" in asking.post("/ask/take-back", **asked, number=number)
+    assert shown.labels().drawn_in(PICTURE) == drawn
+    assert len(shown.record.holding()) == held
+
+
+def test_where_nothing_is_drawn_all_that_was_found_is_kept(asking: Browser, shown: Project) -> None:
+    things = shown.folder / "things.csv"
+    rows = things.read_text().splitlines()
+    relations = shown.folder / "relations.csv"
+    for file in (relations, things):
+        kept = [row for row in file.read_text().splitlines() if not row.startswith(PICTURE)]
+        file.write_text("\n".join(kept) + "\n")
+    shown.refresh()
+    asked = {"picture": PICTURE}
+    panel = asking.get(f"/ask/doubt?picture={PICTURE}", part=True)
+    assert "the boxes of all shapes are kept as they were found" in panel
+    text = asking.post("/ask/correct", **asked, choice="gone.1")
+    assert "The boxes of all other shapes are kept with it, as they were found." in text
+    count = sum(row.startswith(PICTURE) for row in rows)
+    assert sorted(shown.labels().drawn_in(PICTURE).things) == list(map(str, range(2, count + 1)))
+    assert len(re.findall(r'<th scope="row"><a href="[^>]*>\d: ', text)) == count - 1
+    for left in range(count - 1, 0, -1):
+        text = asking.post("/ask/correct", **asked, choice=f"gone.{left}")
+    assert "No shape is left: the picture is said to show none." in text
+    assert shown.labels().drawn_in(PICTURE).none
+    assert any(scene.no_things for scene in shown.dataset().scenes)
+    assert "No shape was found." in text
+    refused = asking.client.post(
+        "/ask/correct", data={"csrf": asking.csrf, **asked, "choice": "gone.1"}
+    )
+    assert refused.status_code == 422
+    assert "there is no shape 1 in what was read" in refused.text
+
+
+def test_what_was_missed_is_drawn_beside_what_was_found(
+    browser: Browser, asking: Browser, shown: Project
+) -> None:
+    picture = shown.pictures()[0]
+    drawn = shown.labels().drawn_in(picture)
+    answered = asking.client.post(
+        "/ask/missing", data={"csrf": asking.csrf, "picture": picture}, follow_redirects=False
+    )
+    assert answered.headers["Location"] == f"/label?picture={picture.replace('/', '%2F')}"
+    assert shown.labels().drawn_in(picture) == drawn  # it has boxes already
+    refused = browser.client.post("/ask/missing", data={"csrf": browser.csrf, "picture": "a.png"})
+    assert "There is no model yet" in refused.text
+
+
+@pytest.mark.parametrize(
+    ("choice", "complaint"),
+    [
+        ("9.colour=red", "there is no shape 9 in what was read"),
+        ("0.colour=red", "things are counted from 1"),
+        ("1.hue=red", "is no feature of things"),
+        ("1.colour=mauve", "is no value of"),
+        ("there.9", "what was doubtful is not any more"),
+    ],
+)
+def test_a_correction_of_what_is_not_there_is_refused(
+    asking: Browser, shown: Project, choice: str, complaint: str
+) -> None:
+    held = len(shown.record.all())
+    refused = asking.client.post(
+        "/ask/correct", data={"csrf": asking.csrf, "picture": PICTURE, "choice": choice}
+    )
+    assert refused.status_code == 422
+    assert complaint in refused.text
+    assert len(shown.record.all()) == held
 
 
 def test_a_picture_that_cannot_be_read_is_said(asking: Browser, shown: Project) -> None:
@@ -257,7 +399,12 @@ def test_figures_and_wrong_pictures_of_things(asking: Browser, shown: Project) -
     assert f'href="/label?picture={PICTURE}"' in text
     assert f'href="/ask?picture={PICTURE}"' in text
     assert re.search(rf'class="wrong">colour of {other}', text)
-    assert "page.html" not in text
+    assert re.search(rf'class="wrong">colour of {other}[^<]*</span> \(\d+ % sure\)', text)
+    assert "/evaluate/page.html" in text
+    name = "shapes-evaluation.html"
+    kept = asking.client.get("/evaluate/page.html")
+    assert kept.headers["Content-Disposition"] == f'attachment; filename="{name}"'
+    assert f'<p class="name">{PICTURE}</p>' in kept.text
     say_of_thing(shown, PICTURE, thing, "colour", drawn.values["colour"].value, who="Ada")
     assert "Its boxes or labels were changed since" in asking.get("/evaluate")
     (shown.folder / "model" / "model.json").touch()
@@ -336,6 +483,18 @@ def test_everybody_can_use_the_pages_of_things(
         for path in ("/train", f"/ask?picture={PICTURE}", "/evaluate"):
             page.goto(f"{address}{path}")
             assert hindrances(page, width) == []
+        page.goto(f"{address}/ask?picture={PICTURE}")
+        page.locator(".answer .holds[tabindex]").nth(1).focus()
+        assert page.locator(".box.pointed").get_attribute("data-number") == "1"
+        page.locator(".boxes.read a").nth(1).focus()
+        page.keyboard.press("Enter")
+        page.locator("[name='shows.2.form']:checked").focus()
+        page.keyboard.press("ArrowRight")
+        page.get_by_text("As it was seen").wait_for()
+        assert page.evaluate("document.activeElement.name") == "shows.2.form"
+        page.get_by_text("No, that is wrong").click()
+        page.get_by_label("1: ", exact=False).first.wait_for()
+        assert hindrances(page, width) == []
         context.close()
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from seewhy.agent.things.thing_lessons import lessons_of
 from seewhy.data.dataset import Dataset
 from seewhy.data.table_writing import write_tables
 from seewhy.data.thing import BoundingBox, Thing
@@ -273,3 +274,58 @@ def test_relations_that_are_refused(domain: Domain, data: Path, kind: str) -> No
     with pytest.raises(DatasetError) as error:
         Dataset.load(data, domain)
     assert str(error.value) == f"{data / 'relations.csv'}{problem}"
+
+
+# Pictures that show none ----------------------------------------------------------------------
+
+
+def test_a_picture_may_be_said_to_show_none(domain: Domain, data: Path, tmp_path: Path) -> None:
+    (data / "things.csv").write_text("".join(THINGS.splitlines(keepends=True)[:3]))
+    (data / "scenes.csv").write_text("image,things\na.png,\nb.png,none\n")
+    dataset = Dataset.load(data, domain)
+    assert [scene.no_things for scene in dataset.scenes] == [False, True]
+    copy = tmp_path / "copy"
+    write_tables(dataset, copy)
+    assert (copy / "scenes.csv").read_text().splitlines()[0].startswith("image,class,things")
+    again = Dataset.load(copy, domain, outside=True)
+    assert [scene.no_things for scene in again.scenes] == [False, True]
+    lessons = lessons_of(_often(dataset), side=16)
+    assert lessons.places is not None
+    counts = sorted(len(boxes) for boxes in lessons.places.boxes)
+    assert counts == [0] * 10 + [2] * 10  # where nothing is, that is taught, too
+    assert len(lessons.things.boxes) == 20
+
+
+def _often(dataset: Dataset) -> Dataset:
+    """Each picture ten times: so many are needed."""
+    return dataset.of_scenes([scene for scene in dataset.scenes for _ in range(10)])
+
+
+def test_pictures_that_show_none_are_not_enough(domain: Domain, data: Path) -> None:
+    (data / "things.csv").write_text("".join(THINGS.splitlines(keepends=True)[:3]))
+    (data / "scenes.csv").write_text("image,things\na.png,\nb.png,none\n")
+    first, second = Dataset.load(data, domain).scenes
+    few = Dataset.load(data, domain).of_scenes([first, *[second] * 12])
+    with pytest.raises(DatasetError, match="1 picture has a box around each thing"):
+        lessons_of(few, side=16)
+
+
+@pytest.mark.parametrize(
+    ("scenes", "complaint"),
+    [
+        (
+            "image,things\na.png,none\nb.png,\n",
+            r"things\.csv:2: line 2 of scenes\.csv says that 'a\.png' shows no things",
+        ),
+        (
+            "image,things\na.png,\nb.png,two\n",
+            r"scenes\.csv:3: things must be 'none' \(nothing is there\) or empty, got 'two'",
+        ),
+    ],
+)
+def test_what_is_wrong_about_none_is_said(
+    domain: Domain, data: Path, scenes: str, complaint: str
+) -> None:
+    (data / "scenes.csv").write_text(scenes)
+    with pytest.raises(DatasetError, match=complaint):
+        Dataset.load(data, domain)

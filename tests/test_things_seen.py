@@ -21,6 +21,7 @@ from seewhy.data.thing import BoundingBox
 from seewhy.domain.domain import load_domain
 from seewhy.errors import DatasetError, DomainError, ModelError, NotFittedError
 from seewhy.evaluation.things_seen import evaluate_things
+from things_builder import draw_shapes
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +44,18 @@ def test_things_are_found_and_read(shelf: Shelf, agent: ThingAgent) -> None:
     assert result.pictures == result.scenes.of == 12
     assert len(result.wrong) == 12 - result.scenes_with_relations.right
     assert result.known == 0
+
+
+def test_a_picture_without_things_is_right_where_none_is_imagined(
+    agent: ThingAgent, tmp_path: Path
+) -> None:
+    folder = tmp_path / "data"
+    folder.mkdir()
+    draw_shapes([]).save(folder / "blank.png")
+    (folder / "scenes.csv").write_text("image,things\nblank.png,none\n")
+    result = evaluate_things(agent, Dataset.load(folder, agent.domain))
+    assert (result.pictures, result.found, result.missed) == (1, 0, 0)
+    assert result.scenes.right == (result.imagined == 0)
 
 
 def test_pictures_that_taught_the_model_are_counted_and_said(
@@ -108,9 +121,12 @@ def test_commands(shelf: Shelf, run: Run, tmp_path: Path) -> None:
     assert plain.code == 0
     assert "because:" in plain.out
     assert "<svg" in card.read_text(encoding="utf-8")
-    judged = run("evaluate", str(shelf.model), "--data", str(shelf.data))
+    page = tmp_path / "page.html"
+    judged = run("evaluate", str(shelf.model), "--data", str(shelf.data), "--page", str(page))
     assert "scenes wholly right" in judged.out
     assert "majority" in judged.out
+    assert f"page: {page}" in judged.out
+    assert "<h1>Shapes on a shelf, evaluated</h1>" in page.read_text(encoding="utf-8")
     table = tmp_path / "found.csv"
     assert run("classify", str(shelf.model), str(picture), "--out", str(table)).code == 0
     with table.open(encoding="utf-8") as stream:

@@ -115,12 +115,11 @@ def evaluate(
     if most is not None and page is None:
         raise SeeWhyError("--most goes with --page; --json lists all wrong pictures")
     if is_of_things(model):
-        options = {"--questions": questions, "--page": page, "--most": most, "--curve": curve}
-        refuse(
-            {**options, "--reading": reading, "--gate": gate, "--known-share": known_share},
-            why="leave it out",
+        options = {"--questions": questions, "--curve": curve, "--reading": reading}
+        refuse({**options, "--gate": gate, "--known-share": known_share}, why="leave it out")
+        evaluate_things_seen(
+            model, data, page=page, most=most, outside=outside, device=device, json=json
         )
-        evaluate_things_seen(model, data, outside=outside, device=device, json=json)
         return
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     dataset = read_data(

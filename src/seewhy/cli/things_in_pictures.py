@@ -265,9 +265,16 @@ def classify_things(
 
 
 def evaluate_things_seen(
-    model: Path, data: Path, *, outside: bool, device: str, json: bool
+    model: Path,
+    data: Path,
+    *,
+    page: Path | None,
+    most: int | None,
+    outside: bool,
+    device: str,
+    json: bool,
 ) -> None:
-    """Print how well the things in annotated pictures are seen."""
+    """Print how well the things in annotated pictures are seen, and write it as a page."""
     from seewhy.cli.read_data import read_data
     from seewhy.evaluation.things_seen import evaluate_things
 
@@ -283,10 +290,24 @@ def evaluate_things_seen(
             f"{result.known:,} of the pictures taught the model: of those it knows too much for "
             "the figures to hold for others"
         )
+    if page is not None:
+        _write_page(page, agent.domain, result, most=most)
     if json:
         print_json(result.to_dict())
-    else:
-        _print_figures(result, agent)
+        return
+    _print_figures(result, agent)
+    if page is not None:
+        say(f"page: {page}")
+
+
+def _write_page(page: Path, domain: Domain, result: ThingsSeen, *, most: int | None) -> None:
+    from seewhy.cli.command_line import as_typed
+    from seewhy.files.whole_files import write_whole
+    from seewhy.report.evaluation_page import MOST_PICTURES
+    from seewhy.report.things_evaluation_page import things_evaluation_page
+
+    shown = MOST_PICTURES if most is None else most
+    write_whole(page, things_evaluation_page(domain, result, command=as_typed(), most=shown))
 
 
 def _print_figures(result: ThingsSeen, agent: ThingAgent) -> None:

@@ -20,7 +20,8 @@ class Scene:
     classified. ``split`` is "train", "test" or empty; pictures of one ``group`` show one physical
     thing and are never split apart for validation. ``reasons`` are the features that somebody
     named as why it is of its class. ``things`` are those in the picture, ``related`` what is said
-    of two of them. ``line`` is where its row stands, 0 where it has none.
+    of two of them; ``no_things`` is true where somebody said that it shows none. ``line`` is where
+    its row stands, 0 where it has none.
     """
 
     picture: Path
@@ -31,6 +32,7 @@ class Scene:
     reasons: tuple[str, ...] = ()
     things: tuple[Thing, ...] = ()
     related: tuple[Related, ...] = ()
+    no_things: bool = False
     line: int = field(default=0, compare=False)
 
 

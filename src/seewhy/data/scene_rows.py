@@ -13,13 +13,26 @@ from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["IMAGE", "OPTIONAL", "SPLITS", "cells_of_scenes", "columns_of", "scenes_of_rows"]
+__all__ = [
+    "IMAGE",
+    "NONE",
+    "NO_THINGS",
+    "OPTIONAL",
+    "SPLITS",
+    "cells_of_scenes",
+    "columns_of",
+    "may_say_none",
+    "scenes_of_rows",
+]
 
 IMAGE = "image"
 OPTIONAL = ("split", "group", "reasons")
 """Columns that a row may lack at its end."""
 
 SPLITS = ("train", "test")
+
+NO_THINGS, NONE = "things", "none"
+"""The column, and the cell, by which a picture of a domain with things is said to show none."""
 
 
 def columns_of(domain: Domain) -> tuple[str, ...]:
@@ -32,7 +45,20 @@ def columns_of(domain: Domain) -> tuple[str, ...]:
     ('image', 'class', 'num_blocks', 'base')
     """
     others = (name for name in RESERVED if name not in (IMAGE, CLASS))
-    return (IMAGE, CLASS, *domain.features, *others)
+    none = (NO_THINGS,) if may_say_none(domain) else ()
+    return (IMAGE, CLASS, *domain.features, *none, *others)
+
+
+def may_say_none(domain: Domain) -> bool:
+    """Whether tables have a column for pictures without things; not where a feature has its name.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> may_say_none(load_domain("tabletop")), may_say_none(load_domain("structure_stability"))
+    (True, False)
+    """
+    return domain.things is not None and NO_THINGS not in domain.features
 
 
 def cells_of_scenes(
@@ -55,6 +81,8 @@ def cells_of_scenes(
     }
     for position, key in enumerate(domain.features):
         cells[key] = [scene.vector[position] for scene in scenes]
+    if any(scene.no_things for scene in scenes):
+        cells[NO_THINGS] = [NONE if scene.no_things else None for scene in scenes]
     cells["split"] = [scene.split or None for scene in scenes]
     cells["group"] = [scene.group or None for scene in scenes]
     cells["reasons"] = [" ".join(scene.reasons) or None for scene in scenes]
@@ -85,6 +113,7 @@ def scenes_of_rows(
         place_of.get(name, -1) for name in (IMAGE, CLASS, *OPTIONAL)
     )
     features_at = [place_of.get(key, -1) for key in domain.features]
+    none_at = place_of.get(NO_THINGS, -1) if may_say_none(domain) else -1
     find = picture_finder(folder, outside=outside)
     vectors: dict[FeatureVector, FeatureVector] = {}
 
@@ -92,6 +121,11 @@ def scenes_of_rows(
         here = place.at(number)
         cells = (*row, *[""] * (len(columns) + 1 - len(row)))
         image, label, split = cells[image_at], cells[class_at], cells[split_at]
+        if cells[none_at] not in ("", NONE):
+            raise DatasetError(
+                f"{here}: {NO_THINGS} must be '{NONE}' (nothing is there) or empty, got "
+                f"'{cells[none_at]}'; what is there stands in things.csv"
+            )
         if not image:
             raise DatasetError(f"{here}: the cell 'image' is empty; name the picture's file")
         if label and label not in domain.classes:
@@ -110,6 +144,7 @@ def scenes_of_rows(
             label=label or None,
             split=split,
             group=cells[group_at],
+            no_things=cells[none_at] == NONE,
             reasons=_reasons(cells[reasons_at], vector, label, domain, here),
             line=number,
         )

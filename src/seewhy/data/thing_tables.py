@@ -149,6 +149,11 @@ def with_things(
         return tuple(scenes)
     found = _things(file, things, domain, set(names))
     for scene, name in zip(scenes, names, strict=True):
+        if scene.no_things and (here := found.get(name)):
+            raise DatasetError(
+                f"{file}:{here[0].line}: line {scene.line} of scenes.csv says that '{name}' shows "
+                "no things; remove one of the two"
+            )
         _check_boxes(found.get(name, []), scene.picture, file)
     said = _related(folder / RELATIONS, things, found)
     return tuple(

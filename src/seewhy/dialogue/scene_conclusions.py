@@ -79,6 +79,10 @@ class SceneConclusions:
         vector = self._vector(scene, without, reasoner.schema)
         return self.taken(scene, reasoner.believed(vector))
 
+    def vector(self, scene: ThingScene, without: int = 0) -> FeatureVector:
+        """Return a scene as the domain reasons with it; ``without`` as for :meth:`conclude`."""
+        return self._vector(scene, without, self.domain.schema)
+
     def taken(self, scene: ThingScene, believed: Iterable[clingo.Symbol]) -> ThingScene:
         """Return a scene with what is believed of it by somebody who has reasoned already."""
         concluded = self._concluded(believed)

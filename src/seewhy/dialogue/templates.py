@@ -13,10 +13,14 @@ from seewhy.domain.question_tables import QuestionTable
 from seewhy.errors import DomainError
 from seewhy.files.toml_file import lines_of_tables
 from seewhy.text.nearest import did_you_mean
+from seewhy.text.nouns import singular
 from seewhy.text.slots import filled, wrong_slot
 from seewhy.text.visible import visible
 
 __all__ = ["MOST_OPTIONAL", "MOST_WORDINGS", "as_what", "embedded", "expanded"]
+
+_ONE = ("one", "1")
+"""Words for a value behind which a noun stands in the singular."""
 
 MOST_OPTIONAL = 8
 """Parts of a pattern that may be left out: so many make 256 wordings."""
@@ -66,15 +70,30 @@ def expanded(domain: Domain, normalise: Callable[[str], tuple[str, ...]]) -> Ite
                 text = filled(variant, said)
                 if "not not" in text:
                     continue  # a class that is worded as "not …" in a question with "not"
+                agreeing = filled(_of_one(variant), said) if slot.word in _ONE else text
                 yield Question(
                     asks=asks,
-                    text=" ".join(text.split()),
+                    text=" ".join(agreeing.split()),
                     words=normalise(text),
                     label=slot.label,
                     feature=table.feature,
                     value=slot.value,
                     predicate=table.predicate,
                 )
+
+
+def _of_one(pattern: str) -> str:
+    """A pattern as it reads where its value is one: "is there {value} block".
+
+    What is understood stays as the pattern has it, so that the wordings are told apart as before.
+
+    Examples
+    --------
+    >>> _of_one("are there {value} blocks"), _of_one("does {it} have {value} boxes")
+    ('is there {value} block', 'does {it} have {value} box')
+    """
+    said = re.sub(r"(?<=\{value\} )\w{4,}", lambda noun: singular(noun[0]), pattern)
+    return re.sub(r"\bare there (?=\{value\})", "is there ", said) if said != pattern else said
 
 
 def as_what(words: tuple[str, ...]) -> tuple[str, ...]:

@@ -6,24 +6,25 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from seewhy.agent.things.thing_agent import ThingAgent
-from seewhy.agent.things.thing_lessons import boxes_of
+from seewhy.agent.things.thing_lessons import boxes_of, is_whole
 from seewhy.agent.things.thing_reading import ThingReading, named
 from seewhy.data.dataset import Dataset
 from seewhy.data.measured import MEASURES, how_probable
 from seewhy.data.scene import Scene
 from seewhy.data.scene_vector import vector_with_things
-from seewhy.data.thing import THINGS
+from seewhy.data.thing import THINGS, BoundingBox
 from seewhy.errors import DatasetError
 from seewhy.evaluation.share import Share
 from seewhy.knowledge.things import of_things, things_of
 from seewhy.perception.things.boxes import matched
 
-__all__ = ["SeenFeature", "ThingsSeen", "WrongScene", "evaluate_things"]
+__all__ = ["Mistake", "SeenFeature", "ThingsSeen", "WrongScene", "evaluate_things"]
 
 _SETTLED = 0.05
 """What boxes a pixel off decide otherwise more often than this, annotated boxes do not settle."""
@@ -42,11 +43,46 @@ class SeenFeature:
 
 
 @dataclass(frozen=True)
+class Mistake:
+    """Something that is read wrongly.
+
+    Attributes
+    ----------
+    says : str
+        What, in words.
+    probability : float or None
+        How probable the model took it to be; None where nothing was seen, or decided.
+    boxes : tuple of BoundingBox
+        Of the things that it is about, in pixels of the upright picture; none where it is about
+        the picture as a whole.
+    """
+
+    says: str
+    probability: float | None = None
+    boxes: tuple[BoundingBox, ...] = ()
+
+
+@dataclass(frozen=True)
 class WrongScene:
-    """A picture in which something is read wrongly, and what, in words."""
+    """A picture in which something is read wrongly, its file, and what."""
 
     image: str
-    wrong: tuple[str, ...]
+    picture: Path
+    mistakes: tuple[Mistake, ...]
+
+    @property
+    def wrong(self) -> tuple[str, ...]:
+        """What is read wrongly, in words."""
+        return tuple(mistake.says for mistake in self.mistakes)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as values that JSON can hold."""
+        sure = [mistake.probability for mistake in self.mistakes]
+        return {
+            "image": self.image,
+            "wrong": list(self.wrong),
+            "sure": [None if share is None else round(share, 4) for share in sure],
+        }
 
 
 @dataclass(frozen=True)
@@ -112,7 +148,7 @@ class ThingsSeen:
             "inconsistent": self.inconsistent,
             "pictures_per_second": round(self.pictures_per_second, 2),
             "known": self.known,
-            "wrong": [{"image": one.image, "wrong": list(one.wrong)} for one in self.wrong],
+            "wrong": [scene.to_dict() for scene in self.wrong],
         }
 
 
@@ -129,18 +165,15 @@ def evaluate_things(
 ) -> ThingsSeen:
     """Return how well the things in a dataset's pictures are seen.
 
-    Of its splits, "test" is used, and of that the pictures in which all things have boxes.
+    Of its splits, "test" is used, and of that the pictures in which all things have boxes, and
+    those that are said to show none.
 
     Raises
     ------
     DatasetError
         If there is no such picture.
     """
-    scenes = [
-        scene
-        for scene in dataset.of_split("test").scenes
-        if scene.things and all(thing.box for thing in scene.things)
-    ]
+    scenes = [scene for scene in dataset.of_split("test").scenes if is_whole(scene)]
     if not scenes:
         raise DatasetError(
             f"{dataset.folder / THINGS}: no picture to evaluate on has a box around each of its "
@@ -186,9 +219,16 @@ class _Counts:
         self.missed += len(missed)
         self.imagined += len(seen) - len(pairs)
         self.inconsistent += not reading.settled
-        wrong = [f"missed: {self._describe(scene, number)}" for number in missed]
+        wrong = [
+            Mistake(f"missed: {self._describe(scene, number)}", boxes=_boxes(scene, number))
+            for number in missed
+        ]
         wrong += [
-            f"imagined: a {self.things.one} at {_place(row)}"
+            Mistake(
+                f"imagined: a {self.things.one} at {_place(row)}",
+                reading.things[place].probability,
+                (reading.things[place].box,),
+            )
             for place, row in enumerate(seen)
             if place not in pairs
         ]
@@ -198,12 +238,13 @@ class _Counts:
             right = reading.label == scene.label
             self.classes.append((scene.label, right))
             if not right:
-                wrong.append(f"class: {reading.label or 'none'} instead of {scene.label}")
+                says = f"class: {reading.label or 'none'} instead of {scene.label}"
+                wrong.append(Mistake(says, reading.class_probability))
         self.whole += not wrong
         self.whole_with_relations += not (wrong or relations)
         if wrong or relations:
             name = self.dataset.name_of(scene)
-            self.wrong.append(WrongScene(name, (*wrong, *relations)))
+            self.wrong.append(WrongScene(name, scene.picture, (*wrong, *relations)))
 
     def _describe(self, scene: Scene, number: int) -> str:
         values = scene.things[number].values.values()
@@ -211,27 +252,26 @@ class _Counts:
 
     def _values(
         self, scene: Scene, reading: ThingReading, pairs: Mapping[int, int]
-    ) -> Iterator[str]:
+    ) -> Iterator[Mistake]:
         for place, number in pairs.items():
             for key, value in scene.things[number].values.items():
-                read = reading.things[place].values[key].value
-                self.outcomes.setdefault(key, []).append((value, read == value))
-                if read != value:
-                    yield (
-                        f"{self.things.features[key].name} of {self._describe(scene, number)}: "
-                        f"{read}"
-                    )
+                read = reading.things[place].values[key]
+                self.outcomes.setdefault(key, []).append((value, read.value == value))
+                if read.value != value:
+                    of = self._describe(scene, number)
+                    says = f"{self.things.features[key].name} of {of}: {read.value}"
+                    yield Mistake(says, read.probability, _boxes(scene, number))
 
     def _relations(
         self, scene: Scene, reading: ThingReading, pairs: Mapping[int, int]
-    ) -> list[str]:
+    ) -> list[Mistake]:
         terms = list(self.domain.schema.presence)
         vector = vector_with_things(self.domain, scene.vector, scene.things, scene.related)
         true = dict(zip(self.domain.schema.features, vector, strict=True))
         read = named(reading, self.domain)
         unsettled = self._unsettled(scene)
         wrong = []
-        for feature, (value, _) in read.items():
+        for feature, (value, probability) in read.items():
             name, of = things_of(feature)
             relation = self.things.relations.get(name)
             if relation is None or self._said_already(name):
@@ -246,7 +286,8 @@ class _Counts:
             self.outcomes.setdefault(name, []).append((annotated, annotated == value))
             if annotated != value:
                 said = relation.say.format(*(self._describe(scene, n) for n in numbers))
-                wrong.append(f"{'not so' if value == 'no' else 'said'}: {said}")
+                says = f"{'not so' if value == 'no' else 'said'}: {said}"
+                wrong.append(Mistake(says, probability, _boxes(scene, *numbers)))
         return wrong
 
     def _unsettled(self, scene: Scene) -> set[tuple[str, int, int]]:
@@ -291,6 +332,11 @@ class _Counts:
             known=len(self.agent.trained_on.intersection(digests)),
             wrong=tuple(self.wrong),
         )
+
+
+def _boxes(scene: Scene, *numbers: int) -> tuple[BoundingBox, ...]:
+    boxes = (scene.things[number].box for number in numbers)
+    return tuple(box for box in boxes if box is not None)
 
 
 def _place(row: np.ndarray[Any, np.dtype[np.float64]]) -> str:

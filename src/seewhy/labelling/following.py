@@ -105,6 +105,8 @@ class Following:
     @cached_property
     def _possible(self) -> Mapping[str, tuple[FeatureVector, ...]]:
         """Class → vectors that can be of it: decided so, or left open by the knowledge."""
+        if self.domain.things is not None:
+            return {}  # the class rests on things, too, of which nothing is said here
         values = [feature.values for feature in self.domain.features.values()]
         if prod(map(len, values)) > MOST_SCENES:
             return {}

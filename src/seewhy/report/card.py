@@ -31,6 +31,7 @@ def draw_card(
     where: Mapping[str, Where] | None = None,
     fit: Fit = "pad",
     width: int = 760,
+    reasons: bool = True,
 ) -> Figure:
     """Return the card as a figure of ``width`` pixels.
 
@@ -45,6 +46,8 @@ def draw_card(
     fit : {"pad", "stretch"}, default "pad"
         How a picture that is not square became one when it was seen.
     width : int, default 760
+    reasons : bool, default True
+        Whether the justification stands in it, and not elsewhere.
 
     Raises
     ------
@@ -75,7 +78,7 @@ def draw_card(
     shown = [of_feature for name, of_feature in (where or {}).items() if name in rests_on(reply)]
     if shown:
         top = _draw_where(shown, image, fit=fit, width=width, top=top, parts=parts)
-    bottom = draw_rows(reply.justification, width=width, top=top, parts=parts)
+    bottom = draw_rows(reply.justification, width=width, top=top, parts=parts) if reasons else top
     return Figure(width=width, height=int(bottom) + 6, content="".join(parts))
 
 

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from seewhy.dialogue.reply import Reply
 
 
+_REASONS = 660
+"""Pixels of width of the reasons, which stand beside a picture of 240."""
+
+
 def report_page(
     agent: Agent,
     evaluation: Evaluation,
@@ -104,7 +108,7 @@ def _scene(agent: Agent, scene: Scene, replies: Sequence[Reply]) -> dict[str, An
             {
                 "question": f"{reply.question.text}?",
                 "text": reply.text,
-                "figure": draw_justification(reply.justification).svg,
+                "figure": draw_justification(reply.justification, width=_REASONS).svg,
                 "open": reply.question.asks is Asks.WHY_CLASS
                 and reply.question.label == classification.label,
             }

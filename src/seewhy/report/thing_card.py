@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from html import escape
+import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from PIL import Image
 
-from seewhy.agent.things.thing_reply import PictureReply
-from seewhy.data.thing import BoundingBox
+from seewhy.agent.things.thing_reply import PictureReply, ReadScene
+from seewhy.knowledge.justification import Node
 from seewhy.knowledge.things import things_of
 from seewhy.perception.picture import whole_picture
+from seewhy.report.boxed_picture import DOUBTFUL, PLAIN, SHOWN, DrawnBox, box_parts
 from seewhy.report.card import png_of
 from seewhy.report.figure import CHARACTER, Figure, text_lines
 from seewhy.report.justification import draw_rows
 
-__all__ = ["draw_thing_card", "rests_on"]
+__all__ = ["boxes_of_reply", "draw_thing_card", "rests_on", "spoken_of"]
 
 _MARGIN = 16
-_SHOWN, _PLAIN, _DOUBTFUL = "#d4351c", "#2f6fb3", "#888888"
+_NAME = re.compile(r"\w+")
 
 
 def rests_on(reply: PictureReply) -> frozenset[str]:
@@ -32,6 +34,30 @@ def rests_on(reply: PictureReply) -> frozenset[str]:
         elif node.feature is not None and node.holds:
             found.update(things_of(node.feature)[1])
     return frozenset(found)
+
+
+def spoken_of(node: Node, read: ReadScene) -> tuple[int, ...]:
+    """The numbers of the things that a step of the reasons speaks of, counted from 0."""
+    names = read.names
+    said = dict.fromkeys(name for name in _NAME.findall(node.literal) if name in names)
+    return tuple(names.index(name) for name in said)
+
+
+def boxes_of_reply(reply: PictureReply) -> list[DrawnBox]:
+    """The boxes of what was read, in another colour where the answer rests on it.
+
+    Those of what may be a thing are in dashes. The group of the first thing's box is ``box-0``.
+    """
+    shown, read = rests_on(reply), reply.read
+    boxes = [
+        DrawnBox(thing.box, f"{thing.probability:.2f}?", DOUBTFUL, dashed=True)
+        for thing in read.reading.doubtful
+    ]
+    for number, thing in enumerate(read.reading.things):
+        name = read.words.name(number).removeprefix("the ")
+        colour = SHOWN if read.names[number] in shown else PLAIN
+        boxes.append(DrawnBox(thing.box, f"{number + 1}: {name}", colour, name=f"box-{number}"))
+    return boxes
 
 
 def draw_thing_card(
@@ -67,14 +93,10 @@ def draw_thing_card(
         f"<image x='{_MARGIN}' y='{_MARGIN}' width='{measured[0] * scale:g}' height='{high:g}' "
         f"href='data:image/png;base64,{png_of(whole.image)}'/>",
     ]
-    shown, reading = rests_on(reply), reply.read.reading
-    for thing in reading.doubtful:
-        parts += _box(thing.box, scale, f"{thing.probability:.2f}?", _DOUBTFUL, dashed=True)
-    for number, thing in enumerate(reading.things):
-        term = reply.read.names[number]
-        name = reply.read.words.name(number).removeprefix("the ")
-        colour = _SHOWN if term in shown else _PLAIN
-        parts += _box(thing.box, scale, f"{number + 1}: {name}", colour, dashed=False)
+    parts += [
+        box_parts(replace(drawn, name=""), scale=scale, offset=_MARGIN, width=measured[0] * scale)
+        for drawn in boxes_of_reply(reply)
+    ]
     y = high + 2 * _MARGIN + 12
     characters = int(room / CHARACTER / 1.15)
     for text, attributes in (
@@ -88,16 +110,3 @@ def draw_thing_card(
             y += lines * 15 + 8
     bottom = draw_rows(reply.justification, width=width, top=y, parts=parts)
     return Figure(width=width, height=int(bottom) + 6, content="".join(parts))
-
-
-def _box(box: BoundingBox, scale: float, text: str, colour: str, *, dashed: bool) -> list[str]:
-    left, top = _MARGIN + box.left * scale, _MARGIN + box.top * scale
-    wide, high = (box.right - box.left) * scale, (box.bottom - box.top) * scale
-    dashes = " stroke-dasharray='5 4'" if dashed else ""
-    above = max(top - 4, _MARGIN + 10.0)
-    return [
-        f"<rect x='{left:.1f}' y='{top:.1f}' width='{wide:.1f}' height='{high:.1f}' fill='none' "
-        f"stroke='{colour}' stroke-width='2'{dashes}/>",
-        f"<text x='{left:.1f}' y='{above:.1f}' fill='{colour}' stroke='#ffffff' stroke-width='3' "
-        f"paint-order='stroke'>{escape(text)}</text>",
-    ]

@@ -18,7 +18,7 @@ from seewhy.errors import QuestionError
 from seewhy.induction.candidate import Candidate
 from seewhy.revision.new_rule import reason_given, stated
 
-__all__ = ["Remark", "Says", "remark_of"]
+__all__ = ["Remark", "Says", "remark_of", "says_wrong"]
 
 _NO = re.compile(r"^\s*(?:no|nope|wrong|but)\b[\s,;:.!–-]*", re.IGNORECASE)
 _NO_AT_ONCE = re.compile(r"^\s*(?:no|nope|wrong|but)\s*[,;:.!–-]", re.IGNORECASE)
@@ -134,6 +134,18 @@ def remark_of(questions: Questions, text: str, *, proposed: int = 0) -> Remark |
         if _NO_AT_ONCE.match(text):
             raise
         return None
+
+
+def says_wrong(text: str) -> bool:
+    """Whether a text says that an answer is wrong, and no more than that.
+
+    Examples
+    --------
+    >>> says_wrong("No, that's wrong!"), says_wrong("is that wrong?"), says_wrong("why?")
+    (True, False, False)
+    """
+    words = tuple(words_of(text))
+    return bool(words) and not text.rstrip().endswith("?") and _is(Says.WRONG, words)
 
 
 def _to_proposal(text: str, proposed: int) -> Remark | None:

@@ -16,8 +16,9 @@ from seewhy.revision.new_rule import known_already, new_rule, reason_given
 from seewhy.revision.proposal import Doubted, Proposal
 from seewhy.revision.rule_revision import rule_revisions
 from seewhy.revision.telling import say_consequences, say_decision
+from seewhy.studio.answering_agent import CORRECTED
 from seewhy.studio.labelling import choose
-from seewhy.studio.project_model import CORRECTED, ProjectModel
+from seewhy.studio.project_model import ProjectModel
 from seewhy.studio.talk import Talk
 
 if TYPE_CHECKING:

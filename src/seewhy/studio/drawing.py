@@ -28,10 +28,12 @@ __all__ = [
     "SEEN",
     "draw",
     "move",
+    "note_things",
     "picture_size",
     "relate",
     "relate_to_no_other",
     "remove",
+    "say_none",
     "say_of_thing",
     "things_of",
 ]
@@ -88,7 +90,7 @@ def draw(project: Project, picture: str, corners: Sequence[float] | None, *, who
     box = _middle(here, size) if corners is None else _box(corners, size, picture)
     name = next(str(n) for n in range(1, len(here.things) + 2) if str(n) not in here.things)
     change = {"new": True, "box": corners_of(box)}
-    _note(project, picture, {"boxes": {picture: {name: change}}}, who=who, how="drawn")
+    note_things(project, picture, {"boxes": {picture: {name: change}}}, who=who, how="drawn")
     return name
 
 
@@ -104,13 +106,33 @@ def move(project: Project, picture: str, thing: str, corners: Sequence[float], *
     box = _box(corners, picture_size(project.picture_file(picture)), picture)
     if box != here.things[thing].box:
         change = {"box": corners_of(box)}
-        _note(project, picture, {"boxes": {picture: {thing: change}}}, who=who, how="moved")
+        note_things(project, picture, {"boxes": {picture: {thing: change}}}, who=who, how="moved")
 
 
 def remove(project: Project, picture: str, thing: str, *, who: str) -> None:
     """Remove a thing, with what is said of it and others."""
     _here(project, picture, thing)
-    _note(project, picture, {"boxes": {picture: {thing: None}}}, who=who, how="removed")
+    note_things(project, picture, {"boxes": {picture: {thing: None}}}, who=who, how="removed")
+
+
+def say_none(project: Project, picture: str, none: bool, *, who: str) -> None:
+    """Say that nothing is in a picture, or leave open again whether there is.
+
+    Raises
+    ------
+    SeeWhyError
+        If things are drawn in it.
+    """
+    things = things_of(project)
+    here = project.labels().drawn_in(picture)
+    if none and here.things:
+        count = len(here.things)
+        raise SeeWhyError(
+            f"'{picture}' has {count} {things.one if count == 1 else things.many}; remove "
+            f"{'it' if count == 1 else 'them'} before saying that there are none"
+        )
+    if none != here.none:
+        note_things(project, picture, {"none": {picture: none}}, who=who, how="typed")
 
 
 def say_of_thing(
@@ -131,7 +153,7 @@ def say_of_thing(
     if value is not None and value not in known:
         raise SeeWhyError(f"'{value}' is no value of '{feature}'; {did_you_mean(value, known)}")
     change = {"values": {feature: value}}
-    _note(project, picture, {"boxes": {picture: {thing: change}}}, who=who, how="typed")
+    note_things(project, picture, {"boxes": {picture: {thing: change}}}, who=who, how="typed")
 
 
 def relate(
@@ -158,7 +180,7 @@ def relate(
     if thing == other:
         raise SeeWhyError(f"'{relation}' is said of two things; '{thing}' is one")
     said = [*said_first((relation, thing, other), things), holds]
-    _note(project, picture, {"related": {picture: [said]}}, who=who, how="typed")
+    note_things(project, picture, {"related": {picture: [said]}}, who=who, how="typed")
 
 
 def relate_to_no_other(
@@ -173,14 +195,23 @@ def relate_to_no_other(
     ]
     said = [[*pair, False] for pair in pairs if pair not in here.related]
     if said:
-        _note(project, picture, {"related": {picture: said}}, who=who, how="typed")
+        note_things(project, picture, {"related": {picture: said}}, who=who, how="typed")
 
 
-def _note(project: Project, picture: str, said: Mapping[str, Any], *, who: str, how: str) -> None:
+def note_things(
+    project: Project, picture: str, said: Mapping[str, Any], *, who: str, how: str
+) -> Entry:
+    """Add to the record what became of the things in a picture.
+
+    Raises
+    ------
+    SeeWhyError
+        If they could not stand in a table: too many, or two that nothing tells apart.
+    """
     body = {**said, "how": how}
     after = fold_boxes(project.labels().drawn, Entry(0, "", who, BOXES, body))
     require_possible(picture, after[picture], things_of(project))
-    project.note(BOXES, body, who=who)
+    return project.note(BOXES, body, who=who)
 
 
 def _here(project: Project, picture: str, thing: str) -> PictureThings:

@@ -30,7 +30,8 @@ BOXES = "boxes"
 
 None: it was removed. Else a mapping with any of ``new`` (true: it came), ``box`` (four numbers, or
 None) and ``values`` (feature → value, None: nobody knows). ``related`` has picture → what is said
-of two things: relation, thing, other, and whether it holds (None: nobody knows).
+of two things: relation, thing, other, and whether it holds (None: nobody knows). ``none`` has
+picture → whether somebody said that nothing is in it.
 """
 
 Pair = tuple[str, str, str]
@@ -74,10 +75,13 @@ class PictureThings:
         By their names, in the order in which they came.
     related : mapping of Pair to bool
         What somebody said of two of them.
+    none : bool
+        Whether somebody said that there are none.
     """
 
     things: Mapping[str, DrawnThing] = field(default_factory=dict)
     related: Mapping[Pair, bool] = field(default_factory=dict)
+    none: bool = False
 
 
 def fold_boxes(found: Mapping[str, PictureThings], entry: Entry) -> dict[str, PictureThings]:
@@ -102,7 +106,10 @@ def fold_boxes(found: Mapping[str, PictureThings], entry: Entry) -> dict[str, Pi
                 related = {pair: so for pair, so in related.items() if name not in pair[1:]}
             elif change.get("new") or name in things:
                 things[name] = _changed(things.get(name), name, change, entry)
-        after[picture] = PictureThings(things, related)
+        after[picture] = PictureThings(things, related, none=here.none and not things)
+    for picture, none in entry.body.get("none", {}).items():
+        here = after.get(picture, PictureThings())
+        after[picture] = replace(here, none=none and not here.things)
     for picture, said in entry.body.get("related", {}).items():
         here = after.get(picture, PictureThings())
         related = dict(here.related)
@@ -110,7 +117,7 @@ def fold_boxes(found: Mapping[str, PictureThings], entry: Entry) -> dict[str, Pi
             related.pop((relation, thing, other), None)
             if holds is not None and {thing, other} <= here.things.keys():
                 related[relation, thing, other] = holds
-        after[picture] = PictureThings(here.things, related)
+        after[picture] = replace(here, related=related)
     return after
 
 

@@ -57,6 +57,7 @@ def _of_things(body: Mapping[str, Any]) -> str:
             values = (change or {}).get("values", {})
             told = [f"{key} {value or 'open again'}" for key, value in values.items()]
             said.append(" ".join((name, *told)))
+    said += ["none there" if so else "open whether any" for so in body.get("none", {}).values()]
     words = {True: "", False: "not ", None: "nobody knows: "}
     for pairs in body.get("related", {}).values():
         said += [f"{words[so]}{thing} {relation} {other}" for relation, thing, other, so in pairs]

@@ -138,7 +138,7 @@ def bring_back(project: Project, undoing: Entry, *, who: str) -> Entry:
 
 def pictures_of(entry: Entry) -> tuple[str, ...]:
     """The pictures that an entry is about."""
-    keys = ("values", "reasons", "boxes", "related")
+    keys = ("values", "reasons", "boxes", "related", "none")
     return tuple(dict.fromkeys(name for key in keys for name in entry.body.get(key, ())))
 
 

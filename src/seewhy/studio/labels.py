@@ -61,14 +61,16 @@ class Labels:
         return self.drawn.get(picture, PictureThings())
 
     def is_boxed(self, picture: str) -> bool:
-        """Whether things are drawn in a picture, and each has a box."""
-        things = self.drawn_in(picture).things.values()
-        return bool(things) and all(thing.box for thing in things)
+        """Whether all things in a picture have a box, or it is said to show none."""
+        here = self.drawn_in(picture)
+        things = here.things.values()
+        return here.none or (bool(things) and all(thing.box for thing in things))
 
     def is_complete(self, picture: str, domain: Domain) -> bool:
         """Whether everything is said of a picture that the domain asks for.
 
-        Of a domain with things some have to be drawn, and each needs all its features.
+        Of a domain with things some have to be drawn, and each needs all its features; or it is
+        said that there are none.
         """
         said = self.of.get(picture, {})
         if not (
@@ -76,6 +78,8 @@ class Labels:
         ):
             return False
         if domain.things is None:
+            return True
+        if self.drawn_in(picture).none:
             return True
         things = self.drawn_in(picture).things.values()
         return bool(things) and all(

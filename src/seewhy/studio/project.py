@@ -318,18 +318,26 @@ class Project:
         if changed:
             self.record.add(FILES, outside_body(said, changed, why=why), who=who)
         table, domain = self.folder / TABLE, self._usable_domain()
+        none: dict[str, bool] = {}
         if domain is not None and table.is_file():
             texts = {TABLE: scenes_table(self.labels(), domain)}
             if changed_outside(table, texts, record=self.record, name=TABLE):
-                self._take_in_table()
+                none = self._take_in_table()
         if domain is not None and domain.things is not None:
             self._take_in_things(domain, domain.things)
+        if none:
+            self.record.add(BOXES, {"none": none, "how": "table"}, who=_OUTSIDE)
 
-    def _take_in_table(self) -> None:
+    def _take_in_table(self) -> dict[str, bool]:
+        """Take in scenes.csv; of which pictures it says otherwise whether anything is there.
+
+        What is there stands in things.csv, which is taken in first.
+        """
         dataset, labels = self.dataset(), self.labels()
         values: dict[str, dict[str, str | None]] = {}
         rows: dict[str, dict[str, str]] = {}
         reasons: dict[str, list[str]] = {}
+        none: dict[str, bool] = {}
         for scene in dataset.scenes:
             name = scene.picture.relative_to(self.folder).as_posix()
             said = {CLASS: scene.label, **dataset.domain.named(scene.vector)}
@@ -343,17 +351,23 @@ class Project:
             }
             if placed != dict(labels.rows.get(name, {})):
                 rows[name] = placed
+            if scene.no_things != labels.drawn_in(name).none:
+                none[name] = scene.no_things
             if scene.reasons != labels.reasons.get(name, ()):
                 reasons[name] = list(scene.reasons)
         listed = {scene.picture.relative_to(self.folder).as_posix() for scene in dataset.scenes}
         for name in set(labels.of) - listed:
             values[name] = dict.fromkeys(labels.of[name])
+        none |= {
+            name: False for name, here in labels.drawn.items() if here.none and name not in listed
+        }
         if values:
             self.record.add(LABEL, {"values": values, "how": "table"}, who=_OUTSIDE)
         if rows:
             self.record.add(ROWS, {"rows": rows}, who=_OUTSIDE)
         if reasons:
             self.record.add(REASONS, {"reasons": reasons}, who=_OUTSIDE)
+        return none
 
     def _take_in_things(self, domain: Domain, things: Things) -> None:
         drawn = self.labels().drawn

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import copy
-from collections import OrderedDict
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from datetime import UTC, datetime
-from threading import RLock
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from seewhy.agent.manifest_file import MANIFEST
-from seewhy.errors import RevisionError, SeeWhyError
+from seewhy.errors import RevisionError
 from seewhy.revision.correction import corrected
 from seewhy.revision.edit import KNOWLEDGE, LEARNED, Edit
 from seewhy.revision.proposal import Texts, known_by, texts_of
-from seewhy.studio.model_there import Missing, missing_of, stamp_of
+from seewhy.studio.answering_agent import CORRECTED, AnsweringAgent, Remembered
+from seewhy.studio.model_there import Missing, stamp_of
 from seewhy.studio.project import Project
 from seewhy.studio.writing import FILES, learned_edits, read_text
 
@@ -24,13 +20,7 @@ if TYPE_CHECKING:
     from seewhy.dialogue.reply import Classification
     from seewhy.perception.where import Where
 
-__all__ = ["CORRECTED", "ProjectModel"]
-
-CORRECTED = "corrected"
-"""How a label was said that an answer got wrong; it holds on the page until the next training."""
-
-_REMEMBERED = 200
-"""Pictures of which it is remembered what they show."""
+__all__ = ["ProjectModel"]
 
 _OF_ONE = Missing(
     "This is for pictures of one thing, and those of the domain show several: ask about them.",
@@ -39,11 +29,10 @@ _OF_ONE = Missing(
 )
 
 
-class ProjectModel:
-    """What answers questions about the pictures of a project.
+class ProjectModel(AnsweringAgent["Agent", "Classification"]):
+    """What answers questions about the pictures of a project that show one thing each.
 
-    What sees is the model's. What is known is what knowledge.al of the project says by now, with
-    what the model learned, so that a revision holds at once.
+    What is known is what knowledge.al of the project says by now, with what the model learned.
 
     Parameters
     ----------
@@ -51,31 +40,14 @@ class ProjectModel:
     """
 
     def __init__(self, project: Project) -> None:
-        self.project = project
-        self._lock = RLock()
-        self._loaded: tuple[tuple[int, ...], Agent] | None = None
+        super().__init__(project)
         self._knowing: tuple[object, Agent] | None = None
-        self._seen: OrderedDict[tuple[object, ...], Classification] = OrderedDict()
-        self._where: OrderedDict[tuple[object, ...], Mapping[str, Where]] = OrderedDict()
+        self._where: Remembered[Mapping[str, Where]] = Remembered()
 
     @property
     def missing(self) -> Missing | None:
         """What there must be before a question can be answered; None where all is there."""
-        if self.project.has_things:
-            return _OF_ONE
-        return missing_of(self.project)
-
-    @contextmanager
-    def at_work(self) -> Iterator[Agent]:
-        """The agent, for one thread at a time: what reasons is not shared.
-
-        Raises
-        ------
-        SeeWhyError
-            If there is none, or its folder is damaged.
-        """
-        with self._lock:
-            yield self._agent()
+        return _OF_ONE if self.project.has_things else super().missing
 
     @property
     def trained_for_this(self) -> bool:
@@ -102,11 +74,7 @@ class ProjectModel:
         with self.at_work() as agent:
             corrections = self._corrections(picture, agent)
             key = (id(agent), picture, file.stat().st_mtime_ns, tuple(corrections.items()))
-            if key not in self._seen:
-                self._seen[key] = corrected(agent, agent.classify(file), corrections)
-                while len(self._seen) > _REMEMBERED:
-                    self._seen.popitem(last=False)
-            return self._seen[key]
+            return self._seen.get(key, lambda: corrected(agent, agent.classify(file), corrections))
 
     def where(self, picture: str) -> Mapping[str, Where]:
         """Where in a picture each feature is seen; it takes seconds, and then is remembered."""
@@ -114,38 +82,27 @@ class ProjectModel:
         scene = self.look(picture)
         with self.at_work() as agent:
             key = (id(agent), picture, file.stat().st_mtime_ns, scene.vector)
-        if key not in self._where:
-            # What sees may work beside what reasons.
-            found = agent.where(file, scene=scene)
-            with self._lock:
-                self._where[key] = found
-                while len(self._where) > _REMEMBERED:
-                    self._where.popitem(last=False)
-        return self._where[key]
+        # What sees may work beside what reasons.
+        return self._where.get(key, lambda: agent.where(file, scene=scene))
 
     # The agent --------------------------------------------------------------------------------
 
-    def _agent(self) -> Agent:
-        missing = self.missing
-        if missing is not None:
-            raise SeeWhyError(f"{missing.sentence} The page {missing.words} does that.")
-        stamp = stamp_of(self.project)
-        if self._loaded is None or self._loaded[0] != stamp:
-            from seewhy.agent.agent import Agent
+    def _load(self) -> Agent:
+        from seewhy.agent.agent import Agent
 
-            self._loaded = stamp, Agent.load(self.project.model_folder)
-            self._forget()
-        agent = self._loaded[1]
+        return Agent.load(self.project.model_folder)
+
+    def _knowing_now(self, agent: Agent) -> Agent:
         if agent.given.schema != self.project.domain().schema:
             return agent
-        key = (stamp, self._knowledge(), self._learned_edits())
+        key = (stamp_of(self.project), self._knowledge(), self._learned_edits())
         if self._knowing is None or self._knowing[0] != key:
             self._knowing = key, self._following(agent)
             self._forget()
         return self._knowing[1]
 
     def _forget(self) -> None:
-        self._seen.clear()
+        super()._forget()
         self._where.clear()
 
     def _following(self, agent: Agent) -> Agent:
@@ -173,8 +130,7 @@ class ProjectModel:
         return learned_edits(self.project.record.holding(FILES))
 
     def _corrections(self, picture: str, agent: Agent) -> dict[str, str]:
-        trained = (self.project.model_folder / MANIFEST).stat().st_mtime
-        since = datetime.fromtimestamp(trained, UTC).isoformat(timespec="milliseconds")
+        since = self._trained_at()
         features = agent.domain.features
         return {
             name: label.value

@@ -2,32 +2,29 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
-from collections.abc import Iterator
-from contextlib import contextmanager
-from threading import RLock
+from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from seewhy.errors import SeeWhyError
-from seewhy.studio.model_there import Missing, missing_of, stamp_of
+from seewhy.studio.answering_agent import CORRECTED, AnsweringAgent
+from seewhy.studio.drawn_things import BOXES, DrawnThing
+from seewhy.studio.labelling import pictures_of
 from seewhy.studio.project import Project
 
 if TYPE_CHECKING:
     from seewhy.agent.things.thing_agent import ThingAgent
+    from seewhy.agent.things.thing_reading import ThingReading
     from seewhy.agent.things.thing_reply import ReadScene
     from seewhy.domain.domain import Domain
 
 __all__ = ["ProjectThings"]
 
-_REMEMBERED = 200
-"""Pictures of which it is remembered what they show."""
 
-
-class ProjectThings:
+class ProjectThings(AnsweringAgent["ThingAgent", "ReadScene"]):
     """What answers questions about the things in the pictures of a project.
 
-    What sees is the model's. What is known, and the words for it, are the domain's by now, so that
-    a revision holds at once, as long as things have the same features and relations.
+    What is known, and the words for it, are the domain's by now, as long as things have the same
+    features and relations.
 
     Parameters
     ----------
@@ -35,28 +32,8 @@ class ProjectThings:
     """
 
     def __init__(self, project: Project) -> None:
-        self.project = project
-        self._lock = RLock()
-        self._loaded: tuple[tuple[int, ...], ThingAgent] | None = None
+        super().__init__(project)
         self._knowing: tuple[ThingAgent, Domain, ThingAgent] | None = None
-        self._read: OrderedDict[tuple[object, ...], ReadScene] = OrderedDict()
-
-    @property
-    def missing(self) -> Missing | None:
-        """What there must be before a question can be answered; None where all is there."""
-        return missing_of(self.project)
-
-    @contextmanager
-    def at_work(self) -> Iterator[ThingAgent]:
-        """The agent, for one thread at a time: what reasons is not shared.
-
-        Raises
-        ------
-        SeeWhyError
-            If there is none, or its folder is damaged.
-        """
-        with self._lock:
-            yield self._agent()
 
     @property
     def trained_for_this(self) -> bool:
@@ -65,7 +42,9 @@ class ProjectThings:
             return _sees_alike(agent.domain, self.project.domain())
 
     def look(self, picture: str) -> ReadScene:
-        """What a picture of the project is taken to show.
+        """What a picture of the project is taken to show, with what was corrected since training.
+
+        Where something was, things are where its boxes say.
 
         Raises
         ------
@@ -76,30 +55,62 @@ class ProjectThings:
         """
         file = self.project.picture_file(picture)
         with self.at_work() as agent:
-            key = (id(agent), picture, file.stat().st_mtime_ns)
-            if key not in self._read:
-                self._read[key] = agent.scene_of(agent.read(file))
-                while len(self._read) > _REMEMBERED:
-                    self._read.popitem(last=False)
-            return self._read[key]
+            corrected = self._corrected(picture)
+            key = (id(agent), picture, file.stat().st_mtime_ns, _key_of(corrected))
+            return self._seen.get(key, lambda: agent.scene_of(_read(agent, file, corrected)))
 
-    def _agent(self) -> ThingAgent:
-        missing = self.missing
-        if missing is not None:
-            raise SeeWhyError(f"{missing.sentence} The page {missing.words} does that.")
-        stamp = stamp_of(self.project)
-        if self._loaded is None or self._loaded[0] != stamp:
-            from seewhy.agent.things.thing_agent import ThingAgent
+    def _corrected(self, picture: str) -> Sequence[DrawnThing] | None:
+        """The things with boxes, where an answer was corrected since training; else None."""
+        since = self._trained_at()
+        if not any(
+            entry.at > since and entry.body["how"] == CORRECTED and picture in pictures_of(entry)
+            for entry in self.project.record.holding(BOXES)
+        ):
+            return None
+        drawn = self.project.labels().drawn_in(picture).things.values()
+        return tuple(thing for thing in drawn if thing.box is not None)
 
-            self._loaded = stamp, ThingAgent.load(self.project.model_folder)
-            self._read.clear()
-        agent, domain = self._loaded[1], self.project.domain()
+    def _load(self) -> ThingAgent:
+        from seewhy.agent.things.thing_agent import ThingAgent
+
+        return ThingAgent.load(self.project.model_folder)
+
+    def _knowing_now(self, agent: ThingAgent) -> ThingAgent:
+        domain = self.project.domain()
         if not _sees_alike(agent.domain, domain):
             return agent
         if self._knowing is None or self._knowing[0] is not agent or self._knowing[1] is not domain:
             self._knowing = agent, domain, _following(agent, domain)
-            self._read.clear()
+            self._forget()
         return self._knowing[2]
+
+
+def _key_of(corrected: Sequence[DrawnThing] | None) -> object:
+    """What is another where something else was corrected."""
+    if corrected is None:
+        return None
+    return tuple((thing.box, tuple(_said_of(thing).items())) for thing in corrected)
+
+
+def _said_of(thing: DrawnThing) -> dict[str, str]:
+    """What a correction says of a thing."""
+    return {key: label.value for key, label in thing.values.items() if label.how == CORRECTED}
+
+
+def _read(agent: ThingAgent, file: Path, corrected: Sequence[DrawnThing] | None) -> ThingReading:
+    if corrected is None:
+        return agent.read(file)
+    features = agent.things.features
+    said = [
+        {
+            key: value
+            for key, value in _said_of(thing).items()
+            if key in features and value in features[key].values
+        }
+        for thing in corrected
+    ]
+    boxes = [thing.box for thing in corrected if thing.box is not None]
+    return agent.read(file, boxes=boxes, values=said)
 
 
 def _following(agent: ThingAgent, domain: Domain) -> ThingAgent:

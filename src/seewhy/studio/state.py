@@ -50,6 +50,15 @@ class Studio:
     thing_talks: PerSession[ThingTalk]
     local: bool
 
+    @property
+    def answering(self) -> ProjectModel | ProjectThings:
+        """What answers questions about the project's pictures, of whichever kind they are."""
+        return self.things if self.project.has_things else self.model
+
+    def talk_of(self, session: str) -> Talk | ThingTalk:
+        """What a browser asks about a picture of the project's kind."""
+        return (self.thing_talks if self.project.has_things else self.talks).of(session)
+
 
 def studio_of(request: Request) -> Studio:
     """The studio that a request came to."""

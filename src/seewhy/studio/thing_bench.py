@@ -109,6 +109,8 @@ class ThingBench:
     relations : tuple of RelationQuestion
     at : str
         The question or relation that number keys speak of.
+    none : bool
+        Whether somebody said that there are none.
     """
 
     one: str
@@ -120,6 +122,7 @@ class ThingBench:
     questions: tuple[Question, ...] = ()
     relations: tuple[RelationQuestion, ...] = ()
     at: str = ""
+    none: bool = False
 
 
 def thing_bench(
@@ -144,7 +147,9 @@ def thing_bench(
         The question at hand; the first that is open where it is none.
     """
     shown = {name: _shown(thing, things) for name, thing in here.things.items()}
-    bench = ThingBench(things.one, things.many, things.most, size, tuple(shown.values()))
+    bench = ThingBench(
+        things.one, things.many, things.most, size, tuple(shown.values()), none=here.none
+    )
     if chosen not in shown:
         return bench
     said = here.things[chosen].values

@@ -14,6 +14,7 @@ from seewhy.studio.labels import Labels
 from seewhy.studio.proposing import Proposals
 
 __all__ = [
+    "NO_THINGS_KEY",
     "RESERVED",
     "Choice",
     "Question",
@@ -27,6 +28,9 @@ __all__ = [
 
 RESERVED = frozenset("ursax")
 """Letters that do something else than to lead to a feature: undo, redo, sheet, all, boxes."""
+
+NO_THINGS_KEY = "n"
+"""The letter that says that nothing is in the picture, where the domain has things."""
 
 MOST_SHOWN = 10
 """Values that have a button and a key; of more, the most probable have."""
@@ -151,9 +155,8 @@ def workbench(
         The question at hand; the first that is open where it is none.
     """
     names = question_names(domain, class_first=class_first)
-    letters = {CLASS: "c"} | letters_of(
-        [name for name in names if name != CLASS], taken={"c", *RESERVED}
-    )
+    taken = {"c", *RESERVED, *(NO_THINGS_KEY if domain.things is not None else "")}
+    letters = {CLASS: "c"} | letters_of([name for name in names if name != CLASS], taken=taken)
     said = labels.of.get(picture, {})
     if at not in names:
         at = next((name for name in names if name not in said), next(iter(names), ""))

@@ -10,7 +10,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, cast
 
-from seewhy.data.scene_rows import IMAGE
+from seewhy.data.scene_rows import IMAGE, NO_THINGS, NONE, may_say_none
 from seewhy.domain.domain import Domain
 from seewhy.domain.tables import CLASS
 from seewhy.files.whole_files import write_whole
@@ -40,20 +40,24 @@ so that it can be taken back whatever was revised behind it.
 
 def scenes_table(labels: Labels, domain: Domain) -> str:
     """The text of scenes.csv: a row for each picture of which something is annotated."""
-    columns = (IMAGE, "split", CLASS, *domain.features, "group", "reasons")
+    may_say = may_say_none(domain)
+    empty = {picture for picture, here in labels.drawn.items() if here.none and may_say}
+    none = (NO_THINGS,) if empty else ()
+    columns = (IMAGE, "split", CLASS, *domain.features, *none, "group", "reasons")
     stream = io.StringIO()
     table = csv.writer(stream, lineterminator="\n")
     table.writerow(columns)
     drawn = {picture for picture, here in labels.drawn.items() if here.things}
-    for picture in sorted({*labels.of, *labels.rows, *drawn}):
+    for picture in sorted({*labels.of, *labels.rows, *drawn, *empty}):
         said = labels.values(picture)
         row = labels.rows.get(picture, {})
         reasons = [name for name in labels.reasons.get(picture, ()) if name in said]
-        if not said and not row and picture not in drawn:
+        if not said and not row and picture not in drawn | empty:
             continue
         cells = {
             IMAGE: picture,
             **said,
+            **({NO_THINGS: NONE} if picture in empty else {}),
             "split": row.get("split", ""),
             "group": row.get("group", ""),
             "reasons": " ".join(reasons) if CLASS in said else "",

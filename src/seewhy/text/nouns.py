@@ -1,10 +1,10 @@
-"""Nouns: the regular plural, and the article in front of one."""
+"""Nouns: the regular plural and its singular, and the article in front of one."""
 
 from __future__ import annotations
 
 import re
 
-__all__ = ["plural", "with_article"]
+__all__ = ["plural", "singular", "with_article"]
 
 
 def plural(noun: str) -> str:
@@ -18,6 +18,20 @@ def plural(noun: str) -> str:
     if noun.endswith(("s", "x", "ch", "sh")):
         return f"{noun}es"
     return f"{noun[:-1]}ies" if re.search("[^aeiou]y$", noun) else f"{noun}s"
+
+
+def singular(noun: str) -> str:
+    """Return the singular of a regular plural; any other word as it is.
+
+    Examples
+    --------
+    >>> singular("objects"), singular("boxes"), singular("berries"), singular("glass")
+    ('object', 'box', 'berry', 'glass')
+    """
+    for shorter in (f"{noun[:-3]}y", noun[:-2], noun[:-1]):
+        if len(shorter) > 1 and plural(shorter) == noun and not shorter.endswith("s"):
+            return shorter
+    return noun
 
 
 _SPOKEN_CONSONANT = re.compile(r"(one|once)(?![a-z])|eu|uni(?!n|m)|us[eu]|uti", re.IGNORECASE)

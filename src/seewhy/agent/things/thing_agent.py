@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -160,7 +160,13 @@ class ThingAgent:
         """What makes a scene that can be of what is seen."""
         return SceneReader(self.domain, self.reasoner)
 
-    def read(self, picture: Picture, *, boxes: Sequence[BoundingBox] | None = None) -> ThingReading:
+    def read(
+        self,
+        picture: Picture,
+        *,
+        boxes: Sequence[BoundingBox] | None = None,
+        values: Sequence[Mapping[str, str]] = (),
+    ) -> ThingReading:
         """Return what a picture is taken to show.
 
         Parameters
@@ -168,14 +174,22 @@ class ThingAgent:
         picture : path, Pillow image or array
         boxes : sequence of BoundingBox, optional
             Where the things are, where somebody knows it.
+        values : sequence of mapping, optional
+            With ``boxes``: what somebody knows of each, feature → value.
 
         Raises
         ------
         NotFittedError, PictureError
             If nothing sees yet; if it is no picture.
         """
-        given = None if boxes is None else _in_order(boxes)
-        return self.reader.read(self.trained.look([picture], [given])[0])
+        if boxes is None:
+            return self.reader.read(self.trained.look([picture])[0])
+        found = _rows_of(boxes)
+        order = in_order(found)
+        sighting = self.trained.look([picture], [found[order]])[0]
+        if values:
+            sighting = sighting.told([values[number] for number in order], self.things)
+        return self.reader.read(sighting)
 
     def read_all(
         self,
@@ -272,8 +286,12 @@ class ThingAgent:
         return agent
 
 
+def _rows_of(boxes: Sequence[BoundingBox]) -> Boxes:
+    rows = [[box.left, box.top, box.right, box.bottom] for box in boxes]
+    return np.array(rows, dtype=np.float64).reshape(-1, 4)
+
+
 def _in_order(boxes: Sequence[BoundingBox]) -> Boxes:
     """Boxes as an array, from the left to the right."""
-    rows = [[box.left, box.top, box.right, box.bottom] for box in boxes]
-    found = np.array(rows, dtype=np.float64).reshape(-1, 4)
+    found = _rows_of(boxes)
     return found[in_order(found)]

@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING
 
 from seewhy.agent.settings import Settings
 from seewhy.agent.teaching import lesson_of
-from seewhy.agent.things.thing_lessons import Lessons, boxes_of, lessons_of, require_boxes
+from seewhy.agent.things.thing_lessons import (
+    Lessons,
+    boxes_of,
+    is_whole,
+    lessons_of,
+    require_boxes,
+)
 from seewhy.agent.things.thing_seeing import ThingSeeing
 from seewhy.agent.training_pictures import require_same_domain
 from seewhy.data.dataset import Dataset
@@ -87,7 +93,7 @@ def _trust_in(detector: Detector, scenes: Dataset) -> Trust:
     found: list[Detected] = []
     true: list[Boxes] = []
     for scene in scenes.scenes:
-        if scene.things and all(thing.box for thing in scene.things) and len(true) < _TRUSTED_BY:
+        if is_whole(scene) and len(true) < _TRUSTED_BY:
             whole = whole_picture(scene.picture, longest=LONGEST)
             found.append(detector.find(whole.image))
             true.append(boxes_of(scene.things) / whole.scale)

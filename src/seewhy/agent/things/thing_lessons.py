@@ -25,7 +25,15 @@ from seewhy.perception.things.fitting_thing_eyes import PairLesson, ThingLesson
 from seewhy.perception.things.geometry import of_boxes
 from seewhy.perception.things.regions import LONGEST, regions_of
 
-__all__ = ["FEWEST", "Lessons", "boxes_of", "lessons_of", "require_boxes", "seen_once"]
+__all__ = [
+    "FEWEST",
+    "Lessons",
+    "boxes_of",
+    "is_whole",
+    "lessons_of",
+    "require_boxes",
+    "seen_once",
+]
 
 FEWEST = 10
 """Pictures with boxes that a detector needs at least."""
@@ -98,7 +106,7 @@ def require_boxes(dataset: Dataset) -> None:
                 f"{file}: no thing with a box has a value of '{key}', which training needs; fill "
                 f"the column '{key}', or remove the feature from the domain"
             )
-    whole = sum(_is_whole(scene) for scene in dataset.scenes)
+    whole = sum(bool(scene.things) and is_whole(scene) for scene in dataset.scenes)
     if whole < FEWEST:
         raise DatasetError(
             f"{file}: {whole} picture{'s have' if whole != 1 else ' has'} a box around each thing; "
@@ -106,16 +114,17 @@ def require_boxes(dataset: Dataset) -> None:
         )
 
 
-def _is_whole(scene: Scene) -> bool:
-    """Whether each thing of a picture has a box."""
-    return bool(scene.things) and all(thing.box for thing in scene.things)
+def is_whole(scene: Scene) -> bool:
+    """Whether a picture tells where all things are: each has a box, or it is said to show none."""
+    return scene.no_things or (bool(scene.things) and all(thing.box for thing in scene.things))
 
 
 def lessons_of(dataset: Dataset, *, side: int, with_places: bool = True) -> Lessons:
     """What a dataset teaches of things; its pictures are read once.
 
-    Pictures in which all things have boxes teach where things are; every thing that has one
-    teaches what it is. Pictures without any thing teach nothing: nobody says that there is none.
+    Pictures in which all things have boxes teach where things are, and those that are said to
+    show none where none are; every thing that has a box teaches what it is. Other pictures without
+    any thing teach nothing: nobody says that there is none.
 
     Parameters
     ----------
@@ -136,11 +145,11 @@ def lessons_of(dataset: Dataset, *, side: int, with_places: bool = True) -> Less
     kinds = [
         (scene, group)
         for scene, group in zip(dataset.scenes, dataset.groups, strict=True)
-        if any(thing.box for thing in scene.things)
+        if scene.no_things or any(thing.box for thing in scene.things)
     ]
     shown, groups = [scene for scene, _ in kinds], [group for _, group in kinds]
     boxed = [[thing for thing in scene.things if thing.box] for scene in shown]
-    whole = [n for n, scene in enumerate(shown) if _is_whole(scene)]
+    whole = [n for n, scene in enumerate(shown) if is_whole(scene)]
     chosen = np.random.default_rng(0).permutation(len(whole))[:_MOST]
     places = {whole[n] for n in chosen} if with_places else set()
     regions: list[npt.NDArray[np.uint8]] = []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import permutations
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from seewhy.data.measured import MEASURES, STANDING, feet, how_probable
 from seewhy.domain.domain import Domain
+from seewhy.domain.things import Things
 from seewhy.perception.extractor import Seen
 from seewhy.perception.eyes import Eyes
 from seewhy.perception.picture import as_picture, whole_picture
@@ -64,6 +65,21 @@ class Sighting:
     related: dict[str, Table]
     whole: dict[str, Table]
     left_out: int = 0
+
+    def told(self, said: Sequence[Mapping[str, str]], things: Things) -> Sighting:
+        """Return the same where somebody says what things are: that is sure then.
+
+        Parameters
+        ----------
+        said : sequence of mapping
+            Of each thing: feature → value, of those that are said.
+        things : Things
+        """
+        values = {key: table.copy() for key, table in self.values.items()}
+        for number, of_thing in enumerate(said):
+            for key, value in of_thing.items():
+                values[key][number] = np.array(things.features[key].values) == value
+        return replace(self, values=values)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from seewhy.data.thing_scene import ThingScene
 from seewhy.dialogue.things.contrast import tell_change, tell_why, tell_why_not
-from seewhy.dialogue.things.edits import edited, supposed_edits
+from seewhy.dialogue.things.edits import Edit, edited, supposed_edits
 from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
@@ -137,6 +138,34 @@ class ThingAnswerer:
                 "two steps"
             ) from None
 
+    def suppose(self, reply: ThingReply, scene: ThingScene, edits: Sequence[Edit]) -> ThingReply:
+        """Answer the question of an answer about a scene as it would be.
+
+        Examples
+        --------
+        >>> from seewhy.data.thing_scene import thing_scene
+        >>> from seewhy.dialogue.things.edits import Recolour
+        >>> from seewhy.domain.domain import load_domain
+        >>> things = load_domain("tabletop").things
+        >>> scene = thing_scene(things, [{"colour": "red"}, {"colour": "blue"}], relations={})
+        >>> answerer = ThingAnswerer(things)
+        >>> reply = answerer.answer("How many red things are there?", scene)
+        >>> answerer.suppose(reply, scene, [Recolour(1, "colour", "red")]).value
+        2
+        """
+        supposed = self._answered(
+            reply.question, Reading(reply.query), self._supposing(scene, edits), None
+        )
+        assert supposed is not None, "what was answered once is a question"
+        return supposed
+
+    def _supposing(self, scene: ThingScene, edits: Sequence[Edit]) -> ThingWords:
+        """The words of a scene with changes made, and with what then follows in it."""
+        changed, without = edited(scene, self.things, edits)
+        if changed.conclusions is not None:
+            changed = changed.conclusions.conclude(changed, without)
+        return ThingWords(Evaluation(changed, self.things, without=without))
+
     def _answer(self, question: str, scene: ThingScene, previous: ThingReply | None) -> ThingReply:
         readings = self.reader.readings(
             question,
@@ -199,10 +228,7 @@ class ThingAnswerer:
         edits = supposed_edits(number, asked.supposed)
         if edits is None:
             return None
-        scene, without = edited(evaluation.scene, self.things, edits)
-        if scene.conclusions is not None:
-            scene = scene.conclusions.conclude(scene, without)
-        supposed = ThingWords(Evaluation(scene, self.things, without=without))
+        supposed = self._supposing(evaluation.scene, edits)
         reply = self._answered(question, Reading(previous.query), supposed, None)
         return reply and replace(reply, text=f"Then: {reply.text[:1].lower()}{reply.text[1:]}")
 

@@ -54,7 +54,7 @@ from seewhy.dialogue.things.wording import ThingWords
 from seewhy.domain.things import CONCLUDED, Things
 from seewhy.text.nouns import with_article
 
-__all__ = ["Found", "smallest_change"]
+__all__ = ["Found", "say_edit", "smallest_change"]
 
 MOST_LOOKED_AT = 30_000
 """Changed scenes that are looked at."""
@@ -170,7 +170,7 @@ def smallest_change(query: Query, aim: Value, words: ThingWords) -> Found:
                 reaching.append(edits)
         if reaching:
             first = reaching[0]
-            said = tuple(_said(edit, words) for edit in first)
+            said = tuple(say_edit(edit, words) for edit in first)
             return Found(said, len(reaching) - 1, size, first, left_out)
     return Found(None, looked_at=MOST_CHANGES, without_additions=left_out)
 
@@ -273,8 +273,8 @@ def _additions(
     )
 
 
-def _said(edit: Edit, words: ThingWords) -> str:
-    """A change as a clause behind "if"."""
+def say_edit(edit: Edit, words: ThingWords) -> str:
+    """Return a change as a clause behind "if"; ``words`` are those of the scene before it."""
     scene = words.evaluation.scene
     match edit:
         case Recolour(number=number, feature=feature, value=value):

@@ -10,10 +10,17 @@ from fastapi.responses import RedirectResponse
 
 from seewhy.dialogue.asked import Asks, Question
 from seewhy.errors import PictureError, QuestionError, SeeWhyError
+from seewhy.revision.remarks import says_wrong
 from seewhy.studio.incoming import sent_picture
-from seewhy.studio.pages import ask_doubt, ask_where
-from seewhy.studio.pages.ask_things import answer_about_things, things_or_problem
-from seewhy.studio.pages.asking import asked_again, chosen, shown_answer, understood
+from seewhy.studio.pages import ask_doubt, ask_things_doubt, ask_where
+from seewhy.studio.pages.ask_things import (
+    answer_about_things,
+    things_or_problem,
+    what_if_about_things,
+)
+from seewhy.studio.pages.asking import asked_again, shown_answer, understood
+from seewhy.studio.pages.chosen_picture import chosen
+from seewhy.studio.pages.done import Done
 from seewhy.studio.pages.page import Page
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.session import who_of
@@ -26,6 +33,7 @@ __all__ = ["PAGE"]
 
 router = APIRouter()
 router.include_router(ask_doubt.router)
+router.include_router(ask_things_doubt.router)
 router.include_router(ask_where.router)
 PAGE = Page("/ask", "Ask", router)
 
@@ -45,11 +53,10 @@ def show(
 ) -> Response:
     """The page, with the picture that was chosen last."""
     studio = studio_of(request)
-    several = studio.project.has_things
-    missing = (studio.things if several else studio.model).missing
+    missing = studio.answering.missing
     if missing is not None:
         return render(request, "ask.html", missing=missing)
-    talk = (studio.thing_talks if several else studio.talks).of(request.state.session)
+    talk = studio.talk_of(request.state.session)
     name = chosen(studio, picture) if picture else talk.picture
     if name not in set(studio.project.pictures()):
         name = studio.project.pictures()[0]
@@ -65,7 +72,7 @@ def show(
         find=find,
         at=at,
         last=max(0, len(names) - 1) // _STRIP,
-        bench="_ask_things.html" if several else "_ask_bench.html",
+        bench="_ask_things.html" if isinstance(talk, ThingTalk) else "_ask_bench.html",
         **(
             things_or_problem(studio, talk)
             if isinstance(talk, ThingTalk)
@@ -94,6 +101,8 @@ def answer(
     """Answer a question; one that leaves something out is about what was spoken of."""
     studio = studio_of(request)
     if studio.project.has_things:
+        if says_wrong(question):
+            return ask_things_doubt.doubt_about_things(request, picture)
         return answer_about_things(request, picture, question)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
@@ -119,6 +128,8 @@ def answer(
 def what_if(request: Request, picture: Name) -> Response:
     """Class, reasons and smallest change if the picture showed other values."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        return what_if_about_things(request, picture)
     name = chosen(studio, picture)
     given = [
         f"{key.removeprefix('shows.')}={value}"
@@ -129,7 +140,8 @@ def what_if(request: Request, picture: Name) -> Response:
         supposed = suppose(agent, studio.model.look(name), given)
         domain = agent.domain
     template = "_ask_supposed.html" if from_script(request) else "ask_what_if.html"
-    return render(request, template, supposed=supposed, picture=name, domain=domain)
+    part = "_ask_supposed.html"
+    return render(request, template, part=part, supposed=supposed, picture=name, domain=domain)
 
 
 @router.post("/ask/take")
@@ -151,13 +163,15 @@ def take(
 def take_back(request: Request, picture: NameField, number: Annotated[int, Form(ge=1)]) -> Response:
     """Take back what was taken, and answer the last question anew."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        return ask_things_doubt.take_back_about_things(request, picture, number)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     studio.project.take_back(number, who=who_of(request))
     asked_again(studio, talk)
     if not from_script(request):
         return RedirectResponse(f"{PAGE.path}?{urlencode({'picture': talk.picture})}", 303)
-    done = ask_doubt.Done(f"Taken back: entry {number}.", None)
+    done = Done(f"Taken back: entry {number}.", None)
     return render(request, "_ask_bench.html", **{**_bench(studio, request), "done": done})
 
 

@@ -13,24 +13,18 @@ from seewhy.errors import SeeWhyError
 from seewhy.revision.proposal import Proposal
 from seewhy.revision.remarks import Remark, Says, remark_of
 from seewhy.studio import doubting
-from seewhy.studio.pages.asking import chosen
+from seewhy.studio.pages.ask_things_doubt import doubt_about_things
+from seewhy.studio.pages.chosen_picture import chosen
+from seewhy.studio.pages.done import Done
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.talk import Talk
 
-__all__ = ["Done", "doubted", "router", "taken"]
+__all__ = ["doubted", "router", "taken"]
 
 router = APIRouter()
 
 Name = Annotated[str, Query(max_length=2000)]
-
-
-@dataclass(frozen=True)
-class Done:
-    """What was done, in words, and the number of the entry by which it can be taken back."""
-
-    said: str
-    number: int | None
 
 
 @dataclass(frozen=True)
@@ -51,6 +45,8 @@ def doubt(
 ) -> Response:
     """What may have been misread; the rules and reasons are asked for from there."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        return doubt_about_things(request, picture)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     with studio.model.at_work() as agent:
@@ -145,6 +141,7 @@ def _shown(
     found = doubting.misread(studio.model, talk, about)
     with studio.model.at_work() as agent:
         shown: dict[str, Any] = {
+            "part": "_ask_doubt.html",
             "picture": talk.picture,
             "remedies": remedies_of(studio, found),
             "wanted": talk.wanted or "",

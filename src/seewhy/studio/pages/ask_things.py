@@ -1,33 +1,50 @@
-"""Ask, where pictures show several things: what was seen of each, and questions in one talk."""
+"""Ask, where pictures show several things: what was seen, questions in one talk, and what if."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
 from urllib.parse import urlencode
 
 from fastapi import Request, Response
 from fastapi.responses import RedirectResponse
 
+from seewhy.agent.things.thing_supposing import say_edits, suppose_things
 from seewhy.errors import PictureError, QuestionError
-from seewhy.report.thing_card import rests_on
+from seewhy.report.thing_card import rests_on, spoken_of
 from seewhy.studio.drawing import picture_size
-from seewhy.studio.pages.asking import chosen
+from seewhy.studio.pages.chosen_picture import chosen
+from seewhy.studio.pages.done import Done
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.suggesting_about_things import FIRST, suggested_about_things
+from seewhy.studio.supposing_things import (
+    edits_of,
+    fields_of,
+    loose_relations,
+    orders,
+    read_supposition,
+)
 from seewhy.studio.thing_talk import ThingTalk
 
-__all__ = ["answer_about_things", "things_or_problem"]
+if TYPE_CHECKING:
+    from seewhy.agent.things.thing_agent import ThingAgent
+    from seewhy.agent.things.thing_reply import PictureReply
+
+__all__ = [
+    "answer_about_things",
+    "begin",
+    "shown_anew",
+    "things_or_problem",
+    "what_if_about_things",
+]
 
 
 def things_or_problem(studio: Studio, talk: ThingTalk) -> dict[str, Any]:
     """What the bench shows; of a picture that cannot be read, why."""
     try:
-        with studio.things.at_work() as agent:
-            scene = studio.things.look(talk.picture)
-            talk.about(talk.picture, scene)
-            if not talk.replies:
-                talk.remember(agent.answer(FIRST, scene))
+        begin(studio, talk)
         return {
             **_shown(studio, talk),
             "trained_for_this": studio.things.trained_for_this,
@@ -35,6 +52,30 @@ def things_or_problem(studio: Studio, talk: ThingTalk) -> dict[str, Any]:
         }
     except PictureError as problem:
         return {"problem": str(problem), "picture": talk.picture}
+
+
+def begin(studio: Studio, talk: ThingTalk) -> None:
+    """Look at the picture that is spoken of, and tell what is there where nothing was asked."""
+    with studio.things.at_work() as agent:
+        scene = studio.things.look(talk.picture)
+        talk.about(talk.picture, scene)
+        if not talk.replies:
+            talk.remember(agent.answer(FIRST, scene))
+
+
+def shown_anew(request: Request, studio: Studio, talk: ThingTalk, done: Done) -> Response:
+    """The bench when something was done: the picture is read and the question asked anew."""
+    question = talk.replies[-1].reply.question if talk.replies else FIRST
+    with studio.things.at_work() as agent:
+        scene = studio.things.look(talk.picture)
+        talk.about(talk.picture, scene)
+        try:
+            talk.remember(agent.answer(question, scene))
+        except QuestionError:  # it was about the answer before
+            begin(studio, talk)
+    if not from_script(request):
+        return RedirectResponse(f"/ask?{urlencode({'picture': talk.picture})}", 303)
+    return render(request, "_ask_things.html", **_shown(studio, talk, done=done))
 
 
 def answer_about_things(request: Request, picture: str, question: str) -> Response:
@@ -53,12 +94,13 @@ def answer_about_things(request: Request, picture: str, question: str) -> Respon
     return render(request, "_ask_things.html", **_shown(studio, talk))
 
 
-def _shown(studio: Studio, talk: ThingTalk) -> dict[str, Any]:
+def _shown(studio: Studio, talk: ThingTalk, *, done: Done | None = None) -> dict[str, Any]:
     """What the template of the bench shows."""
     reply = talk.replies[-1]
     with studio.things.at_work() as agent:
         return {
             "picture": talk.picture,
+            "done": done,
             "size": picture_size(studio.project.picture_file(talk.picture)),
             "reply": reply,
             "read": reply.read,
@@ -67,4 +109,40 @@ def _shown(studio: Studio, talk: ThingTalk) -> dict[str, Any]:
             "suggested": suggested_about_things(agent, reply.read, reply),
             "classes": agent.domain.classes,
             "features": agent.domain.features,
+            **_supposed(agent, reply, ()),
         }
+
+
+def what_if_about_things(request: Request, picture: str) -> Response:
+    """The last question, answered anew if things were otherwise, and what then follows."""
+    studio = studio_of(request)
+    talk = studio.thing_talks.of(request.state.session)
+    talk.about(chosen(studio, picture))
+    begin(studio, talk)
+    with studio.things.at_work() as agent:
+        shown = _supposed(agent, talk.replies[-1], request.query_params.multi_items())
+    template = "_ask_things_supposed.html" if from_script(request) else "ask_what_if.html"
+    part = "_ask_things_supposed.html"
+    return render(request, template, picture=talk.picture, part=part, **shown)
+
+
+def _supposed(
+    agent: ThingAgent, reply: PictureReply, fields: Sequence[tuple[str, str]]
+) -> dict[str, Any]:
+    """What the template of what is supposed shows."""
+    read = reply.read
+    said = read_supposition(fields, read)
+    edits = edits_of(said, read)
+    supposed = suppose_things(agent.answerer, reply, edits)
+    return {
+        "read": read,
+        "reply": reply,
+        "classes": agent.domain.classes,
+        "said": said,
+        "clauses": say_edits(read, edits),
+        "supposed": supposed,
+        "others": list(fields_of(said, but=said.at)),
+        "orders": orders(read),
+        "loose": loose_relations(read),
+        "spoken_of": partial(spoken_of, read=read),
+    }

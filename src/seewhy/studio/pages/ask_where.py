@@ -9,7 +9,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request, Response
 
 from seewhy.errors import SeeWhyError
-from seewhy.studio.pages.asking import chosen
+from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.rendering import render
 from seewhy.studio.state import studio_of
 

@@ -1,11 +1,11 @@
-"""What the parts of the page Ask share: the picture meant, and answers as they are shown."""
+"""What the parts of the page Ask share: what is asked, and answers as they are shown."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 from seewhy.dialogue.asked import Question
-from seewhy.errors import QuestionError, SeeWhyError
+from seewhy.errors import QuestionError
 from seewhy.revision.remarks import remark_of
 from seewhy.studio.state import Studio
 from seewhy.studio.talk import Talk
@@ -13,22 +13,7 @@ from seewhy.studio.talk import Talk
 if TYPE_CHECKING:
     from seewhy.agent.agent import Agent
 
-__all__ = ["asked_again", "chosen", "shown_answer", "understood"]
-
-
-def chosen(studio: Studio, name: str) -> str:
-    """The name of a picture of the project.
-
-    Raises
-    ------
-    SeeWhyError
-        If it is none.
-    """
-    try:
-        studio.project.picture_file(name)
-    except LookupError as problem:
-        raise SeeWhyError(f"{problem}; choose another") from None
-    return name
+__all__ = ["asked_again", "shown_answer", "understood"]
 
 
 def understood(agent: Agent, talk: Talk, text: str) -> Question | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from pathlib import Path
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Form, HTTPException, Query, Request, Response
@@ -28,7 +29,7 @@ from seewhy.studio.rendering import render
 from seewhy.studio.session import who_of
 from seewhy.studio.state import studio_of
 
-__all__ = ["PAGE", "TASK"]
+__all__ = ["PAGE", "TASK", "evaluation_file"]
 
 router = APIRouter()
 PAGE = Page("/evaluate", "Evaluate", router)
@@ -99,6 +100,7 @@ def show(request: Request, start: Annotated[int, Query(ge=0, le=1_000_000)] = 0)
         job=jobs[0] if jobs else None,
         done=done,
         found=found,
+        has_file=evaluation_file(project) is not None,
         things=domain.things,
         start=start,
         suggested=suggested_pattern(project),
@@ -126,9 +128,7 @@ def begin(request: Request) -> Response:
     if problem:
         raise SeeWhyError(problem)
     model = project.model_folder.name
-    command = [TASK, model, "--data", ".", "--json"]
-    if not project.has_things:
-        command += ["--page", "{job}/page.html"]
+    command = [TASK, model, "--data", ".", "--json", "--page", "{job}/page.html"]
     jobs_of(project).start(TASK, "seewhy", command, who=who_of(request))
     return RedirectResponse(PAGE.path, 303)
 
@@ -153,12 +153,17 @@ def keep(request: Request, together: Annotated[str, Form(max_length=200)] = "") 
 def page(request: Request) -> Response:
     """The last evaluation as one file that opens with no network."""
     project = studio_of(request).project
-    for job in jobs_of(project).of(TASK):
-        file = job.folder / "page.html"
-        if job.state == FINISHED and file.is_file():
-            name = f"{project.name}-evaluation.html"
-            return FileResponse(file, media_type="text/html", filename=name)
-    raise HTTPException(404, "nothing was evaluated yet; evaluate on the page Evaluate")
+    file = evaluation_file(project)
+    if file is None:
+        raise HTTPException(404, "nothing was evaluated yet; evaluate on the page Evaluate")
+    return FileResponse(file, media_type="text/html", filename=f"{project.name}-evaluation.html")
+
+
+def evaluation_file(project: Project) -> Path | None:
+    """The page of the last evaluation; None where there is none."""
+    done = next((job for job in jobs_of(project).of(TASK) if job.state == FINISHED), None)
+    file = None if done is None else done.folder / "page.html"
+    return file if file is not None and file.is_file() else None
 
 
 def _problem(project: Project) -> str:

@@ -30,14 +30,14 @@ class WrongPicture:
     Attributes
     ----------
     picture : str
-    wrong : sequence of str
-        What, in words.
+    wrong : sequence of (str, float or None)
+        What, in words, and how probable the model took it to be.
     changed : bool
         Whether its boxes or labels were changed since.
     """
 
     picture: str
-    wrong: Sequence[str]
+    wrong: Sequence[tuple[str, float | None]]
     changed: bool
 
 
@@ -74,10 +74,16 @@ def wrong_pictures(
 ) -> list[WrongPicture]:
     """The pictures of a project that are not wholly right."""
     return [
-        WrongPicture(one["image"], one["wrong"], one["image"] in changed)
-        for one in found["wrong"]
-        if one["image"] in pictures
+        WrongPicture(scene["image"], _with_sureness(scene), scene["image"] in changed)
+        for scene in found["wrong"]
+        if scene["image"] in pictures
     ]
+
+
+def _with_sureness(scene: Mapping[str, Any]) -> list[tuple[str, float | None]]:
+    """What is read wrongly; evaluations of earlier versions do not tell how sure it was."""
+    sure = scene.get("sure", [None] * len(scene["wrong"]))
+    return list(zip(scene["wrong"], sure, strict=True))
 
 
 def _row(words: str, seen: Mapping[str, Any]) -> Row:

@@ -17,12 +17,13 @@ from seewhy.studio.labelling import (
 )
 from seewhy.studio.labels import REASONS
 from seewhy.studio.pages import label_history, label_sheet, label_things
+from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.pages.label_shown import (
+    GO_ON,
     Name,
     bench_of,
     go_on,
     question_after,
-    require_picture,
     shown,
     shown_after,
 )
@@ -59,7 +60,7 @@ def show(
     elif go == "on":
         go_on(request)
     elif picture:
-        require_picture(studio, picture)
+        chosen(studio, picture, remedy=GO_ON)
         trail.visit(picture)
     elif trail.here is None:
         go_on(request)
@@ -70,7 +71,7 @@ def show(
 def set_value(request: Request, picture: Name, choice: Name = "", other: Name = "") -> Response:
     """Say a value of a feature, or the class: ``FEATURE=VALUE``, an empty one for nobody knows."""
     studio = studio_of(request)
-    require_picture(studio, picture)
+    chosen(studio, picture, remedy=GO_ON)
     name, _, value = (other or choice).partition("=")
     choose(studio.project, {picture: {name: value or None}}, who=who_of(request), how="typed")
     studio.trails.of(request.state.session).visit(picture)
@@ -86,7 +87,7 @@ def set_value(request: Request, picture: Name, choice: Name = "", other: Name = 
 def confirm(request: Request, picture: Name) -> Response:
     """Say all that is proposed of a picture, as it was shown."""
     studio = studio_of(request)
-    require_picture(studio, picture)
+    chosen(studio, picture, remedy=GO_ON)
     values = bench_of(studio, picture).confirmable
     if not values:
         return shown(request, done="nothing is proposed yet")
@@ -101,7 +102,7 @@ def confirm(request: Request, picture: Name) -> Response:
 def reason(request: Request, picture: Name, feature: Name, at: Name = "") -> Response:
     """Say that the class of a picture rests on a feature, or that it does not."""
     studio = studio_of(request)
-    require_picture(studio, picture)
+    chosen(studio, picture, remedy=GO_ON)
     features = reasons_with(studio.project, picture, feature)
     studio.project.note(REASONS, {"reasons": {picture: features}}, who=who_of(request))
     said = ", ".join(features) or "nothing in particular"

@@ -20,17 +20,20 @@ from seewhy.studio.thing_bench import ThingBench, thing_bench
 from seewhy.studio.workbench import Workbench, workbench
 
 __all__ = [
+    "GO_ON",
     "Name",
     "bench_of",
     "go_on",
     "question_after",
-    "require_picture",
     "shown",
     "shown_after",
 ]
 
 Name = Annotated[str, Form(max_length=2000)]
 """A picture, a thing, or what is said, as a form brings it."""
+
+GO_ON = "go on with the next"
+"""What to do where a picture is not there any more."""
 
 _ADDRESS = "/label"
 
@@ -100,20 +103,6 @@ def _things(studio: Studio, picture: str, *, at: str, thing: str) -> ThingBench 
         size = None
     here = studio.project.labels().drawn_in(picture)
     return thing_bench(here, things, size=size, chosen=thing, at=at)
-
-
-def require_picture(studio: Studio, name: str) -> None:
-    """Refuse what is no picture of the project.
-
-    Raises
-    ------
-    SeeWhyError
-        If it is none.
-    """
-    try:
-        studio.project.picture_file(name)
-    except LookupError as problem:
-        raise SeeWhyError(f"{problem}; go on with the next") from None
 
 
 def question_after(studio: Studio, picture: str, name: str) -> str:

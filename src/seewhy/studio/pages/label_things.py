@@ -13,10 +13,12 @@ from seewhy.studio.drawing import (
     relate,
     relate_to_no_other,
     remove,
+    say_none,
     say_of_thing,
     things_of,
 )
-from seewhy.studio.pages.label_shown import Name, require_picture, shown
+from seewhy.studio.pages.chosen_picture import chosen
+from seewhy.studio.pages.label_shown import GO_ON, Name, shown
 from seewhy.studio.session import who_of
 from seewhy.studio.state import studio_of
 
@@ -63,6 +65,19 @@ def remove_thing(request: Request, picture: Name, thing: Name) -> Response:
     return shown(request, done=f"{one} {thing} is removed")
 
 
+@router.post("/label/thing/none")
+def set_none(request: Request, picture: Name, choice: Name) -> Response:
+    """Say that nothing is in the picture (``yes``), or leave it open again (``open``)."""
+    studio = studio_of(request)
+    many = things_of(studio.project).many
+    _stand(request, picture)
+    if choice not in ("yes", "open"):
+        raise SeeWhyError(f"there are no {many} (yes), or it is open, got '{choice}'")
+    say_none(studio.project, picture, choice == "yes", who=who_of(request))
+    done = f"no {many} here" if choice == "yes" else f"open again whether there are {many}"
+    return shown(request, done=done)
+
+
 @router.post("/label/thing/set")
 def set_value(
     request: Request, picture: Name, thing: Name, choice: Name = "", other: Name = ""
@@ -103,5 +118,5 @@ def relate_things(request: Request, picture: Name, thing: Name, choice: Name) ->
 def _stand(request: Request, picture: str) -> None:
     """Stand at a picture of the project."""
     studio = studio_of(request)
-    require_picture(studio, picture)
+    chosen(studio, picture, remedy=GO_ON)
     studio.trails.of(request.state.session).visit(picture)

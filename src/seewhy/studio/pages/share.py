@@ -8,13 +8,13 @@ from urllib.parse import quote
 from fastapi import APIRouter, Query, Request, Response
 
 from seewhy.errors import SeeWhyError
-from seewhy.report.answers_page import answers_page
-from seewhy.studio.jobs import FINISHED, jobs_of
-from seewhy.studio.pages.asking import chosen
-from seewhy.studio.pages.evaluate import TASK as EVALUATION
+from seewhy.report.answers_page import answers_page, answers_page_of_things
+from seewhy.studio.pages.chosen_picture import chosen
+from seewhy.studio.pages.evaluate import evaluation_file
 from seewhy.studio.pages.page import Page
 from seewhy.studio.rendering import render
 from seewhy.studio.state import studio_of
+from seewhy.studio.thing_talk import ThingTalk
 
 __all__ = ["PAGE"]
 
@@ -26,10 +26,12 @@ PAGE = Page("/share", "Share", router)
 def show(request: Request) -> Response:
     """What there is to share."""
     studio = studio_of(request)
-    talk = studio.talks.of(request.state.session)
-    evaluated = any(job.state == FINISHED for job in jobs_of(studio.project).of(EVALUATION))
     return render(
-        request, "share.html", missing=studio.model.missing, talk=talk, evaluated=evaluated
+        request,
+        "share.html",
+        missing=studio.answering.missing,
+        talk=studio.talk_of(request.state.session),
+        evaluated=evaluation_file(studio.project) is not None,
     )
 
 
@@ -38,13 +40,17 @@ def answers(request: Request, picture: Annotated[str, Query(max_length=2000)]) -
     """What was asked of a picture, with reasons and where they are seen."""
     studio = studio_of(request)
     name = chosen(studio, picture)
-    talk = studio.talks.of(request.state.session)
+    talk = studio.talk_of(request.state.session)
     if talk.picture != name or not talk.replies:
         raise SeeWhyError(f"nothing was asked of {name} yet; ask on the page Ask")
-    where = studio.model.where(name)
-    with studio.model.at_work() as agent:
-        file = studio.project.picture_file(name)
-        text = answers_page(agent.domain, file, talk.replies, where=where)
+    file = studio.project.picture_file(name)
+    if isinstance(talk, ThingTalk):
+        with studio.things.at_work() as things_agent:
+            text = answers_page_of_things(things_agent.domain, file, talk.replies)
+    else:
+        where = studio.model.where(name)
+        with studio.model.at_work() as agent:
+            text = answers_page(agent.domain, file, talk.replies, where=where)
     return _file(text, f"{file.stem}.html")
 
 
