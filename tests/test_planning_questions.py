@@ -815,6 +815,46 @@ def test_a_plan_that_was_as_short_is_no_worse(begun: Run) -> None:
     )
 
 
+BECAUSE_OF_SALLY = (
+    "I have not done anything yet. I would move to the kitchen because I want to move to Sally's "
+    "office, in order to deliver the first message to Sally."
+)
+LONGER = (
+    "plan would be longer: 5 actions (move to Bob's office, move to the library, move to the "
+    "kitchen, move to Sally's office and deliver the first message to Sally) instead of 3."
+)
+ONLY_PLANNED = {
+    "why did you move to the kitchen?": BECAUSE_OF_SALLY,
+    "why did you deliver the first message to Sally?": (
+        "I have not done anything yet. I would deliver the first message to Sally as action 3 of "
+        "my plan."
+    ),
+    "why did you move to the library?": (
+        "I have not done anything yet, and I would not move to the library."
+    ),
+    "did you move to the kitchen?": "No, I have not done anything yet.",
+    "why did you not move to the kitchen?": (
+        "But I would move to the kitchen: nothing is done yet, and my plan begins with that."
+    ),
+    "why did you not deliver the first message to Sally?": (
+        "But I would deliver the first message to Sally later: it is action 3 of my plan."
+    ),
+    "why not the library instead?": (
+        'I cannot move to the library now: "the robot does not move to where it is", and I am in '
+        "the library."
+    ),
+    "why don't you go to Bob's office?": f"The {LONGER}",
+    "why to the kitchen rather than to Bob's office?": (
+        f"{BECAUSE_OF_SALLY} If I chose to move to Bob's office, the {LONGER}"
+    ),
+}
+
+
+@pytest.mark.parametrize("question", ONLY_PLANNED)
+def test_of_a_plan_nothing_is_said_to_be_done(not_begun: Run, question: str) -> None:
+    assert asked(not_begun, question) == ONLY_PLANNED[question]
+
+
 MELTING = """
 #fluent basic key. #fluent basic open. #action unlock. #action melt.
 unlock causes open. melt causes -key.

@@ -12,9 +12,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
+from seewhy.dialogue.first_words import Beginning, beginnings_of
 from seewhy.dialogue.inflection import lemma
 from seewhy.errors import DomainError
 
@@ -118,11 +120,19 @@ class Grammar:
         What is looked up instead, in the words of one domain.
     folds : dict of str to callable
         Phrases whose bindings come to something else.
+    looked_up : dict of str to Beginning, optional
+        How what is in the lexicon begins; what is not listed may begin with any word.
     """
 
     phrases: Mapping[str, Form]
     lexicon: Lexicon
     folds: Mapping[str, Fold]
+    looked_up: Mapping[str, Beginning] = field(default_factory=dict)
+
+    @cached_property
+    def first_words(self) -> dict[int, frozenset[str]]:
+        """Form, by its identity → the words with which it begins, where it has any."""
+        return beginnings_of(self.phrases, {**dict.fromkeys(self.lexicon), **self.looked_up})
 
 
 class Chart:
@@ -131,6 +141,7 @@ class Chart:
     def __init__(self, grammar: Grammar, words: Sequence[str]) -> None:
         self.grammar = grammar
         self.words = tuple(words)
+        self._first_words = grammar.first_words
         self._found: dict[tuple[str, int], frozenset[Match]] = {}
         self._open: set[tuple[str, int]] = set()
 
@@ -139,7 +150,13 @@ class Chart:
         ends = self._match(form, 0)
         return [match.bindings for match in ends if match.end == len(self.words)]
 
+    def _word_at(self, at: int) -> str | None:
+        return self.words[at] if at < len(self.words) else None
+
     def _match(self, form: Form, at: int) -> set[Match]:
+        first_words = self._first_words.get(id(form))
+        if first_words is not None and self._word_at(at) not in first_words:
+            return set()
         if form.kind == "word":
             here = at < len(self.words) and self.words[at] == form.text
             return {Match(at + 1, ())} if here else set()

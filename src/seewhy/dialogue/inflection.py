@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import snowballstemmer
 
-__all__ = ["ARTICLES", "forbidden", "lemma", "lemmas"]
+__all__ = ["ARTICLES", "forbidden", "lemma", "lemmas", "stem_of"]
 
 ARTICLES = frozenset({"a", "an", "the", "any", "some"})
 """Words that change nothing of what is asked about a picture."""
@@ -36,7 +36,20 @@ _IRREGULAR = {
     "torn": "tear", "persons": "person", "children": "child", "feet": "foot", "men": "man",
     "women": "woman", "building": "building", "based": "based",
 }  # fmt: skip
-_STEM = lru_cache(maxsize=16_384)(snowballstemmer.stemmer("english").stemWord)
+_DERIVING = ("ful", "fully", "ness", "ist", "ists", "ism", "ery")
+"""Endings that make another word of a word: what is useful need not be used."""
+_SNOWBALL = lru_cache(maxsize=16_384)(snowballstemmer.stemmer("english").stemWord)
+
+
+def stem_of(word: str) -> str:
+    """Return the stem of a word, which is the word itself where an ending made another of it.
+
+    Examples
+    --------
+    >>> stem_of("used"), stem_of("useful")
+    ('use', 'useful')
+    """
+    return word if word.endswith(_DERIVING) else str(_SNOWBALL(word))
 
 
 def lemma(word: str) -> str:
@@ -53,7 +66,7 @@ def lemma(word: str) -> str:
         return word
     if word.endswith(("ered", "ering", "ers")):
         word = word[: word.rindex("er") + 2]  # "considered" is of "consider"
-    stem = str(_STEM(word))
+    stem = stem_of(word)
     # "Narrower" compares, which "narrow" does not.
     compares = word.endswith(("er", "est")) and not stem.endswith(("er", "est"))
     return _IRREGULAR.get(word) or (word if compares else stem)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
+from seewhy.dialogue.first_words import Beginning
 from seewhy.dialogue.grammar import Binding, Match
 from seewhy.dialogue.inflection import ARTICLES, lemma
 from seewhy.dialogue.question_words import words_of
@@ -22,8 +23,8 @@ CATEGORIES = (
     "noun", "class", "class_bare", "class_noun", "class_modifier", "does_class", "adjective",
     "possession", "existing", "verb", "word", "feature", "quality", "counted", "counts", "piece",
     "part", "every", "state", "every_state", "change", "person", "group", "belief", "belief_act",
-    "asked_quality", "shared_noun", "kind_noun", "kinds", "possible", "will", "able", "obliged",
-    "static_verb", "static_relation", "static_sort",
+    "asked_quality", "shared_noun", "kind_noun", "kinds", "possible", "happens", "able", "obliged",
+    "static_verb", "static_relation", "static_sort", "described",
 )  # fmt: skip
 """The phrases of the grammar that a domain's own words fill."""
 
@@ -49,6 +50,13 @@ class Entries:
     other_words: tuple[Binding, ...] = ()
     """What every other word means, but those of ``means_something``."""
     means_something: frozenset[str] = frozenset()
+    holds: bool = False
+    """Whether the category is no word, but something that is so in the domain."""
+
+    @property
+    def beginning(self) -> Beginning | None:
+        """How the phrases of the category begin; None where any word does."""
+        return None if self.other_words else Beginning(frozenset(self.by_first), self.holds)
 
     def add(self, words: Sequence[str], *bindings: Binding) -> None:
         """Let a row of normalised words mean something."""
@@ -60,6 +68,8 @@ class Entries:
 
     def at(self, words: Sequence[str], position: int) -> Iterator[Match]:
         """Yield the phrases that begin at a position."""
+        if self.holds:
+            yield Match(position, ())
         if position >= len(words):
             return
         listed = self.by_first.get(words[position], ())
@@ -89,9 +99,7 @@ def lexicon_of(domain: Domain, normalise: Normalise) -> dict[str, Entries]:
     found["noun"].add(subject)
     found["noun"].add(normalise(domain.scene))
     found["kinds"].add((MANY,))
-    if any(scene_class.verbs for scene_class in domain.classes.values()):
-        for word in ("will", "shall"):
-            found["will"].add((word,))
+    found["happens"].holds = any(scene_class.verbs for scene_class in domain.classes.values())
     named = normalise(domain.name.replace("_", " "))
     full_name = tuple(subject[-1] if word == MANY else word for word in named)
     if full_name[-len(subject) :] == subject:
@@ -159,9 +167,13 @@ def _add_feature(feature: Feature, found: dict[str, Entries], normalise: Normali
     if len(had) == len(parts) > 1 and not _number_of(feature.name):
         shared = set.intersection(*had)
         nouns.append(tuple(w for w in normalise(parts[feature.values[0]].rest) if w in shared))
-    if not any(clause.startswith("there ") for clause in feature.say.values()):
-        for noun in filter(None, nouns):
-            found["possible"].add(noun, Binding("feature", feature.key))
+    merely_there = yes_or_no and any(
+        part.subject == "there" or (part.subject != "{it}" and "{it}" in part.rest)
+        for part in parts.values()
+    )
+    for noun in filter(None, nouns if not merely_there else ()):
+        found["possible"].add(noun, Binding("feature", feature.key))
+        found["described"].add(noun, Binding("feature", feature.key))
     for noun in dict.fromkeys(filter(None, nouns)):
         found["feature"].add(noun, Binding("feature", feature.key))
         if yes_or_no:

@@ -9,7 +9,7 @@ from typing import Any
 from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.grammar import Binding
 from seewhy.dialogue.lexicon import persons_of
-from seewhy.dialogue.said import Said, all_said, roles, stated
+from seewhy.dialogue.said import Said, all_said, companion_of_the_absent, roles, stated
 from seewhy.domain.domain import Domain
 
 __all__ = [
@@ -70,6 +70,8 @@ def preferred(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questi
 def joined(domain: Domain, bindings: tuple[Binding, ...], asks: Asks) -> Iterator[Question]:
     """Whether several things are so, or one of them."""
     spoken_of = all_said(bindings)
+    if companion_of_the_absent(spoken_of):
+        return
     said = [_turned(domain, spoken) if spoken.denied else spoken.statement for spoken in spoken_of]
     if any(spoken.denied and spoken.statement in said for spoken in spoken_of):
         return  # "neither round nor square" says not what it is instead
@@ -101,7 +103,7 @@ def why(
     """Why something is so, or is not."""
     for spoken in all_said(bindings)[:1]:
         statement = spoken.statement
-        if spoken.denied or spoken.forward or denied:
+        if spoken.denied != spoken.forward or denied:
             asks = Asks.WHY_NOT_CLASS if statement.label else Asks.WHY_NOT_VALUE
         else:
             asks = Asks.WHY_CLASS if statement.label else Asks.WHY_VALUE
@@ -130,6 +132,8 @@ def supposing(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questio
         yield _question(Asks.WHAT_IF, label=label)
         return
     said = all_said(bindings)
+    if companion_of_the_absent(said):
+        return
     if any(clause.named for clause in said):
         said = [replace(clause, denied=said[-1].denied, named=False) for clause in said]
     for clause in said:

@@ -46,6 +46,11 @@ _OF_ANY = re.compile(
     r"how come) an? (\w+)\b"
 )
 """Asks of one as of all: "what makes a tower stable?"."""
+_RECOGNISED = re.compile(
+    r"(how (?:do|can|could|would) (?:you|one|we|i) (?:recognise|recognize|identify|tell|know|spot)"
+    r") an? (\w+) (\w+)"
+)
+"""The same of one that is so: "how do you recognise a stable tower?"."""
 
 
 class Questions:
@@ -141,11 +146,16 @@ class Questions:
         of_any = _OF_ANY.match(text)
         if of_any is not None and self._vocabulary.speaks_of_many(f"{of_any[2]}s"):
             text = f"{of_any[1]} {of_any[2]}s{text[of_any.end() :]}"
+        recognised = _RECOGNISED.fullmatch(text)
+        if recognised is not None and self._vocabulary.speaks_of_many(f"{recognised[3]}s"):
+            text = f"{recognised[1]} {recognised[2]} {recognised[3]}s"
         defined = _DEFINED.fullmatch(text)
         if defined is not None:
             read = self._readings.read(self._vocabulary.for_grammar(_MEANT + defined[1]))
             if read:
                 return [self._worded(question) for question in read]
+            if self._vocabulary.for_templates(defined[1]) == ("it",):
+                return []  # "what is a room?" asks for no class of this one
         by_template = self._template(self._known, text, self._vocabulary.for_templates(text))
         if by_template is not None and not (previous and by_template.asks is Asks.EXPLAIN):
             return [by_template]

@@ -41,6 +41,11 @@ class Readings:
             phrases=phrases(),
             lexicon={name: entry.at for name, entry in self.entries.items()},
             folds=folds(),
+            looked_up={
+                name: entry.beginning
+                for name, entry in self.entries.items()
+                if entry.beginning is not None
+            },
         )
         self._plain = _plainly_named(domain)
         self.words = frozenset(words_in(self.entries.values()))

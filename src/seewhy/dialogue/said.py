@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from seewhy.dialogue.asked import Statement
 from seewhy.dialogue.grammar import Binding, Fold
 
-__all__ = ["Said", "all_said", "folds", "roles", "stated"]
+__all__ = ["Said", "all_said", "companion_of_the_absent", "folds", "roles", "stated"]
 
 
 @dataclass(frozen=True)
@@ -23,19 +23,22 @@ class Said:
     """Whether it was only named, and what is said of it follows."""
     replaced: bool = False
     """Whether something else is said instead of it."""
+    beside: bool = False
+    """Whether it is only said to be with, or without, what was said before."""
 
 
 _STATEMENTS = (
     "stated", "asserted", "left", "because", "making", "because_bare", "opposed", "supposed",
-    "supposed_more", "equipment", "unequipped", "other_one", "surely", "located", "group_state",
+    "supposed_more", "other_one", "surely", "located", "group_state",
     "goal", "avoided", "one_value", "first_existing", "existing_too", "deny_one", "deny_other",
-    "pair_rest", "lacking", "pair_two", "fragment_named", "possessed", "dispossessed",
+    "pair_rest", "lacking", "pair_two", "fragment_named",
     "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class", "supposed_object",
     "no_object", "half", "inverted", "footing", "existing_absent", "avoided_form", "because_told",
-    "goal_verb", "cause", "concluded", "matter_of", "matter_clause", "because_so",
+    "goal_verb", "cause", "concluded", "matter_of", "matter_clause", "because_so", "left_claimed",
+    "because_claimed",
 )  # fmt: skip
 
-
+_BESIDE = ("equipment", "unequipped", "possessed", "dispossessed")
 _ROLES: dict[str, Fold] = {
     name: lambda _, role=role: ((Binding(role, True),),)  # type: ignore[misc]
     for name, role in {
@@ -52,9 +55,11 @@ def folds() -> dict[str, Fold]:
     return {
         **dict.fromkeys(_STATEMENTS, _folded),
         **_ROLES,
+        **dict.fromkeys(_BESIDE, _folded_beside),
         "existing_named": _folded_named,
         "neither_of": _folded_neither,
         "taken_away": _folded_neither,
+        "unequipped_both": _folded_neither,
         "both_gone": _folded_neither,
         "supposed_class": _folded_class,
         "parts_alike": _folded_parts,
@@ -96,6 +101,30 @@ def _folded(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
         return
     kept = tuple(binding for binding in bindings if binding.role == "said")
     yield (*kept, *(Binding("said", clause) for clause in said))
+
+
+def _folded_beside(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What something else is with, or without."""
+    for folded in _folded(bindings):
+        yield tuple(
+            Binding("said", replace(binding.meaning, beside=True))
+            if isinstance(binding.meaning, Said)
+            else binding
+            for binding in folded
+        )
+
+
+def companion_of_the_absent(said: Iterable[Said]) -> bool:
+    """Whether something is said to be with what is not there, as in "if Bob left with Sally".
+
+    Who leaves with somebody is gone as well, and who leaves without stays or not.
+    """
+    before = False
+    for spoken in said:
+        if spoken.beside and before:
+            return True
+        before = spoken.denied and spoken.statement.feature is not None
+    return False
 
 
 def _folded_named(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:

@@ -71,11 +71,14 @@ class Spelling:
             return [word]
         if word.endswith("'s"):
             return [f"{found}'s" for found in self._spellings(word.removesuffix("'s"))]
-        if word in english_words() or not word.isalpha():
+        if not word.isalpha():
             return [word]
+        turned = sorted(_letters_turned(word) & self._known)
+        if word in english_words():
+            # A "stop sing" is a sign where nothing is understood of what sings.
+            return [word, *(turned if len(word) > 3 else ())]
         if len(word) == 3:
-            turned = {word[1] + word[0] + word[2], word[0] + word[2] + word[1]}
-            return sorted(turned & self._known)[:1] or [word]
+            return turned[:1] or [word]
         allowed = 1 if len(word) < 7 else 2
         near = [known for known in self._sorted if known[0] == word[0] or len(known) > 4]
         close = process.extract(
@@ -95,3 +98,11 @@ class Spelling:
             if word[:cut] in self._known and word[cut:] in self._known:
                 return [f"{word[:cut]} {word[cut:]}"]
         return [word]
+
+
+def _letters_turned(word: str) -> set[str]:
+    """Every word with two neighbouring letters in the other order."""
+    return {
+        word[:place] + word[place + 1] + word[place] + word[place + 2 :]
+        for place in range(len(word) - 1)
+    }

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
-
-import snowballstemmer
 
 from seewhy.dialogue.grammar_file import around_phrases, aside_phrases
-from seewhy.dialogue.inflection import ARTICLES, lemma, lemmas
+from seewhy.dialogue.inflection import ARTICLES, lemma, lemmas, stem_of
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
@@ -25,7 +22,8 @@ _LONGEST_AROUND = 4
 """Words of a phrase that may stand before or behind a question."""
 _LEAST_BARE = 3
 """Words of a question that stands by itself: "and blue?" asks what was asked before."""
-_STEM = lru_cache(maxsize=16_384)(snowballstemmer.stemmer("english").stemWord)
+_SUPPOSES = frozenset({"if", "when", "once"})
+"""Behind "tell me" they ask whether or when; without it, "if it leaned" supposes something."""
 _Pair = tuple[tuple[str, ...], tuple[str, ...]]
 
 
@@ -50,7 +48,7 @@ class Vocabulary:
     def __init__(self, domain: Domain) -> None:
         _check_words(domain)
         questions = domain.questions
-        self._subject = {_STEM(word) for word in (words_of(domain.subject)[-1], *SUBJECTS)}
+        self._subject = {stem_of(word) for word in (words_of(domain.subject)[-1], *SUBJECTS)}
         pairs = [
             (words_of(other), words_of(canonical))
             for canonical, others in questions.synonyms.items()
@@ -85,13 +83,14 @@ class Vocabulary:
         nouns = {words_of(domain.subject)[-1], words_of(domain.scene)[-1]}
         one = _lemmas(words_of(domain.subject))[-1:]
         nouns |= {other[-1] for other, canonical in pairs if _lemmas(canonical)[-1:] == one}
+        self._nouns = frozenset(map(stem_of, nouns))
         self._one_of_it = {lemma(noun): noun for noun in sorted(nouns)}
         self._fillers = sorted(map(_lemmas, fillers), key=len, reverse=True)
 
     def for_templates(self, text: str) -> tuple[str, ...]:
         """Return the words of a text as templates and the recurrent network read them."""
-        stems = [_STEM(token) for token in words_of(text) if token not in ARTICLES]
-        stems = _replaced(stems, self._for_templates)
+        tokens = self._own_places(_without_articles(words_of(text)))
+        stems = _replaced([stem_of(token) for token in tokens], self._for_templates)
         words: list[str] = []
         for stem in stems:
             word = "it" if stem in self._subject else stem
@@ -103,13 +102,20 @@ class Vocabulary:
         """Return the words of a text without inflections, synonyms and what may be left out."""
         words = [
             part
-            for word in words_of(text)
+            for word in _without_articles(words_of(text))
             for part in _of_owner(word)
-            if part not in ARTICLES and part not in self._adverbs
+            if part not in self._adverbs
         ]
         words = [MANY if self._is_of_many(word) else word for word in words]
         words = _replaced(lemmas(words), self._synonyms)
         return self._unfilled(tuple(_replaced(words, self._aside)))
+
+    def _own_places(self, tokens: list[str]) -> list[str]:
+        """Words in which "its place" is not the place that is shown, where a place is a subject."""
+        return [
+            f"{before} {token}" if before == "its" and stem_of(token) in self._nouns else token
+            for before, token in zip(["", *tokens], tokens, strict=False)
+        ]
 
     def speaks_of_many(self, text: str) -> bool:
         """Whether a text speaks of more than what is shown: "why do structures fall?".
@@ -172,11 +178,21 @@ class Vocabulary:
     def _unfilled(self, words: tuple[str, ...]) -> tuple[str, ...]:
         """Words without the domain's fillers around them; "how do you know" is none inside."""
         for filler in self._fillers:
-            if filler and words[: len(filler)] == filler:
+            behind = words[len(filler) : len(filler) + 1]
+            if filler and words[: len(filler)] == filler and not _SUPPOSES.issuperset(behind):
                 return self._unfilled(words[len(filler) :])
             if filler and words[-len(filler) :] == filler:
                 return self._unfilled(words[: -len(filler)])
         return words
+
+
+def _without_articles(words: Sequence[str]) -> list[str]:
+    """Words without articles; "the only one" is not "only one"."""
+    return [
+        "sole" if before == "the" and word == "only" else word
+        for before, word in zip(["", *words], words, strict=False)
+        if word not in ARTICLES
+    ]
 
 
 def _of_owner(word: str) -> tuple[str, ...]:
@@ -185,7 +201,7 @@ def _of_owner(word: str) -> tuple[str, ...]:
 
 
 def _stems(words: Sequence[str]) -> tuple[str, ...]:
-    return tuple(map(_STEM, words))
+    return tuple(map(stem_of, words))
 
 
 def _lemmas(words: Sequence[str]) -> tuple[str, ...]:

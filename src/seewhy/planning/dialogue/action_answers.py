@@ -21,6 +21,7 @@ from seewhy.planning.dialogue.action_words import (
 )
 from seewhy.planning.dialogue.clause_forms import gerund
 from seewhy.planning.dialogue.goal_words import say_goal
+from seewhy.planning.dialogue.intended_answers import not_begun, say_against, why_would
 from seewhy.planning.dialogue.query import Asks, Query, Told
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.dialogue.surface_realisation import Speech, sentences
@@ -29,6 +30,8 @@ from seewhy.planning.execution.execution import Decision
 
 def why_did(view: RunView, query: Query) -> Told:
     """Why an action was done: what needed it."""
+    if not_begun(view):
+        return why_would(view, query)
     done = view.done(query)
     chosen = [step for step in done if query.step in (None, step.number)]
     speech = view.speech
@@ -102,6 +105,8 @@ def why_not(view: RunView, query: Query) -> Told:
         "obstacles": [obstacle_values(applied) for applied in why.obstacles],
         "actions": [str(planned) for planned in why.actions],
     }
+    if not_begun(view):
+        return sentences([say_against(view, step, action, why)]), reasons
     who, act = view.speech.subject(action), view.speech.act(action)
     many = count_actions(len(why.actions))
     if why.against is Against.DONE:
@@ -141,7 +146,10 @@ def rather_than(view: RunView, query: Query, foil: Query, reasons: dict[str, Any
     text, against = why_not(view, foil)
     other = clingo.parse_term(against["action"])
     do, who = view.speech.do(other), sentence(view.speech.subject(other)).removesuffix(".")
-    if against["against"] == Against.LONGER.value:
+    if not_begun(view):
+        text = text.replace("The plan would", f"If I chose to {do}, the plan would", 1)
+        text = text.replace(f"{who} could as well:", f"I could as well choose to {do}:", 1)
+    elif against["against"] == Against.LONGER.value:
         text = text.replace("The plan would", f"Had I chosen to {do}, the plan would", 1)
     elif against["against"] == Against.AS_GOOD.value:
         text = text.replace(f"{who} could have as well", f"I could as well have chosen to {do}", 1)

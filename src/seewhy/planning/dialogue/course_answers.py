@@ -18,6 +18,7 @@ from seewhy.planning.dialogue.action_words import (
     say_supposed,
 )
 from seewhy.planning.dialogue.goal_words import say_goal
+from seewhy.planning.dialogue.intended_answers import not_begun
 from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.dialogue.surface_realisation import sentences
@@ -130,6 +131,8 @@ def did_so(view: RunView, query: Query) -> Told:
     tried = [step for step in view.done(query) if query.step in (None, step.number)]
     worked = [step for step in tried if (step.number, step.action) not in view.failures]
     reasons = {"steps": [step.number for step in worked]}
+    if not tried and not_begun(view):
+        return sentences(["no, I have not done anything yet"]), reasons
     if not tried:
         when = "" if query.step is None else f" at step {query.step}"
         have = query.text.startswith(("have ", "has "))
