@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from seewhy.domain.domain import Domain, load_domain
     from seewhy.errors import SeeWhyError
     from seewhy.evaluation import Evaluation, evaluate
+    from seewhy.evaluation.things_learned import LearnedAboutThings, learn_about_things
     from seewhy.knowledge.justification import Node
 
 __all__ = [
@@ -33,6 +34,7 @@ __all__ = [
     "Dataset",
     "Domain",
     "Evaluation",
+    "LearnedAboutThings",
     "Node",
     "Reply",
     "SeeWhyError",
@@ -43,6 +45,7 @@ __all__ = [
     "__version__",
     "classify_pictures",
     "evaluate",
+    "learn_about_things",
     "load_domain",
     "thing_scene",
 ]
@@ -52,6 +55,7 @@ _HOMES = {
     "Dataset": "seewhy.data.dataset",
     "Domain": "seewhy.domain.domain",
     "Evaluation": "seewhy.evaluation",
+    "LearnedAboutThings": "seewhy.evaluation.things_learned",
     "Node": "seewhy.knowledge.justification",
     "Reply": "seewhy.dialogue.reply",
     "SeeWhyError": "seewhy.errors",
@@ -61,6 +65,7 @@ _HOMES = {
     "ThingScene": "seewhy.data.thing_scene",
     "classify_pictures": "seewhy.classification",
     "evaluate": "seewhy.evaluation",
+    "learn_about_things": "seewhy.evaluation.things_learned",
     "load_domain": "seewhy.domain.domain",
     "thing_scene": "seewhy.data.thing_scene",
 }

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -12,6 +12,7 @@ from seewhy.cli.screen import complain, print_json, say
 
 if TYPE_CHECKING:
     from seewhy.data.thing_scene import ThingScene
+    from seewhy.dialogue.scene_conclusions import SceneConclusions
     from seewhy.dialogue.things.answering import ThingReply
     from seewhy.domain.things import Things
 
@@ -35,15 +36,56 @@ def decide_things(
     by_name = {str(index): found for index, found in scenes.items()}
     if str(number) not in by_name:
         raise SeeWhyError(f"{scene}: has no scene with image_index {number}")
-    scene_there = SceneConclusions(loaded).conclude(by_name[str(number)])
+    conclusions = SceneConclusions(loaded)
+    scene_there = conclusions.conclude(by_name[str(number)])
     replies, failed = answers_about(loaded.things, scene_there, questions or ("what is there?",))
+    decided = _class(conclusions, scene_there) if loaded.classes else {}
     if json:
-        print_json({"domain": loaded.name, "answers": [reply.to_dict() for reply in replies]})
+        answers = [reply.to_dict() for reply in replies]
+        print_json({"domain": loaded.name, **decided, "answers": answers})
     else:
+        _print_class(decided)
         for reply in replies:
             print_reply(reply)
     if failed:
         raise typer.Exit(2)
+
+
+def _class(conclusions: SceneConclusions, scene: ThingScene) -> dict[str, Any]:
+    """The class of a scene and why it is of it, the things called by what they look like."""
+    from seewhy.dialogue.scene_beliefs import SceneBeliefs
+    from seewhy.dialogue.things.evaluating import Evaluation
+    from seewhy.dialogue.things.wording import ThingWords
+
+    words = ThingWords(Evaluation(scene, conclusions.things))
+    names = [words.name(number) for number in range(scene.count)]
+    beliefs = SceneBeliefs(
+        conclusions.domain.with_most_things(max(1, scene.count)),
+        conclusions.vector(scene),
+        names,
+        reasoner=conclusions.reasoner_for(scene.count),
+    )
+    label = beliefs.decision.label
+    known = beliefs.domain.classes
+    reason = None if label is None else beliefs.why(known[label].literal)
+    return {
+        "class": label,
+        "say": "not decided" if label is None else known[label].say,
+        "verdict": beliefs.decision.verdict.value,
+        "justification": None if reason is None else reason.to_dict(),
+        "because": None if reason is None else reason.to_text(),
+    }
+
+
+def _print_class(decided: Mapping[str, Any]) -> None:
+    if not decided:
+        return
+    say(f"class: {decided['say']}")
+    if decided["because"] is not None:
+        say("because:")
+        for line in decided["because"].splitlines():
+            say(f"  {line}")
+    say()
 
 
 def answers_about(

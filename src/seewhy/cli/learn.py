@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from seewhy.cli.axiom_lines import axiom_dict, rests, withdrawn_dict, withdrawn_line
+from seewhy.cli.axiom_lines import rests
+from seewhy.cli.learn_things import domain_of_things, learn_from_things
+from seewhy.cli.learned_lines import judgement_lines, learning_dict, print_learning
 from seewhy.cli.options import Json, Outside, Seed
 from seewhy.cli.robot import Without, with_knowledge_of_robot
 from seewhy.cli.screen import harmless, print_json, remark, say
 from seewhy.errors import DatasetError, SeeWhyError
-from seewhy.text.percentage import percent
 
 if TYPE_CHECKING:
     from seewhy.data.dataset import Dataset
-    from seewhy.evaluation.held_back import Judged, JudgedLearning, Proposal
+    from seewhy.domain.domain import Domain
+    from seewhy.evaluation.held_back import JudgedLearning, Proposal
     from seewhy.induction.axiom_learning import LearningOptions
     from seewhy.knowledge.axiom import Axiom
 
@@ -31,7 +33,8 @@ def learn(
         Path,
         typer.Argument(
             metavar="MODEL",
-            help="A model folder, made by 'seewhy train'; with --runs, a domain that plans.",
+            help="A model folder, made by 'seewhy train'; a domain whose pictures show several "
+            "things; with --runs, a domain that plans.",
         ),
     ],
     data: Annotated[
@@ -47,7 +50,11 @@ def learn(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option("--out", help="With --runs: the file for what is learned (.al)."),
+        typer.Option(
+            "--out",
+            help="With --runs: the file for what is learned (.al). Of things: a new folder for a "
+            "copy of the domain that knows it.",
+        ),
     ] = None,
     without: Without = None,
     support: Annotated[
@@ -66,8 +73,9 @@ def learn(
             "--tolerance",
             min=0.0,
             max=0.5,
-            help="The share of the annotation taken to be wrong (0); with --runs, how often what "
-            "is usual may be otherwise (as the record suggests).",
+            help="The share of the annotation taken to be wrong (0; of things, as the pictures "
+            "suggest); with --runs, how often what is usual may be otherwise (as the record "
+            "suggests).",
         ),
     ] = None,
     yes: Annotated[
@@ -100,6 +108,9 @@ def learn(
     knowledge. With --json nothing is asked: it is added with --yes; without, it is only shown and
     the model stays as it was.
 
+    Of a domain with several things in a picture, axioms about them are learned without a model:
+    which things there are, how many, which not. They are added to the domain's knowledge.al.
+
     With --runs, learn what is usually so from the record of a robot's earlier runs, and write it
     to --out, for 'seewhy plan --learned' and 'seewhy simulate --learned'.
     """
@@ -114,11 +125,12 @@ def learn(
             "nothing is said to learn from; give --data FOLDER with annotated pictures, or --runs "
             "FOLDER with the record of a robot's runs"
         )
-    if out is not None or without:
-        given = "--out" if out is not None else "--without"
-        raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the model")
     if even_if_worse and not yes:
         raise SeeWhyError("--even-if-worse goes with --yes; without it you are asked")
+    with_things = domain_of_things(model)
+    if (out is not None and with_things is None) or without:
+        given = "--without" if without else "--out"
+        raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the model")
     from seewhy.evaluation.held_back import not_worse
     from seewhy.induction.axiom_learning import DEFAULTS, LearningOptions
 
@@ -130,6 +142,12 @@ def learn(
     asked = not json and not yes
     accept = _ask_judged if asked else _anything if even_if_worse else not_worse
     only_shown = json and not yes
+    if with_things is not None:
+        _from_things(
+            with_things, data, out, outside=outside, support=options.support, tolerance=tolerance,
+            seed=seed, accept=accept, keep=not only_shown, picture=picture, json=json,
+        )  # fmt: skip
+        return
     found = _from_pictures(
         model, data, outside=outside, options=options, accept=accept, keep=not only_shown
     )
@@ -168,6 +186,35 @@ def _from_pictures(
     if keep:
         found.agent.save(model)
     return found
+
+
+def _from_things(
+    domain: Domain,
+    data: Path,
+    out: Path | None,
+    *,
+    outside: bool,
+    support: float,
+    tolerance: float | None,
+    seed: int,
+    accept: Callable[[Proposal], bool],
+    keep: bool,
+    picture: Path | None,
+    json: bool,
+) -> None:
+    from seewhy.induction.things.rule_learning import ThingLearningOptions
+
+    learn_from_things(
+        domain,
+        data,
+        out,
+        outside=outside,
+        options=ThingLearningOptions(support=support, tolerance=tolerance, seed=seed),
+        accept=accept,
+        keep=keep,
+        refused={"--picture": picture},
+        json=json,
+    )
 
 
 def _draw_tree(found: JudgedLearning, picture: Path) -> None:
@@ -235,24 +282,10 @@ def _ask_judged(proposal: Proposal) -> bool:
     else:
         say(f"{proposed.text}")
         say(f"  {proposed}  learned from {rests(proposed)}")
-    for line in _judgement(proposal):
+    for line in judgement_lines(proposal):
         say(f"  {line}")
     question = "set this axiom aside?" if isinstance(proposed, Withdrawn) else "add this axiom?"
     return _confirmed(question, default=not proposal.falls)
-
-
-def _judgement(proposal: Proposal) -> list[str]:
-    """Say what a proposal does to the accuracy on the pictures held back."""
-    before, after = proposal.before, proposal.after
-    if before is None or after is None:
-        return []
-    shares = f"{percent(before.right.value)} before, {percent(after.right.value)} with this"
-    said = f"of {before.right.of} pictures held back, classified rightly: {shares}"
-    if not proposal.falls:
-        return [said]
-    points = 100 * (before.right.value - after.right.value)
-    pictures = "1 picture" if proposal.lost == 1 else f"{proposal.lost} pictures"
-    return [said, f"ACCURACY WOULD FALL by {points:.1f} points ({pictures})"]
 
 
 def _anything(_: Proposal) -> bool:
@@ -296,86 +329,3 @@ def _with_class(dataset: Dataset) -> Dataset:
             "learned from them"
         )
     return found
-
-
-def learning_dict(found: JudgedLearning, *, only_shown: bool) -> dict[str, Any]:
-    """What was learned, as values that JSON can hold.
-
-    What is only shown is judged as if all were accepted that lowers no accuracy; nothing is.
-    """
-    from seewhy.induction.sentence import say_rule
-    from seewhy.knowledge.learned_file import Withdrawn
-
-    agent, learning = found.agent, found.learning
-    return {
-        "found": [str(axiom) for axiom in learning.found],
-        "added": [axiom_dict(axiom) for axiom in learning.added if not only_shown],
-        "withdrawn": [withdrawn_dict(agent, gone) for gone in learning.withdrawn if not only_shown],
-        "candidates": [
-            {
-                "text": say_rule(agent.domain, one.candidate.conditions, one.candidate.label),
-                "fate": one.fate.value,
-                "reason": one.reason,
-                "right": one.tally.right,
-                "wrong": one.tally.wrong,
-                "left_open": one.tally.left,
-            }
-            for one in learning.judgements
-        ],
-        "held_back": found.held_back,
-        "learned_from": found.learned_from,
-        "judged": [
-            {
-                "statement": proposal.statement,
-                "set_aside": isinstance(proposal.proposed, Withdrawn),
-                "falls": proposal.falls,
-                "accepted": accepted and not only_shown,
-                "before": _shares(proposal.before),
-                "after": _shares(proposal.after),
-            }
-            for proposal, accepted in found.judged
-        ],
-        "before": _shares(found.before),
-        "after": _shares(found.after),
-    }
-
-
-_RIGHT = "annotated features classified rightly"
-_BY_KNOWLEDGE = "annotated features that the knowledge decides rightly"
-
-
-def _shares(judged: Judged | None) -> dict[str, float] | None:
-    if judged is None:
-        return None
-    return {_BY_KNOWLEDGE: judged.by_knowledge.value, _RIGHT: judged.right.value}
-
-
-def print_learning(found: JudgedLearning) -> None:
-    """Print every candidate with its verdict, what was added and withdrawn, and what it did."""
-    from seewhy.induction.axiom_learning import Fate
-    from seewhy.induction.sentence import say_rule, things
-
-    agent, learning = found.agent, found.learning
-    for one in learning.judgements:
-        text = say_rule(agent.domain, one.candidate.conditions, one.candidate.label)
-        why = f": {one.reason}" if one.reason else ""
-        fate = "proposed" if one.fate is Fate.ACCEPTED else one.fate.value
-        say(f"{fate}: {text} ({one.tally.right} {things(agent.domain)} for it{why})")
-    for gone in learning.withdrawn:
-        say(withdrawn_line(agent, gone))
-    if not learning.found:
-        say("no axiom is to be learned from these pictures")
-    for axiom in learning.added:
-        say(f"added {axiom.identifier}: {axiom}  ({rests(axiom)})")
-    for proposal, accepted in found.judged:
-        if proposal.falls:
-            say(f"{'agreed to all the same' if accepted else 'left out'}: {proposal.statement}")
-            for line in _judgement(proposal):
-                say(f"  {line}")
-    before, after = _shares(found.before), _shares(found.after)
-    for name in before or {}:
-        if before is not None and after is not None:
-            say(
-                f"{name}, of {found.held_back} held back: {percent(before[name])} before, "
-                f"{percent(after[name])} now"
-            )

@@ -13,6 +13,7 @@ from seewhy.dialogue.static_lexicon import add_statics
 from seewhy.dialogue.vocabulary import MANY
 from seewhy.domain.domain import Domain
 from seewhy.domain.feature import Feature
+from seewhy.text.number_words import NUMBERS
 
 __all__ = ["CATEGORIES", "NUMBERS", "Entries", "Value", "lexicon_of", "persons_of", "words_in"]
 
@@ -28,11 +29,6 @@ CATEGORIES = (
 )  # fmt: skip
 """The phrases of the grammar that a domain's own words fill."""
 
-NUMBERS = (
-    "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
-    "eleven", "twelve", "thirteen", "fourteen", "fifteen", "sixteen", "seventeen", "eighteen",
-    "nineteen", "twenty",
-)  # fmt: skip
 _LEAST_ALIKE = 3
 _BE = {"is", "are"}
 _HAVE = {"has", "have"}

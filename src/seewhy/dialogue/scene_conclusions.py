@@ -75,13 +75,16 @@ class SceneConclusions:
 
         ``without`` are things that are taken as not there.
         """
-        reasoner = self._reasoner(scene.count)
+        reasoner = self.reasoner_for(scene.count)
         vector = self._vector(scene, without, reasoner.schema)
         return self.taken(scene, reasoner.believed(vector))
 
     def vector(self, scene: ThingScene, without: int = 0) -> FeatureVector:
         """Return a scene as the domain reasons with it; ``without`` as for :meth:`conclude`."""
         return self._vector(scene, without, self.domain.schema)
+    def vector(self, scene: ThingScene) -> FeatureVector:
+        """Return what is seen in a scene as :meth:`reasoner_for` so many things takes it."""
+        return self._vector(scene, 0, self.reasoner_for(scene.count).schema)
 
     def taken(self, scene: ThingScene, believed: Iterable[clingo.Symbol]) -> ThingScene:
         """Return a scene with what is believed of it by somebody who has reasoned already."""
@@ -136,7 +139,7 @@ class SceneConclusions:
         ``names`` says how all things of the scene are called.
         """
         called = dict(zip(self._terms, names, strict=False))
-        reasoner = self._reasoner(scene.count)
+        reasoner = self.reasoner_for(scene.count)
         vector = self._vector(scene, without, reasoner.schema)
 
         def say(literal: Literal) -> str:
@@ -163,8 +166,8 @@ class SceneConclusions:
     def _literal(self, key: str, numbers: Sequence[int]) -> Literal:
         return Literal(key, tuple(self._terms[number] for number in numbers))
 
-    def _reasoner(self, count: int) -> Reasoner:
-        """One that is grounded for so many things: the fewer, the faster."""
+    def reasoner_for(self, count: int) -> Reasoner:
+        """Return what reasons about so many things: the fewer, the faster."""
         if count >= len(self._terms):
             return self._whole_reasoner
         if count not in self._reasoners:

@@ -22,6 +22,7 @@ from seewhy.errors import DomainError
 from seewhy.files.toml_file import read_toml
 from seewhy.knowledge.consistency import check_consistency
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
+from seewhy.knowledge.learned_file import with_origins
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 from seewhy.knowledge.things import schema_with_things
 from seewhy.text.nearest import did_you_mean
@@ -171,7 +172,7 @@ def load_domain(name: str | Path) -> Domain:
             )
     path = folder / "domain.toml"
     table = read_toml(path, DomainFile)
-    knowledge = read_knowledge_file(folder / "knowledge.al").without_change
+    knowledge = _knowledge(folder / "knowledge.al")
     questions = read_toml(folder / "questions.toml", QuestionsFile)
     place = KeyPlace(path)
     _check_source(table, place)
@@ -212,6 +213,13 @@ def load_domain(name: str | Path) -> Domain:
     )
     check_consistency(knowledge, domain.schema)
     return domain
+
+
+def _knowledge(file: Path) -> Knowledge:
+    """What a file says, with what the learned ones of its axioms rest on."""
+    knowledge = read_knowledge_file(file).without_change
+    axioms = with_origins(knowledge.axioms, file.read_text(encoding="utf-8"))
+    return replace(knowledge, axioms=axioms)
 
 
 def _check_source(table: DomainFile, place: KeyPlace) -> None:

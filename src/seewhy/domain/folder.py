@@ -49,3 +49,14 @@ def domain_folder(name: str | Path) -> Path:
         f"'{name}' is neither a folder nor a bundled domain; "
         f"{did_you_mean(str(name), bundled_domains())}"
     )
+
+
+def is_bundled(folder: Path) -> bool:
+    """Whether a domain's folder is one that comes with SeeWhy.
+
+    Examples
+    --------
+    >>> is_bundled(domain_folder("tabletop")), is_bundled(Path("tabletop"))
+    (True, False)
+    """
+    return folder.resolve().is_relative_to(_BUNDLED.resolve())

@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from seewhy.domain.domain import Domain
+from seewhy.domain.things import Things
 from seewhy.knowledge.axiom import Literal
-from seewhy.text.nouns import with_article
+from seewhy.text.nouns import plural, with_article
 
-__all__ = ["say_of_things", "say_thing"]
+__all__ = ["described", "say_of_things", "say_thing"]
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
@@ -36,6 +37,36 @@ def say_thing(domain: Domain, term: str, names: Mapping[str, str] = _NOTHING) ->
     if term == things.sort.replace("_", " "):
         return with_article(things.one)
     return term.strip('"').replace("_", " ")
+
+
+def described(things: Things, values: Mapping[str, str | None], *, many: bool = False) -> str:
+    """Return a thing of some values, or several, without an article.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> things = load_domain("tabletop").things
+    >>> described(things, {"size": "small", "shape": "cube"})
+    'small cube'
+    >>> described(things, {"colour": "red"}, many=True)
+    'red things'
+    """
+    adjectives: list[str] = []
+    behind: list[str] = []
+    noun, nouns = things.one, things.many
+    for key, value in values.items():
+        if value is None:
+            continue
+        feature = things.features[key]
+        if feature.nouns[value]:
+            noun = feature.nouns[value][0]
+            nouns = plural(noun)
+        elif value in feature.behind:
+            behind.append(feature.behind[value])
+        elif feature.words[value]:
+            adjectives.append(feature.words[value][0])
+    named = nouns if many else noun
+    return " ".join(filter(None, [*adjectives, named, " and ".join(behind)]))
 
 
 def say_of_things(

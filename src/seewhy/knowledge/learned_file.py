@@ -20,6 +20,7 @@ __all__ = [
     "parse_learned",
     "parse_withdrawn",
     "read_learned",
+    "with_origins",
     "write_learned",
 ]
 
@@ -141,8 +142,38 @@ def parse_learned(source: str, signature: Signature, *, file: str = LEARNED) -> 
     )
 
 
+def with_origins(axioms: Iterable[Axiom], source: str) -> tuple[Axiom, ...]:
+    """Return axioms of a text with what they rest on, where comments above them say it.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_knowledge
+    >>> text = '''#sort structure. #static stable(structure).
+    ... %% all are stable
+    ... % learned from 3 structures, 100.0 % of them rightly
+    ... stable(S) if structure(S).'''
+    >>> [axiom.origin.support for axiom in with_origins(read_knowledge(text).axioms, text)]
+    [3]
+    """
+    lines = source.splitlines()
+    found = ((axiom, _origin_above(axiom, lines)) for axiom in axioms)
+    return tuple(
+        axiom if origin is None else replace(axiom, origin=origin) for axiom, origin in found
+    )
+
+
 def _origin(axiom: Axiom, lines: Sequence[str]) -> Origin:
     """What the comment lines above an axiom say of it."""
+    found = _origin_above(axiom, lines)
+    if found is None:
+        raise KnowledgeError(
+            f"{axiom.location}: nothing says what this axiom was learned from; put axioms of your "
+            "own into knowledge.al"
+        )
+    return found
+
+
+def _origin_above(axiom: Axiom, lines: Sequence[str]) -> Origin | None:
     pictures: list[str] = []
     for line in reversed(lines[: axiom.location.line - 1]):
         if rests := _RESTS.match(line):
@@ -158,7 +189,4 @@ def _origin(axiom: Axiom, lines: Sequence[str]) -> Origin:
             )
         else:
             break
-    raise KnowledgeError(
-        f"{axiom.location}: nothing says what this axiom was learned from; put axioms of your own "
-        "into knowledge.al"
-    )
+    return None

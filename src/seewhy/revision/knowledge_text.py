@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 from seewhy.errors import RevisionError
 from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.learned_file import Withdrawn, learned_text
 from seewhy.knowledge.statements import Statement, statements
-from seewhy.revision.edit import KNOWLEDGE, LEARNED, Edit, newline_of, raw_places
+from seewhy.revision.edit import KNOWLEDGE, LEARNED, Edit, FileName, newline_of, raw_places
 
-__all__ = ["axiom_added", "condition_added", "learned_removed", "narrowed_statement"]
+__all__ = [
+    "axiom_added",
+    "condition_added",
+    "learned_removed",
+    "narrowed_statement",
+    "with_learned",
+]
+
+_PICTURES = 3
+"""So many pictures are named above a learned axiom in a file that somebody writes."""
 
 
 def axiom_added(text: str, statement: str, sentence: str) -> Edit:
@@ -101,16 +114,52 @@ def learned_removed(text: str, axiom: Axiom) -> Edit:
     >>> left == learned_text(axioms[1:])
     True
     """
+    return _statement_removed(text, str(axiom), LEARNED)
+
+
+def _statement_removed(text: str, statement: str, file: FileName) -> Edit:
     lines = text.splitlines(keepends=True)
-    statement = str(axiom)
     found = [number for number, line in enumerate(lines) if line.rstrip() == statement]
     if not found:
-        raise RevisionError(f"learned.al has changed: '{statement}' does not stand there any more")
+        raise RevisionError(f"{file} has changed: '{statement}' does not stand there any more")
     first = found[0]
     while first and lines[first - 1].startswith("%"):
         first -= 1
     block = "".join(lines[first : found[0] + 2])
-    return Edit(LEARNED, len("".join(lines[:first])), block, "")
+    return Edit(file, len("".join(lines[:first])), block, "")
+
+
+def with_learned(text: str, added: Sequence[Axiom], withdrawn: Sequence[Withdrawn]) -> str:
+    r"""Return a knowledge file with learned axioms at its end, and without those withdrawn.
+
+    A few of the pictures that an axiom rests on are named above it.
+
+    Raises
+    ------
+    RevisionError
+        If an axiom that is withdrawn does not stand in the text.
+
+    Examples
+    --------
+    >>> from seewhy.knowledge.language import read_axioms, read_knowledge
+    >>> known = read_knowledge("#sort thing. #static wet(thing). #static bad(thing).")
+    >>> (axiom,) = read_axioms("bad(T) if wet(T).", known.signature)
+    >>> text = with_learned("#static bad(thing).\n", [axiom], [])
+    >>> with_learned(text, [], [Withdrawn(str(axiom), "it was otherwise")]).splitlines()[-1]
+    '% withdrawn: bad(T) if wet(T). because it was otherwise'
+    """
+    for gone in withdrawn:
+        text = _statement_removed(text, gone.statement, KNOWLEDGE).applied(text)
+    few = [
+        replace(axiom, origin=replace(axiom.origin, pictures=axiom.origin.pictures[:_PICTURES]))
+        for axiom in added
+    ]
+    heading, _, said = learned_text(few, withdrawn).partition("\n\n")
+    if not said.strip():
+        return text
+    newline = newline_of(text)
+    lines = [*([] if heading in text else [heading, ""]), said.rstrip("\n"), ""]
+    return f"{text.rstrip()}{newline * 2}{newline.join(newline.join(lines).splitlines())}{newline}"
 
 
 def _joined_by(axiom: Axiom) -> str:

@@ -5,28 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from seewhy.dialogue.lexicon import NUMBERS
 from seewhy.dialogue.things import query
 from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.lexicon import RANKS
+from seewhy.domain.thing_wording import described
 from seewhy.domain.wording import join_words
 from seewhy.text.comparison import comparative, superlative
 from seewhy.text.nouns import plural, with_article
+from seewhy.text.number_words import number_word
 
 __all__ = ["ThingWords", "number_word"]
 
 _PLURAL = {"is": "are", "has": "have"}
-
-
-def number_word(number: int) -> str:
-    """Return a number as a word, where it has one.
-
-    Examples
-    --------
-    >>> number_word(3), number_word(144)
-    ('three', '144')
-    """
-    return NUMBERS[number] if 0 <= number < len(NUMBERS) else str(number)
 
 
 def _relative(clause: str, subject: str, *, many: bool) -> str:
@@ -73,20 +63,7 @@ class ThingWords:
 
     def described(self, values: Mapping[str, str | None]) -> str:
         """Return a thing of some values, without an article: "small red metal cube"."""
-        adjectives: list[str] = []
-        behind: list[str] = []
-        noun = self.things.one
-        for key, value in values.items():
-            if value is None:
-                continue
-            feature = self.things.features[key]
-            if feature.nouns[value]:
-                noun = feature.nouns[value][0]
-            elif value in feature.behind:
-                behind.append(feature.behind[value])
-            elif feature.words[value]:
-                adjectives.append(feature.words[value][0])
-        return " ".join(filter(None, [*adjectives, noun, " and ".join(behind)]))
+        return described(self.things, values)
 
     def term(self, number: int) -> str:
         """Return what a thing is called in the knowledge language."""
