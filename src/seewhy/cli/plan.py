@@ -18,11 +18,19 @@ from seewhy.cli.run_questions import (
     show_answers,
     talk,
 )
+from seewhy.cli.scene_of_plan import (
+    BeginningScene,
+    PictureFile,
+    SceneFile,
+    SceneNumber,
+    ThingModelFolder,
+)
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
     from clingo import Symbol
 
+    from seewhy.planning.goal import Goal
     from seewhy.planning.planner.pddl import PddlProblem
     from seewhy.planning.planner.planner import Plan
     from seewhy.planning.words import PlanningWords
@@ -30,7 +38,9 @@ if TYPE_CHECKING:
 GoalText = Annotated[
     str,
     typer.Option(
-        "--goal", help='What shall hold, such as "loc(rob1, kitchen), not closed(library)".'
+        "--goal",
+        help='What shall hold, such as "loc(rob1, kitchen), not closed(library)", or in words, '
+        'such as "move to the kitchen".',
     ),
 ]
 Observed = Annotated[
@@ -58,29 +68,34 @@ def plan(
     chat: Chat = False,
     learned: Learned = None,
     without: Without = None,
+    scene: SceneFile = None,
+    image: SceneNumber = None,
+    picture: PictureFile = None,
+    model: ThingModelFolder = None,
     json: Json = False,
 ) -> None:
     """Find a shortest plan to a goal, and answer questions about it.
 
-    With --history, what was done so far can be asked about like a run: --history takes what
-    'seewhy simulate --record' writes.
+    Plans about the things of a picture begin with those of an annotated scene (--scene), or with
+    those that a model sees (--picture and --model). With --history, what was done so far can be
+    asked about like a run: --history takes what 'seewhy simulate --record' writes.
     """
     from seewhy.knowledge.ground_literal import read_ground_literal
     from seewhy.knowledge.history import read_history_file
     from seewhy.planning.diagnosis.diagnosis import diagnose
     from seewhy.planning.dialogue.run_answers import RunAnswers
-    from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.execution.execution import Run
     from seewhy.planning.execution.plan_monitoring import suppositions
-    from seewhy.planning.goal import read_goal
     from seewhy.planning.planner.pddl import to_pddl
     from seewhy.planning.planner.planner import plan as find_plan
+    from seewhy.planning.spoken_goals import goal_of
 
+    begin = BeginningScene(scene, image, picture, model)
     robot_domain = with_knowledge_of_robot(
-        load_planning_domain(domain), learned=learned, without=without
+        begin.planning_domain(domain), learned=learned, without=without
     )
     knowledge = robot_domain.knowledge
-    aim = read_goal(goal, knowledge)
+    aim = goal_of(goal, robot_domain)
     past = read_history_file(history, knowledge.signature) if history else robot_domain.history
     seen = [read_ground_literal(text, knowledge.signature, of="fluent") for text in observed or ()]
     past = past.with_observations(seen, step=past.last_step)
@@ -100,7 +115,7 @@ def plan(
     asked = [] if answers is None else ask_all(answers, ask)
     if json:
         replies = {"replies": [reply.to_dict() for reply in asked]} if ask else {}
-        print_json({**_to_dict(found, goal, supposed), **replies}, lines=not chat)
+        print_json({**_to_dict(found, aim, supposed), **replies}, lines=not chat)
     else:
         for surprise in known.surprises:
             say(f"It must be that {robot_domain.words.surprise(surprise)}.")
@@ -143,9 +158,9 @@ def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...]) -> No
         say(f"This supposes that {words.say(supposition)}, which is not known.")
 
 
-def _to_dict(found: Plan, goal: str, supposed: tuple[Symbol, ...]) -> dict[str, Any]:
+def _to_dict(found: Plan, goal: Goal, supposed: tuple[Symbol, ...]) -> dict[str, Any]:
     return {
-        "goal": goal,
+        "goal": goal.text,
         "status": found.status.value,
         "actions": [str(action) for action in found.actions],
         "supposed": [str(supposition) for supposition in supposed],

@@ -18,6 +18,7 @@ from seewhy.cli.run_questions import (
     show_answers,
     talk,
 )
+from seewhy.cli.scene_of_plan import BeginningScene, SceneFile, SceneNumber
 from seewhy.cli.screen import print_json, remark, say
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ def simulate(
             '"closed(library)"; may be given several times.',
         ),
     ] = None,
+    scene: SceneFile = None,
+    image: SceneNumber = None,
     json: Json = False,
 ) -> None:
     """Simulate a robot that plans, acts, is surprised, and plans anew.
@@ -66,16 +69,15 @@ def simulate(
     knowledge.al, whatever the robot knows of it.
     """
     from seewhy.planning.dialogue.run_answers import RunAnswers
-    from seewhy.planning.domain import load_planning_domain
     from seewhy.planning.execution.run_narration import narrate_end, narrate_step
     from seewhy.planning.execution.simulation import ground_fluents
     from seewhy.planning.execution.simulation import simulate as run_simulation
-    from seewhy.planning.goal import read_goal
+    from seewhy.planning.spoken_goals import goal_of
 
     _check_endings(out, record)
-    world = load_planning_domain(domain)
+    world = BeginningScene(scene, image).planning_domain(domain)
     robot_domain = with_knowledge_of_robot(world, learned=learned, without=without)
-    aim = read_goal(goal, robot_domain.knowledge)
+    aim = goal_of(goal, robot_domain)
     sight = None if model is None else _sight(robot_domain, model)
     start = ground_fluents(at_first or (), world.knowledge)
     last: Simulation | None = None
@@ -102,7 +104,7 @@ def simulate(
     answers = RunAnswers(robot_domain, run)
     asked = ask_all(answers, ask)
     if json:
-        told = {**_to_dict(last, goal, seed), "replies": [reply.to_dict() for reply in asked]}
+        told = {**_to_dict(last, seed), "replies": [reply.to_dict() for reply in asked]}
         print_json(told, lines=not chat)
     else:
         say(narrate_end(run))
@@ -110,6 +112,8 @@ def simulate(
         show_answers(asked)
     command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'
     command += "" if model is None else f" --model {model}"
+    command += "" if scene is None else f" --scene {scene}"
+    command += "" if image is None else f" --image {image}"
     command += "".join(f' --at-first "{literal}"' for literal in at_first or ())
     command += robot_options(learned=learned, without=without)
     _write(robot_domain, last, out=out, record=record, command=command)
@@ -163,10 +167,10 @@ def _sight(domain: PlanningDomain, model: Path) -> Sight:
     return Sight(domain, Agent.load(model))
 
 
-def _to_dict(simulation: Simulation, goal: str, seed: int) -> dict[str, Any]:
+def _to_dict(simulation: Simulation, seed: int) -> dict[str, Any]:
     run, looks = simulation.run, simulation.looks
     return {
-        "goal": goal,
+        "goal": run.goal.text,
         "seed": seed,
         "outcome": run.outcome.value if run.outcome else "interrupted",
         "achieved": simulation.achieved,

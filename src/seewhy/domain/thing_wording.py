@@ -12,6 +12,7 @@ from seewhy.knowledge.axiom import Literal
 from seewhy.text.nouns import plural, with_article
 
 __all__ = ["described", "say_of_things", "say_thing"]
+__all__ = ["denied", "say_of_things", "say_thing"]
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
@@ -114,9 +115,18 @@ def say_of_things(
 
 def _signed(clause: str, positive: bool) -> str:
     """A clause, or that it is not so."""
-    if positive:
-        return clause
-    denied, count = re.subn(r"\b(is|are|has|can)\b", r"\1 not", clause, count=1)
-    if count and "has not" not in denied:
-        return denied
+    return clause if positive else denied(clause)
+
+
+def denied(clause: str) -> str:
+    """Return that a clause is not so.
+
+    Examples
+    --------
+    >>> denied("{0} is on {1}"), denied("it rains")
+    ('{0} is not on {1}', 'it is not so that it rains')
+    """
+    denial, count = re.subn(r"\b(is|are|has|can)\b", r"\1 not", clause, count=1)
+    if count and "has not" not in denial:
+        return denial
     return f"it is not so that {clause}"

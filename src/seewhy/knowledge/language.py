@@ -105,10 +105,22 @@ class Knowledge:
         ['large(hall).']
         """
         predicates = self.signature.predicates
-        gone = {sort, *(name for name, predicate in predicates.items() if sort in predicate.sorts)}
+        of_sort = (name for name, predicate in predicates.items() if sort in predicate.sorts)
+        return self.without_names(frozenset({sort, *of_sort}))
+
+    def without_names(self, gone: frozenset[str]) -> Knowledge:
+        """What is left without some sorts and predicates, and the axioms about these.
+
+        Examples
+        --------
+        >>> known = read_knowledge("#sort place = {hall}. #static dark(place). dark(hall).")
+        >>> known.without_names(frozenset({"dark"})).axioms
+        ()
+        """
+        declared = self.signature
         signature = Signature(
-            {name: declared for name, declared in self.signature.sorts.items() if name != sort},
-            {name: predicate for name, predicate in predicates.items() if name not in gone},
+            {name: sort for name, sort in declared.sorts.items() if name not in gone},
+            {name: found for name, found in declared.predicates.items() if name not in gone},
         )
         return Knowledge(
             signature,
@@ -125,16 +137,25 @@ def read_knowledge_file(path: Path | str) -> Knowledge:
     KnowledgeError
         Where the file is missing or a statement is wrong; the text names file, line and column.
     """
-    path = Path(path)
+    return read_knowledge(knowledge_text(Path(path)), file=str(path))
+
+
+def knowledge_text(path: Path) -> str:
+    """Return the text of a ``.al`` file.
+
+    Raises
+    ------
+    KnowledgeError
+        If the file is missing, or is no text.
+    """
     try:
-        source = path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8")
     except FileNotFoundError:
         raise KnowledgeError(
             f"{path}: there is no such file; a domain needs its axioms in knowledge.al"
         ) from None
     except (OSError, UnicodeDecodeError) as problem:
         raise KnowledgeError(f"{path}: cannot be read as UTF-8 text ({problem})") from None
-    return read_knowledge(source, file=str(path))
 
 
 def read_knowledge(source: str, *, file: str = "knowledge.al") -> Knowledge:
@@ -171,6 +192,11 @@ def _read(source: str, file: str) -> Knowledge:
             declared.add(statement)
         else:
             rules.append(statement)
+    return knowledge_of(declared, rules, file=file)
+
+
+def knowledge_of(declared: Declarations, rules: Sequence[Statement], *, file: str) -> Knowledge:
+    """Return the knowledge of declarations and axioms that were read; errors as there."""
     signature = Signature(sorts=declared.sorts, predicates=declared.predicates)
     axioms = _read_axioms(rules, signature, letter="a")
     return Knowledge(signature=signature, axioms=axioms, file=file)

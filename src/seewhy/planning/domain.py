@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
 import clingo
 
+from seewhy.data.thing_scene import ThingScene
 from seewhy.domain.folder import domain_folder
-from seewhy.domain.tables import DomainFile, FeatureTable
+from seewhy.domain.tables import DomainFile
 from seewhy.errors import DomainError, PlanningError
 from seewhy.files.toml_file import line_of, read_toml
 from seewhy.knowledge.axiom import Axiom
@@ -20,16 +20,20 @@ from seewhy.knowledge.dynamics import fixed_rules
 from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.history import History, read_history_file
 from seewhy.knowledge.language import Knowledge, read_knowledge_file
+from seewhy.knowledge.made_changeable import read_changeable_files
 from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.actors import actor_places
+from seewhy.planning.domain_checks import goal_problems_of, picture_problems_of, problems_of
 from seewhy.planning.execution.sensing import Sensing, SensingError, read_sensing
-from seewhy.planning.tables import MapTable, PlanningFile, SimulationTable
+from seewhy.planning.tables import GoalTable, MapTable, PlanningFile, SimulationTable
+from seewhy.planning.things.initial_scene import SceneOfPlan, thing_clauses, with_scene
+from seewhy.planning.things.scene_file import scene_of_plan
 from seewhy.planning.words import PlanningWords
 from seewhy.text.nearest import did_you_mean, nearest
-from seewhy.text.slots import wrong_slot
 
 FILE = "planning.toml"
-_SLOT = re.compile(r"\{(\d+)\}")
+CHANGE = "planning.al"
+"""What may change of what knowledge.al says, and what brings it about; may be missing."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,10 @@ class PlanningDomain:
     folder : Path
     seen_by_networks : bool
         Whether networks read the pictures that the robot takes.
+    goals : tuple of GoalTable
+        Goals that can be said in words.
+    at_first : SceneOfPlan or None
+        The things of a picture, where planning is about them.
 
     Examples
     --------
@@ -82,6 +90,8 @@ class PlanningDomain:
     map: MapTable | None
     folder: Path
     seen_by_networks: bool = False
+    goals: tuple[GoalTable, ...] = ()
+    at_first: SceneOfPlan | None = None
 
     @property
     def sensors_err(self) -> bool:
@@ -174,20 +184,35 @@ def plans_only(name: str | Path) -> bool:
 
 def _has(name: str | Path, file: str) -> bool:
     try:
-        return (_folder(name) / file).is_file()
+        return (planning_folder(name) / file).is_file()
     except DomainError:
         return False
 
 
-def load_planning_domain(name: str | Path) -> PlanningDomain:
+def load_planning_domain(name: str | Path, *, scene: ThingScene | None = None) -> PlanningDomain:
     """Load a bundled planning domain by name, or a user's by its folder.
+
+    Parameters
+    ----------
+    name : str or Path
+    scene : ThingScene, optional
+        The things that there are at first, where the domain plans about things of pictures; where
+        left out, those of ``scene.json`` in the folder.
 
     Raises
     ------
     DomainError, KnowledgeError
         If a file of the folder is missing or wrong; the text names file and line.
+    PlanningError
+        If the domain plans about things, and nothing says which there are; or plans about none,
+        and a scene is given.
+
+    Examples
+    --------
+    >>> load_planning_domain("tabletop").words.name("thing1")
+    'the small red metal cube'
     """
-    folder = _folder(name)
+    folder = planning_folder(name)
     path = folder / FILE
     if not path.is_file():
         raise DomainError(
@@ -195,39 +220,34 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
             f"that plan are {', '.join(bundled_planning_domains())}"
         )
     table = read_toml(path, PlanningFile)
-    knowledge = read_knowledge_file(folder / "knowledge.al")
     pictures = folder / "domain.toml"
     seen = read_toml(pictures, DomainFile) if pictures.is_file() else None
-    if seen is not None:
-        # The picture is nothing that there is in the world.
-        knowledge = knowledge.without_sort(seen.domain.scene)
+    knowledge = _read_knowledge(folder, picture=None if seen is None else seen.domain.scene)
+    past = folder / "history.al"
+    history = History()
+    at_first = scene_of_plan(folder, scene)
+    if at_first is not None:
+        knowledge, observed = with_scene(knowledge, at_first)
+        history = history.with_observations(observed, step=0)
     source = path.read_text(encoding="utf-8-sig")
     features = {} if seen is None else seen.features
-    for keys, problem in (*_problems(table, knowledge), *_picture_problems(table, features)):
+    for keys, problem in (
+        *problems_of(table, knowledge),
+        *picture_problems_of(table, features),
+        *goal_problems_of(table, knowledge),
+    ):
         raise DomainError(f"{path}:{line_of(source, keys)}: {problem}")
     sensing, shows = _read_sensing(
         table, knowledge, at=lambda *keys: f"{path}:{line_of(source, keys)}"
     )
-    past = folder / "history.al"
+    if past.is_file():
+        history = read_history_file(past, knowledge.signature)
     return PlanningDomain(
         name=table.planning.name,
         title=table.planning.title,
         knowledge=knowledge,
-        history=read_history_file(past, knowledge.signature) if past.is_file() else History(),
-        words=PlanningWords(
-            table.things,
-            table.fluents,
-            table.actions,
-            table.planning.robot,
-            possessives=table.possessives,
-            statics=table.statics,
-            actors=actor_places(knowledge.signature, table.actions, robot=table.planning.robot),
-            fixed=frozenset(
-                name
-                for name, predicate in knowledge.signature.predicates.items()
-                if predicate.kind is PredicateKind.STATIC
-            ),
-        ),
+        history=history,
+        words=_words(table, knowledge, at_first),
         robot=table.planning.robot,
         horizon=table.planning.horizon,
         answer_sets=table.planning.answer_sets,
@@ -236,6 +256,44 @@ def load_planning_domain(name: str | Path) -> PlanningDomain:
         simulation=table.simulation,
         map=table.map,
         folder=folder,
+        goals=table.goals,
+        at_first=at_first,
+    )
+
+
+def _read_knowledge(folder: Path, *, picture: str | None) -> Knowledge:
+    """What knowledge.al says, with planning.al what may change of it; nothing of the picture.
+
+    The picture is nothing that there is in the world; ``picture`` is its sort.
+    """
+    given, change = folder / "knowledge.al", folder / CHANGE
+    if change.is_file():
+        found = read_changeable_files(given, change, without=picture or "")
+    else:
+        found = read_knowledge_file(given)
+    return found if picture is None else found.without_sort(picture)
+
+
+def _words(
+    table: PlanningFile, knowledge: Knowledge, at_first: SceneOfPlan | None
+) -> PlanningWords:
+    """How all that there is is said; of a picture's things as its domain says it."""
+    predicates = knowledge.signature.predicates
+    clauses = {} if at_first is None else thing_clauses(at_first.things, knowledge)
+    fixed = frozenset(
+        name for name, found in predicates.items() if found.kind is PredicateKind.STATIC
+    )
+    statics = {name: said for name, said in clauses.items() if name in fixed}
+    fluents = {name: said for name, said in clauses.items() if name not in fixed}
+    return PlanningWords(
+        {**table.things, **({} if at_first is None else at_first.names())},
+        {**fluents, **table.fluents},
+        table.actions,
+        table.planning.robot,
+        possessives=table.possessives,
+        statics={**statics, **table.statics},
+        actors=actor_places(knowledge.signature, table.actions, robot=table.planning.robot),
+        fixed=fixed,
     )
 
 
@@ -261,7 +319,14 @@ def _read_sensing(
     return tuple(sensing), shows
 
 
-def _folder(name: str | Path) -> Path:
+def planning_folder(name: str | Path) -> Path:
+    """Return the folder of a bundled planning domain's name, or of a path to a user's folder.
+
+    Raises
+    ------
+    DomainError
+        If there is neither; the text gives the nearest bundled name.
+    """
     if not Path(name).is_dir() and str(name) in bundled_planning_domains():
         return Path(__file__).parents[1] / "domains" / str(name)
     try:
@@ -271,118 +336,3 @@ def _folder(name: str | Path) -> Path:
             f"'{name}' is neither a folder nor a bundled domain that plans; "
             f"{did_you_mean(str(name), bundled_planning_domains())}"
         ) from None
-
-
-def _problems(table: PlanningFile, knowledge: Knowledge) -> Iterator[tuple[tuple[str, ...], str]]:
-    """What planning.toml says of things that the knowledge does not have."""
-    signature = knowledge.signature
-    fluents = {n: len(p.sorts) for n, p in signature.predicates.items() if p.kind.is_fluent}
-    statics = {
-        n: len(p.sorts) for n, p in signature.predicates.items() if p.kind is PredicateKind.STATIC
-    }
-    actions = {n: len(p.sorts) for n, p in signature.predicates.items() if p.kind.is_action}
-    members = {member for sort in signature.sorts.values() for member in sort.members or ()}
-    for sort in signature.sorts.values():
-        if sort.members is None:
-            yield ("planning",), f"the sort '{sort.name}' has no members ({sort.location})"
-    if not any(p.kind is PredicateKind.ACTION for p in signature.predicates.values()):
-        yield ("planning",), f"{knowledge.file} declares no action, so nothing can be planned"
-    robot = table.planning.robot
-    if robot is not None and robot not in members:
-        yield ("planning", "robot"), f"'{robot}' is of no sort; {did_you_mean(robot, members)}"
-    for key, things in (("things", table.things), ("possessives", table.possessives)):
-        for thing in things:
-            if thing not in members:
-                yield (key, thing), f"'{thing}' is of no sort; {did_you_mean(thing, members)}"
-    for kind, named, known in (
-        ("fluents", _said(table.fluents), fluents),
-        ("statics", _said(table.statics), statics),
-        ("actions", _said(table.actions), actions),
-    ):
-        for name, texts in named.items():
-            if name not in known:
-                yield (kind, name), f"'{name}' is none of the {kind}; {did_you_mean(name, known)}"
-                continue
-            for key, text in texts.items():
-                wrong = wrong_slot(_SLOT.sub("", text), ())
-                if wrong is not None:
-                    yield (
-                        (kind, name, key),
-                        f"'{text}' has '{wrong}', which is no slot; there are {{0}}, {{1}}, … for "
-                        "the arguments",
-                    )
-                for slot in _SLOT.findall(text):
-                    if int(slot) >= known[name]:
-                        yield (
-                            (kind, name, key),
-                            f"'{name}' has {known[name]} arguments, counted from 0, but '{text}' "
-                            f"asks for {{{slot}}}",
-                        )
-    if table.map is not None:
-        yield from _map_problems(table.map, knowledge)
-    for key, chances, wanted in (
-        ("events", table.simulation.events, PredicateKind.EXOGENOUS_ACTION),
-        ("failures", table.simulation.failures, PredicateKind.ACTION),
-        ("durations", table.simulation.durations, PredicateKind.ACTION),
-    ):
-        names = [n for n, p in signature.predicates.items() if p.kind is wanted]
-        for name in chances:
-            if name not in names:
-                yield (
-                    ("simulation", key, name),
-                    f"'{name}' is no {wanted.value}; {did_you_mean(name, names)}",
-                )
-
-
-def _picture_problems(
-    table: PlanningFile, features: Mapping[str, FeatureTable]
-) -> Iterator[tuple[tuple[str, ...], str]]:
-    """What planning.toml says of features that domain.toml does not have."""
-    for key in table.pictures.shows if table.pictures else ():
-        here = ("pictures", "shows", key)
-        if not features:
-            yield here, "the folder has no domain.toml, which would name features of pictures"
-        elif key not in features:
-            yield here, f"'{key}' is no feature of domain.toml; {did_you_mean(key, features)}"
-        elif {*features[key].values} != {"yes", "no"}:
-            yield (
-                here,
-                f"the feature '{key}' has the values {', '.join(features[key].values)}; only one "
-                "of yes and no says whether a fluent holds",
-            )
-
-
-def _map_problems(table: MapTable, knowledge: Knowledge) -> Iterator[tuple[tuple[str, ...], str]]:
-    signature = knowledge.signature
-    if table.places not in signature.sorts:
-        remedy = did_you_mean(table.places, signature.sorts)
-        yield ("map", "places"), f"'{table.places}' is no sort; {remedy}"
-        return
-    wanted: dict[str, tuple[str | None, str, list[str | None]]] = {
-        "links": (table.links, "static", [table.places, table.places]),
-        "where": (table.where, "fluent", [None, table.places]),
-        "closed": (table.closed, "fluent", [table.places]),
-    }
-    for key, (name, kind, sorts) in wanted.items():
-        if name is None:
-            continue
-        known = [n for n, p in signature.predicates.items() if kind in p.kind.value]
-        if name not in known:
-            yield ("map", key), f"'{name}' is no {kind}; {did_you_mean(name, known)}"
-            continue
-        declared = signature.predicates[name].sorts
-        if len(declared) != len(sorts) or any(
-            b not in (None, a) for a, b in zip(declared, sorts, strict=True)
-        ):
-            shown = ", ".join(sort or "thing" for sort in sorts)
-            yield (
-                ("map", key),
-                f"'{signature.predicates[name]}' must be of the form {name}({shown})",
-            )
-
-
-def _said(tables: Mapping[str, object]) -> dict[str, dict[str, str]]:
-    return {
-        name: {key: text for key, text in vars(table).items() if text is not None}
-        for name, table in tables.items()
-    }

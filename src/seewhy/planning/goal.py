@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, replace
 
 from seewhy.errors import KnowledgeError, PlanningError
-from seewhy.knowledge.axiom import STRING, Axiom
+from seewhy.knowledge.axiom import STRING, Axiom, variables_in
 from seewhy.knowledge.language import Knowledge, read_axioms
 from seewhy.knowledge.signature import Location, Predicate, PredicateKind
 from seewhy.knowledge.statements import statements
@@ -30,6 +30,11 @@ class Goal:
 
     def __str__(self) -> str:
         return self.text
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """The variables of its conditions, in their order."""
+        return variables_in(self.text)
 
 
 def read_goal(text: str, knowledge: Knowledge) -> Goal:

@@ -61,6 +61,21 @@ class ActionTable(StrictTable):
         description="What was done, as in `moved to {1}`; what happens unasked is said as a whole, "
         "as in `{0} walked to {1}`.",
     )
+    also: tuple[str, ...] = Field(
+        default=(),
+        description="Other instructions by which goals and questions may name it, as in "
+        "`go to {1}`.",
+    )
+
+
+class GoalTable(StrictTable):
+    """``[[goals]]``: a goal as one says it: "make a tower of {N}"."""
+
+    say: tuple[str, ...] = Field(
+        min_length=1,
+        description="The instructions, as in `make a tower of {N}`; {N} is a variable of the goal.",
+    )
+    goal: str = Field(description="What shall hold then, as in `tower_of(N)`.")
 
 
 class SensingTable(StrictTable):
@@ -144,6 +159,11 @@ class PlanningFile(StrictTable):
     )
     actions: dict[str, ActionTable] = Field(
         default={}, description="How it is said that an action is to be done, and that it was."
+    )
+    goals: tuple[GoalTable, ...] = Field(
+        default=(),
+        description="Goals that can be said in words, beside those that actions bring about and "
+        "what fluents say.",
     )
     sensing: tuple[SensingTable, ...] = Field(
         default=(),

@@ -102,6 +102,29 @@ class QuestionReader:
         if not found:
             raise self._not_understood(text, sentences, antecedent)
 
+    def references(self, text: str) -> Iterator[Reference]:
+        """Yield what a phrase such as "the red cube on the ball" may refer to.
+
+        Examples
+        --------
+        >>> from seewhy.domain.domain import load_domain
+        >>> reader = QuestionReader(load_domain("tabletop").things)
+        >>> [str(found.which) for found in reader.references("the red block")]
+        ['the']
+        """
+        words = words_of(text)[:MOST_WORDS]
+        if not words:
+            return
+        found = False
+        for said in (words, next(self._spelling.readings(words)).split()):
+            for bindings in self._forms.readings(Chart(said, None), "one"):
+                for reference in meanings(bindings, "one"):
+                    if isinstance(reference, Reference):
+                        found = True
+                        yield reference
+            if found:
+                return
+
     def _in_turn(
         self, sentences: list[list[str]], antecedent: Reference | None, answered: bool
     ) -> Iterator[Reading]:
