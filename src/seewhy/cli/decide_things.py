@@ -61,7 +61,7 @@ def _class(conclusions: SceneConclusions, scene: ThingScene) -> dict[str, Any]:
     names = [words.name(number) for number in range(scene.count)]
     beliefs = SceneBeliefs(
         conclusions.domain.with_most_things(max(1, scene.count)),
-        conclusions.vector(scene),
+        conclusions.shortest_vector(scene),
         names,
         reasoner=conclusions.reasoner_for(scene.count),
     )

@@ -82,7 +82,8 @@ class SceneConclusions:
     def vector(self, scene: ThingScene, without: int = 0) -> FeatureVector:
         """Return a scene as the domain reasons with it; ``without`` as for :meth:`conclude`."""
         return self._vector(scene, without, self.domain.schema)
-    def vector(self, scene: ThingScene) -> FeatureVector:
+
+    def shortest_vector(self, scene: ThingScene) -> FeatureVector:
         """Return what is seen in a scene as :meth:`reasoner_for` so many things takes it."""
         return self._vector(scene, 0, self.reasoner_for(scene.count).schema)
 

@@ -11,8 +11,7 @@ from seewhy.domain.things import Things
 from seewhy.knowledge.axiom import Literal
 from seewhy.text.nouns import plural, with_article
 
-__all__ = ["described", "say_of_things", "say_thing"]
-__all__ = ["denied", "say_of_things", "say_thing"]
+__all__ = ["denied", "described", "say_of_things", "say_thing"]
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 
