@@ -280,8 +280,12 @@ class Shelf(NamedTuple):
 
 @pytest.fixture(scope="session")
 def shelf(tmp_path_factory: pytest.TempPathFactory) -> Shelf:
-    """A model of shapes, trained in seconds: with so plain ones, few passes are enough."""
-    folder = tmp_path_factory.mktemp("things")
+    """A model of shapes, trained in seconds."""
+    return trained_shelf(tmp_path_factory.mktemp("things"))
+
+
+def trained_shelf(folder: Path) -> Shelf:
+    """Train a model of shapes; with so plain ones, few passes are enough."""
     domain = write_shelf_domain(folder / "shelf")
     data = write_shelf(folder / "data", 48)
     with pytest.MonkeyPatch.context() as patch:

@@ -14,7 +14,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from fastapi.testclient import TestClient
 
-from conftest import Shelf
+from conftest import Shelf, trained_shelf
+from seewhy.perception.backbones import embedded
+from seewhy.perception.backbones.embedded import SIDE
 from seewhy.studio import jobs
 from seewhy.studio.drawing import draw, say_of_thing
 from seewhy.studio.jobs import Jobs, jobs_of
@@ -28,6 +30,14 @@ from thing_pictures import piles
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser as Chromium
+
+
+@pytest.fixture(scope="module")
+def shelf(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Shelf]:
+    """A model that processes of the studio read, which see all pixels."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(embedded, "SIDE", SIDE)
+        yield trained_shelf(tmp_path_factory.mktemp("things"))
 
 
 @pytest.fixture
@@ -263,6 +273,8 @@ def test_what_if_is_a_function_of_its_address(asking: Browser, shown: Project) -
     assert '<input type="hidden" name="gone" value="1">' in then
     assert "taken away</a>" in then
     assert "By the rules the picture would " in then
+    kept = asking.post("/ask", picture=PICTURE, question="how many shapes are there?", gone="1")
+    assert f"<strong>There are {words[count - 1]} shapes: " in kept
     page = asking.get(f"{address}&gone=1")
     assert "<h1>What if</h1>" in page
     refused = asking.client.get(f"{address}&shows.1.colour=mauve")
@@ -492,6 +504,10 @@ def test_everybody_can_use_the_pages_of_things(
         page.keyboard.press("ArrowRight")
         page.get_by_text("As it was seen").wait_for()
         assert page.evaluate("document.activeElement.name") == "shows.2.form"
+        page.locator("#question").fill("how many balls are there?")
+        page.keyboard.press("Enter")
+        page.get_by_text("how many balls are there?").nth(1).wait_for()
+        assert page.get_by_text("As it was seen").is_visible()  # what is supposed stays so
         page.get_by_text("No, that is wrong").click()
         page.get_by_label("1: ", exact=False).first.wait_for()
         assert hindrances(page, width) == []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any
 from urllib.parse import urlencode
 
-from fastapi import APIRouter, File, Form, Query, Request, Response, UploadFile
+from fastapi import APIRouter, Depends, File, Form, Query, Request, Response, UploadFile
 from fastapi.responses import RedirectResponse
 
 from seewhy.dialogue.asked import Asks, Question
@@ -92,10 +92,17 @@ def upload(request: Request, file: Annotated[UploadFile, File()]) -> Response:
     return RedirectResponse(f"{PAGE.path}?{urlencode({'picture': sent.name})}", 303)
 
 
+async def fields_sent(request: Request) -> list[tuple[str, str]]:
+    """All fields of a form, also those whose names things and features make."""
+    sent = (await request.form()).multi_items()
+    return [(name, value) for name, value in sent if isinstance(value, str)]
+
+
 @router.post(PAGE.path)
 def answer(
     request: Request,
     picture: NameField,
+    sent: Annotated[list[tuple[str, str]], Depends(fields_sent)],
     question: Annotated[str, Form(max_length=_LONGEST_QUESTION)] = "",
 ) -> Response:
     """Answer a question; one that leaves something out is about what was spoken of."""
@@ -103,7 +110,7 @@ def answer(
     if studio.project.has_things:
         if says_wrong(question):
             return ask_things_doubt.doubt_about_things(request, picture)
-        return answer_about_things(request, picture, question)
+        return answer_about_things(request, picture, question, supposed=sent)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     if not question.strip():

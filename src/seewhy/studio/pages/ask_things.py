@@ -78,8 +78,13 @@ def shown_anew(request: Request, studio: Studio, talk: ThingTalk, done: Done) ->
     return render(request, "_ask_things.html", **_shown(studio, talk, done=done))
 
 
-def answer_about_things(request: Request, picture: str, question: str) -> Response:
-    """Answer a question; one that leaves something out is about what was answered last."""
+def answer_about_things(
+    request: Request, picture: str, question: str, *, supposed: Sequence[tuple[str, str]] = ()
+) -> Response:
+    """Answer a question; one that leaves something out is about what was answered last.
+
+    What is ``supposed`` (fields of its form) stays so, and the new question is asked of it.
+    """
     studio = studio_of(request)
     talk = studio.thing_talks.of(request.state.session)
     talk.about(chosen(studio, picture))
@@ -91,10 +96,16 @@ def answer_about_things(request: Request, picture: str, question: str) -> Respon
         talk.remember(agent.answer(question, scene, previous=talk.previous))
     if not from_script(request):
         return RedirectResponse(f"/ask?{urlencode({'picture': talk.picture})}", 303)
-    return render(request, "_ask_things.html", **_shown(studio, talk))
+    return render(request, "_ask_things.html", **_shown(studio, talk, supposed=supposed))
 
 
-def _shown(studio: Studio, talk: ThingTalk, *, done: Done | None = None) -> dict[str, Any]:
+def _shown(
+    studio: Studio,
+    talk: ThingTalk,
+    *,
+    done: Done | None = None,
+    supposed: Sequence[tuple[str, str]] = (),
+) -> dict[str, Any]:
     """What the template of the bench shows."""
     reply = talk.replies[-1]
     with studio.things.at_work() as agent:
@@ -109,7 +120,7 @@ def _shown(studio: Studio, talk: ThingTalk, *, done: Done | None = None) -> dict
             "suggested": suggested_about_things(agent, reply.read, reply),
             "classes": agent.domain.classes,
             "features": agent.domain.features,
-            **_supposed(agent, reply, ()),
+            **_supposed(agent, reply, supposed),
         }
 
 
