@@ -6,12 +6,15 @@ import itertools
 import json
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import pytest
 
 from conftest import Run
+from seewhy.planning.diagnosis import diagnosis
 from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.execution.environment import PlanningEnvironment
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
@@ -347,3 +350,23 @@ def test_an_interrupted_run_is_told_as_far_as_it_came(
         "In truth it is not reached.\n"
     )
     assert page.read_text(encoding="utf-8").count("<svg") == 1
+
+
+def test_a_history_is_explained_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    explained: list[str] = []
+    explain = diagnosis.BoundedControl
+
+    def counted(text: str, **options: Any) -> Any:
+        explained.append(text)
+        return explain(text, **options)
+
+    monkeypatch.setattr(diagnosis, "BoundedControl", counted)
+    monkeypatch.setattr(diagnosis, "_DIAGNOSED", {})
+    known = load_planning_domain("robot_assistant")
+    first = diagnosis.diagnose(known.knowledge, known.history)
+    assert diagnosis.diagnose(known.knowledge, known.history) is first
+    assert len(explained) == len(set(explained)) == 1
+    # The same program with other sentences is explained anew: surprises tell them.
+    said = [replace(axiom, text=f"{axiom.text}!") for axiom in known.knowledge.axioms]
+    other = replace(known.knowledge, axioms=tuple(said))
+    assert diagnosis.diagnose(other, known.history) is not first

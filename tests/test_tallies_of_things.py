@@ -249,3 +249,37 @@ def test_what_is_said_of_things_half_seen_is_so_whatever_they_are(
         assert len(found) > 1
     else:
         assert found == {reply.value}
+
+
+CUBES_ARE = (
+    "the small red metal cube is a cube, not a sphere; the large red rubber cube is a cube, not"
+)
+NEAREST = f"Nearest to one sphere more: {CUBES_ARE} a sphere; the small green rubber cylinder is a "
+WHY_NOT = {
+    "Are there more spheres than cubes?": (
+        f"There is one sphere and two cubes. {NEAREST}cylinder, not a sphere."
+    ),
+    "Are there as many cubes as spheres?": (
+        f"There are two cubes and one sphere. {NEAREST}cylinder, not a sphere."
+    ),
+    "How many more cubes than spheres are there?": (
+        "There are two cubes and one sphere. Nearest to one cube more: the large blue metal sphere "
+        "is a sphere, not a cube; the small green rubber cylinder is a cylinder, not a cube."
+    ),
+    "Are there more cubes than spheres?": "But it is so: there are two cubes and one sphere.",
+    "Are there at least two cubes?": "But it is so: there are two cubes.",
+    "Is there exactly one cube?": (
+        "The small red metal cube is one: it is a cube. The large red rubber cube is one: it is a "
+        "cube."
+    ),
+}
+
+
+@pytest.mark.parametrize("question", WHY_NOT)
+def test_why_not_after_a_count_tells_what_is_nearest_to_another(
+    answerer: ThingAnswerer, scene: ThingScene, question: str
+) -> None:
+    counted = answerer.answer(question, scene)
+    why, why_not = (answerer.answer(text, scene, previous=counted) for text in ("why?", "why not?"))
+    assert why_not.text == WHY_NOT[question]
+    assert why_not.text != why.text

@@ -7,7 +7,6 @@ from functools import cached_property
 from itertools import permutations
 
 from seewhy.data.thing_scene import ThingScene, thing_scene
-from seewhy.dialogue.compared_things import with_things_named
 from seewhy.dialogue.scene_conclusions import SceneConclusions
 from seewhy.domain.domain import Domain
 from seewhy.domain.wording import join_words, say_literal
@@ -160,9 +159,8 @@ class SceneBeliefs:
 
     def why(self, literal: Literal) -> Node:
         """Return why a literal is believed, or why it is not."""
-        node = why(self.reasoner, self.vector, literal, say=self.say)
-        node = node or why_not(self.reasoner, self.vector, literal, say=self.say)
-        return with_things_named(node, self.names)
+        node = why(self.reasoner, self.vector, literal, say=self.say, names=self.names)
+        return node or why_not(self.reasoner, self.vector, literal, say=self.say, names=self.names)
 
     def changes(self, literal: Literal) -> tuple[Change, ...]:
         """Return the smallest changes that make a literal believed."""

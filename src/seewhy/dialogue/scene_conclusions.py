@@ -11,7 +11,6 @@ from weakref import WeakKeyDictionary
 import clingo
 
 from seewhy.data.thing_scene import ThingScene
-from seewhy.dialogue.compared_things import with_things_named
 from seewhy.domain.domain import Domain
 from seewhy.domain.things import CONCLUDED, Things
 from seewhy.domain.wording import say_literal
@@ -147,9 +146,8 @@ class SceneConclusions:
             return say_literal(self.domain, literal, names=called)
 
         literal = self._literal(key, numbers)
-        found = why(reasoner, vector, literal, say=say)
-        found = found or why_not(reasoner, vector, literal, say=say)
-        return with_things_named(found, called)
+        found = why(reasoner, vector, literal, say=say, names=called)
+        return found or why_not(reasoner, vector, literal, say=say, names=called)
 
     def rests_on(self, key: str) -> frozenset[str]:
         """Return the features and relations that are seen, and on which a conclusion rests."""

@@ -47,10 +47,12 @@ def _read_atom(
 
     The same atoms come again in one answer set after another.
     """
-    if atom.match("holds", 1):
-        return "holds", atom.arguments[0], None
-    # As text it is one call of clingo, where every argument would be two or three.
-    plain = _PLAIN_INSTANCE.fullmatch(str(atom))
+    # As text it is one call of clingo, where its name and every argument would be two or three.
+    text = str(atom)
+    if text.startswith("holds("):
+        arguments = atom.arguments
+        return "holds", arguments[0] if len(arguments) == 1 else None, None
+    plain = _PLAIN_INSTANCE.fullmatch(text)
     if plain is not None:
         kind, identifier, values = plain.groups()
         return kind, None, (identifier, tuple(values.removesuffix(",").split(",")))

@@ -18,12 +18,12 @@ _NOT_THERE = "things that are not there"
 """What decides all needs that fail because some thing is not there."""
 
 
-def plain_node(condition: Condition, binding: Mapping[str, str]) -> Node | None:
+def plain_node(evidence: Evidence, condition: Condition, binding: Mapping[str, str]) -> Node | None:
     """Return the node of a comparison that holds; None for a sort, which needs no reason."""
     if condition.literal is not None:
         return None
     text = substitute(condition.text, binding)
-    return Node(literal=text, text=text, basis=Basis.COMPARISON)
+    return Node(literal=text, text=evidence.say_comparison(text), basis=Basis.COMPARISON)
 
 
 def failed_comparison(
@@ -34,6 +34,7 @@ def failed_comparison(
 ) -> Node:
     """Return the node of a comparison that fails, with the value that is seen and compared."""
     text = substitute(condition.text, binding)
+    said = evidence.say_comparison(text)
     shared = set(variables_in(condition.text))
     for other in others:
         if (
@@ -44,13 +45,13 @@ def failed_comparison(
         ):
             return Node(
                 literal=text,
-                text=f"{seen.text}, and not {text}",
+                text=f"{seen.text}, and not {said}",
                 basis=Basis.COMPARISON,
                 holds=False,
                 feature=seen.feature,
                 value=seen.value,
             )
-    return Node(literal=text, text=text, basis=Basis.COMPARISON, holds=False)
+    return Node(literal=text, text=said, basis=Basis.COMPARISON, holds=False)
 
 
 def joint_node(

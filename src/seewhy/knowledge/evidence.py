@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 from itertools import chain
 
@@ -22,6 +22,8 @@ from seewhy.knowledge.things import things_of
 
 Say = Callable[[Literal], str]
 """How a literal is said in words."""
+_COMPARED = re.compile(r"(\w+) (!=|=) (\w+)")
+_COMPARES = {"!=": "is not", "=": "is"}
 
 
 class Evidence:
@@ -35,6 +37,8 @@ class Evidence:
         Those that are believed in every preferred answer set.
     others : tuple of Evidence
         The other preferred answer sets.
+    names : dict of str to str
+        How terms that are compared are called.
     """
 
     def __init__(
@@ -46,6 +50,7 @@ class Evidence:
         *,
         believed: Collection[clingo.Symbol] | None = None,
         others: tuple[Evidence, ...] = (),
+        names: Mapping[str, str] | None = None,
     ) -> None:
         self.reasoner = reasoner
         self.schema = reasoner.schema
@@ -54,6 +59,7 @@ class Evidence:
         self.vector = dict(zip(self.schema.features, scene, strict=True))
         self.answer_set = answer_set
         self.say = say
+        self.names = names or {}
         self.holds = set(map(text_of, answer_set.holds))
         self.believed = frozenset(self.holds if believed is None else map(text_of, believed))
         self.others = others
@@ -226,6 +232,13 @@ class Evidence:
             self._conditions_said[text, holds] = said
         return self._conditions_said[text, holds]
 
+    def say_comparison(self, text: str) -> str:
+        """Say a comparison of two terms that have names in these: "the cup is not the box"."""
+        compared = _COMPARED.fullmatch(text)
+        if compared is None or not {compared[1], compared[3]} <= self.names.keys():
+            return text
+        return f"{self.names[compared[1]]} {_COMPARES[compared[2]]} {self.names[compared[3]]}"
+
     def worth(self, key: str) -> int:
         """How readily a literal is told, believed or not, where others would do as well.
 
@@ -244,7 +257,13 @@ def _say_feature(feature: str) -> str:
     return f"{name} of {of_what}".replace("_", " ") if things else name.replace("_", " ")
 
 
-def evidence_of(reasoner: Reasoner, vector: FeatureVector, *, say: Say = str) -> Evidence:
+def evidence_of(
+    reasoner: Reasoner,
+    vector: FeatureVector,
+    *,
+    say: Say = str,
+    names: Mapping[str, str] | None = None,
+) -> Evidence:
     """Return the evidence of a scene; where there is no answer set, what was seen alone."""
     first, *others = reasoner.answer_sets(vector) or (_seen_alone(reasoner.schema, vector),)
     believed = reasoner.believed(vector) if others else None
@@ -254,7 +273,11 @@ def evidence_of(reasoner: Reasoner, vector: FeatureVector, *, say: Say = str) ->
         first,
         say,
         believed=believed,
-        others=tuple(Evidence(reasoner, vector, other, say, believed=believed) for other in others),
+        others=tuple(
+            Evidence(reasoner, vector, other, say, believed=believed, names=names)
+            for other in others
+        ),
+        names=names,
     )
 
 

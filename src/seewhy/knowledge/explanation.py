@@ -65,7 +65,7 @@ def condition_node(
     """Return the node of a condition that holds, by itself; None for a sort."""
     asked = evidence.reasoner.possible.asked_by(condition, binding)
     if asked is None:
-        return plain_node(condition, binding)
+        return plain_node(evidence, condition, binding)
     need, _ = evidence.comes_to(asked)
     return need_node(evidence, need, condition)
 
@@ -158,7 +158,7 @@ class _Explanation:
         for number, condition in enumerate(instance.axiom.body):
             if number in needs:
                 children.append(self._need(needs[number], condition, place))
-            elif (node := plain_node(condition, instance.binding)) is not None:
+            elif (node := plain_node(self.evidence, condition, instance.binding)) is not None:
                 children.append(node)
         return self._without_plain_presence(children)
 
@@ -343,7 +343,9 @@ def _contradictions(evidence: Evidence, exception: Instance) -> tuple[Contradict
     beliefs = evidence.reasoner.contradictory_beliefs(evidence.scene)
     if beliefs is None or not beliefs.conflict or evidence.answer_set.conflict:
         return ()
-    without = Evidence(evidence.reasoner, evidence.scene, beliefs, evidence.say)
+    without = Evidence(
+        evidence.reasoner, evidence.scene, beliefs, evidence.say, names=evidence.names
+    )
     otherwise = Counterfactual(exception.axiom, evidence.holds, without.holds)
     found: list[tuple[int, Contradiction]] = []
     for key in sorted(without.holds):

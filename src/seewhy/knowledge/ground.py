@@ -53,6 +53,7 @@ def predicate_of(key: str) -> str:
     return key.removeprefix("-").split("(", 1)[0]
 
 
+@lru_cache(maxsize=65_536)
 def complement_of(symbol: clingo.Symbol) -> clingo.Symbol:
     """The same symbol with the opposite classical sign."""
     return clingo.Function(symbol.name, symbol.arguments, not symbol.positive)

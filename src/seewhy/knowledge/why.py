@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from seewhy.knowledge.axiom import Literal
@@ -18,9 +18,16 @@ from seewhy.knowledge.scene import FeatureVector
 
 
 def why(
-    reasoner: Reasoner, vector: FeatureVector, literal: Literal, *, say: Say = str
+    reasoner: Reasoner,
+    vector: FeatureVector,
+    literal: Literal,
+    *,
+    say: Say = str,
+    names: Mapping[str, str] | None = None,
 ) -> Node | None:
     """Return the justification of a belief, or None if the literal is not believed.
+
+    ``say`` words literals, ``names`` says how terms that are compared are called.
 
     Every axiom instance that supports the literal without circularity is given; where there are
     several, they are the children of a node of basis "several reasons". Each of them suffices:
@@ -41,7 +48,7 @@ def why(
     """
     if reasoner.answer_set(vector) is None:
         return None
-    return justify(evidence_of(reasoner, vector, say=say), literal)
+    return justify(evidence_of(reasoner, vector, say=say, names=names), literal)
 
 
 def contradiction(reasoner: Reasoner, vector: FeatureVector, *, say: Say = str) -> Node | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Condition, Literal
@@ -21,11 +22,19 @@ from seewhy.knowledge.why import either_or, justify
 _NESTING = 4
 
 
-def why_not(reasoner: Reasoner, vector: FeatureVector, literal: Literal, *, say: Say = str) -> Node:
+def why_not(
+    reasoner: Reasoner,
+    vector: FeatureVector,
+    literal: Literal,
+    *,
+    say: Say = str,
+    names: Mapping[str, str] | None = None,
+) -> Node:
     """Return why a literal is not believed: for every axiom that could conclude it, what failed.
 
     The children are the axioms, the one with the fewest failed conditions first; their children
-    are all their conditions, each marked as holding or not.
+    are all their conditions, each marked as holding or not. ``say`` words literals, ``names`` says
+    how terms that are compared are called.
 
     Examples
     --------
@@ -37,7 +46,7 @@ def why_not(reasoner: Reasoner, vector: FeatureVector, literal: Literal, *, say:
     >>> node.holds
     False
     """
-    return refuse(evidence_of(reasoner, vector, say=say), literal)
+    return refuse(evidence_of(reasoner, vector, say=say, names=names), literal)
 
 
 def refuse(evidence: Evidence, literal: Literal) -> Node:

@@ -9,8 +9,10 @@ from seewhy.dialogue.things.changing import smallest_change
 from seewhy.dialogue.things.evaluating import members
 from seewhy.dialogue.things.outcome import Value
 from seewhy.dialogue.things.query import (
+    CompareCounts,
     CompareNumber,
     Count,
+    CountDifference,
     Description,
     Exists,
     HasValue,
@@ -29,6 +31,7 @@ from seewhy.knowledge.justification import Basis, Node
 __all__ = ["tell_change", "tell_why", "tell_why_not"]
 
 _MOST_TOLD = 3
+_NO_OTHERS = "There are no other things."
 _PRESENCE = re.compile(r"(\w+)\(\1\d+\)")
 """A literal that says that a thing is there."""
 _TOLD = (Basis.FEATURE, Basis.AXIOM)
@@ -100,14 +103,23 @@ def tell_why_not(query: Query, value: Value, wanted: Wanted, words: ThingWords) 
         and isinstance(wanted, bool) == isinstance(value, bool)
     ):
         return sentence(f"but it is so: {_short(query, words)}")
+    if wanted is None and value is True and isinstance(query, CompareNumber | CompareCounts):
+        return sentence(f"but it is so: {_counted(query, words)}")
     if isinstance(wanted, HasValue):
         return tell_why(Reasons(words.evaluation, words).tree(query, ""))
     match query:
         case Count(described=described) | Which(described=described):
             fewer = isinstance(wanted, int) and isinstance(value, int) and wanted < value
             return _why_no_more(described, words, fewer=fewer)
-        case Exists(described=described) | CompareNumber(described=described):
-            return _why_no_more(described, words, fewer=bool(value) and isinstance(query, Exists))
+        case Exists(described=described):
+            return _why_no_more(described, words, fewer=bool(value))
+        case CompareNumber(described=described, number=number):
+            count = words.evaluation.fits(described).surely.bit_count()
+            return _why_no_more(described, words, fewer=count > number)
+        case CompareCounts() | CountDifference():
+            few = _too_few(query, wanted, value, words)
+            nearest = _nearest(few, words, to=f"{words.counted(1, few)} more")
+            return f"{sentence(_counted(query, words))} {nearest}"
         case Holds(ones=ones, condition=condition):
             reasons = Reasons(words.evaluation, words)
             leaves = [
@@ -134,21 +146,55 @@ def _why_no_more(described: Description, words: ThingWords, *, fewer: bool) -> s
             sentence(f"{words.name(number)} is one: {join_words(reasons.so(number, described))}")
             for number in members(fits.surely)
         )
+    nearest = _nearest(described, words)
+    told = f"{sentence(_there_are(described, words))} " if nearest != _NO_OTHERS else ""
+    return f"{told}{nearest}"
+
+
+def _there_are(described: Description, words: ThingWords) -> str:
+    count = words.evaluation.fits(described).surely.bit_count()
+    return f"there {'is' if count == 1 else 'are'} {words.counted(count, described)}"
+
+
+def _counted(query: CompareNumber | CompareCounts | CountDifference, words: ThingWords) -> str:
+    """How many there are of what was counted."""
+    if isinstance(query, CompareNumber):
+        return _there_are(query.described, words)
+    second = words.evaluation.fits(query.second).surely.bit_count()
+    return f"{_there_are(query.first, words)} and {words.counted(second, query.second)}"
+
+
+def _too_few(
+    query: CompareCounts | CountDifference, wanted: Wanted, value: Value, words: ThingWords
+) -> Description:
+    """Of the two that were counted, the one of which more would make the other answer."""
+    first, second = query.first, query.second
+    counts = [words.evaluation.fits(side).surely.bit_count() for side in (first, second)]
+    if isinstance(query, CountDifference):
+        lower = isinstance(wanted, int) and isinstance(value, int) and wanted < value
+        return second if lower != (query.sign == "<") else first
+    if query.sign == "=":
+        return first if counts[0] < counts[1] else second
+    return first if query.sign.startswith(">") else second
+
+
+def _nearest(described: Description, words: ThingWords, *, to: str = "one more") -> str:
+    """The things that lack least of being described so, and what they lack."""
+    evaluation = words.evaluation
+    fits = evaluation.fits(described)
+    reasons = Reasons(evaluation, words)
     lacking: list[tuple[int, int, str]] = []
     for number in members(evaluation.everything & ~fits.surely):
         missing = reasons.missing(number, described)
         lacking.append((len(missing), number, join_words(missing)))
     if not lacking:
-        return "There are no other things."
+        return _NO_OTHERS
     least = min(lacking)[0]
     nearest = [said for count, _, said in lacking if count == least]
     several = f"; so it is with {number_word(len(nearest) - _MOST_TOLD)} more"
     more = several if len(nearest) > _MOST_TOLD else ""
-    count = fits.surely.bit_count()
-    there = "There is" if count == 1 else "There are"
     # "No other" comes nearer than these.
-    said = "; ".join(nearest[:_MOST_TOLD])
-    return f"{there} {words.counted(count, described)}. Nearest to one more: {said}{more}."
+    return f"Nearest to {to}: {'; '.join(nearest[:_MOST_TOLD])}{more}."
 
 
 def tell_change(query: Query, value: Value, wanted: Wanted, words: ThingWords) -> str:

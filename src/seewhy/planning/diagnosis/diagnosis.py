@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import lru_cache
 
 import clingo
 
@@ -153,11 +154,30 @@ def diagnose(
     text = diagnosis_program(knowledge, last=last, sensors_err=sensors_err) + "\n".join(
         history_facts(history)
     )
-    size = grounding_size(knowledge).times(last + 1)
-    control = BoundedControl(text, size=size, arguments=_OPTIONS)
+    # The same history is looked at again by who answers questions about it.
+    key = (text, last, knowledge.axioms)
+    if key not in _DIAGNOSED:
+        size = grounding_size(knowledge).times(last + 1)
+        found = _diagnosed(knowledge, BoundedControl(text, size=size, arguments=_OPTIONS), last)
+        if found is None:
+            raise PlanningError(unexplained(knowledge, history))
+        if len(_DIAGNOSED) >= _MOST_KEPT:
+            _DIAGNOSED.pop(next(iter(_DIAGNOSED)), None)
+        _DIAGNOSED[key] = found
+        return found
+    return _DIAGNOSED[key]
+
+
+_MOST_KEPT = 64
+_DIAGNOSED: dict[tuple[str, int, tuple[Axiom, ...]], Diagnosis] = {}
+"""The latest diagnoses, by the program that they come from and the sentences of its axioms."""
+
+
+def _diagnosed(knowledge: Knowledge, control: BoundedControl, last: int) -> Diagnosis | None:
+    """What the preferred answer sets of a diagnosis program say; None where there is none."""
     best = control.last_model()
     if best is None:
-        raise PlanningError(unexplained(knowledge, history))
+        return None
     solve = control.configuration
     solve.opt_mode, solve.enum_mode, solve.models = "optN", "cautious", 0
     sure = control.last_model() or []
@@ -239,11 +259,8 @@ def history_facts(history: History) -> Iterator[str]:
 
 def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) -> Iterator[State]:
     holds: list[set[clingo.Symbol]] = [set() for _ in range(last + 1)]
-    for atom in sure:
-        if atom.name == "holds":
-            literal, step = atom.arguments
-            if step.type is clingo.SymbolType.Number:
-                holds[step.number].add(literal)
+    for literal, step in filter(None, map(_held, sure)):
+        holds[step].add(literal)
     denials = [(fluent, complement_of(fluent)) for fluent in fluents]
     for believed in holds:
         unknown = (
@@ -252,6 +269,15 @@ def _states(sure: list[clingo.Symbol], fluents: list[clingo.Symbol], last: int) 
             if fluent not in believed and denial not in believed
         )
         yield State(frozenset(believed), frozenset(unknown))
+
+
+@lru_cache(maxsize=65_536)
+def _held(atom: clingo.Symbol) -> tuple[clingo.Symbol, int] | None:
+    """A literal and the step at which an atom says that it holds; None where it says otherwise."""
+    if atom.name != "holds":
+        return None
+    literal, step = atom.arguments
+    return (literal, step.number) if step.type is clingo.SymbolType.Number else None
 
 
 def _surprises(
