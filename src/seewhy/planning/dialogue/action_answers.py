@@ -21,6 +21,7 @@ from seewhy.planning.dialogue.action_words import (
 )
 from seewhy.planning.dialogue.clause_forms import gerund
 from seewhy.planning.dialogue.goal_words import say_goal
+from seewhy.planning.dialogue.planned_answers import planned_steps, why_planned
 from seewhy.planning.dialogue.query import Asks, Query, Told
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.dialogue.surface_realisation import Speech, sentences
@@ -32,13 +33,15 @@ def why_did(view: RunView, query: Query) -> Told:
     done = view.done(query)
     chosen = [step for step in done if query.step in (None, step.number)]
     speech = view.speech
+    if not chosen and (planned := planned_steps(view, query)):
+        return why_planned(view, planned[0])
     if not chosen:
         asked = say_not_done(view, query)
         if done:
             when = join_words([str(step.number) for step in done])
             asked = f"{asked} at step {query.step}, but at step {when}"
         return sentences([asked]), {"steps": [step.number for step in done]}
-    step = chosen[-1]
+    step = chosen[0] if query.first else chosen[-1]
     action = step.action
     assert action is not None
     needs = view.intentions.needs(step)

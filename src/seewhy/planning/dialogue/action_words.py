@@ -38,8 +38,11 @@ def count_actions(actions: int) -> str:
     return f"{actions} action{'s' * (actions != 1)}"
 
 
-def say_obstacle(obstacles: Sequence[Applied], speech: Speech) -> str:
-    """The first obstacle as a clause, those with a sentence before the others."""
+def say_obstacle(obstacles: Sequence[Applied], speech: Speech, *, past: bool = True) -> str:
+    """The first obstacle as a clause, those with a sentence before the others.
+
+    ``past`` says whether it is told of what was done; else of what is to be done.
+    """
     ranked = sorted(obstacles, key=lambda applied: not applied.axiom.has_sentence)
     if not ranked:
         return ""
@@ -47,7 +50,7 @@ def say_obstacle(obstacles: Sequence[Applied], speech: Speech) -> str:
     literals = [*first.holds, *first.counted]
     literals += [complement_of(absent) for absent in first.absent]
     literals += [*first.statics, *map(complement_of, first.absent_statics)]
-    said = speech.every_past(literals)
+    said = speech.every_past(literals) if past else speech.every(literals)
     text = f'"{first.axiom.text}"' if first.axiom.has_sentence else ""
     return ", and ".join(filter(None, [text, said]))
 
