@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 pytest.importorskip("mujoco")
 
+from seewhy.data.thing import BoundingBox
+from seewhy.data.thing_scene import thing_scene
 from seewhy.dialogue.things.evaluating import Evaluation
 from seewhy.dialogue.things.wording import ThingWords
 from seewhy.domain.domain import load_domain
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.execution import Outcome, Run
 from seewhy.planning.spoken_goals import SpokenGoals, goal_of
-from seewhy_lab.commands.tables_planned import random_goals
+from seewhy_lab.commands.tables_planned import random_goals, trial
+from seewhy_lab.rendering.rays import Scene
 from seewhy_lab.simulators.tabletop.hand import Hand
 from seewhy_lab.simulators.tabletop.planned import carried_out, reached, scene_of_table, seen_by
+from seewhy_lab.simulators.tabletop.source import random_scene
 from seewhy_lab.simulators.tabletop.table import Table, TableThing, half_extent
+from seewhy_lab.simulators.tabletop.view import View
+from seewhy_lab.simulators.tabletop.visibility import boxes, seen_things
 
 
 def thing(
@@ -123,3 +131,39 @@ def test_random_goals_are_understood(domain: PlanningDomain) -> None:
         kinds.add(kind)
         reader.read(said)
     assert len(kinds) == 8
+
+
+class Seeing:
+    """What sees a table as it is, but counts its things from the last to the first."""
+
+    def __init__(self, table: Table, view: View, scene: Scene) -> None:
+        self.table = table
+        self.boxes = boxes(seen_things(scene, view, size=320), len(table.things))
+
+    def read(self, _: object) -> None:
+        """What is seen is known already."""
+
+    def scene_of(self, _: object) -> SimpleNamespace:
+        things = load_domain("tabletop").things
+        assert things is not None
+        last = len(self.table.things) - 1
+        values = [
+            {"size": t.size, "colour": t.colour, "material": t.material, "shape": t.shape}
+            for t in reversed(self.table.things)
+        ]
+        on = [(last - upper, last - lower) for upper, lower in self.table.stands_on()]
+        seen = [SimpleNamespace(box=BoundingBox(*map(float, box))) for box in reversed(self.boxes)]
+        return SimpleNamespace(
+            scene=thing_scene(things, values, relations={"on": on}),
+            reading=SimpleNamespace(things=seen),
+        )
+
+
+def test_a_hand_acts_by_what_is_seen() -> None:
+    table, view, scene = random_scene(seed=0, index=9)
+    seeing = Seeing(table, view, scene)
+    found = trial(table, view, scene, rng=np.random.default_rng(4), agent=seeing)  # type: ignore[arg-type]
+    assert found is not None
+    assert (found.problem, found.reached) == ("", True)
+    assert found.run is not None
+    assert found.run.actions
