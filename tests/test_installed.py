@@ -98,8 +98,8 @@ def test_a_domain_by_hand_and_a_plan(installed: Installed, tmp_path: Path) -> No
     )
     assert decided.code == 0, decided.err
     assert "a brown apple is spoilt" in decided.out
-    goal = ("--goal", "height(b1, 3)")
-    planned = installed.run("seewhy", "plan", "tower_building", *goal, within=tmp_path)
+    goal = ("--goal", "make a tower of three with the red block on top")
+    planned = installed.run("seewhy", "plan", "tabletop", *goal, within=tmp_path)
     assert planned.code == 0, planned.err
     assert "4 actions" in planned.out
 

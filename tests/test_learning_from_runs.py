@@ -23,6 +23,7 @@ from seewhy.planning.learning.cases import cases_of
 from seewhy.planning.learning.learning_defaults import LearnedFromRuns, learn_from_runs
 from seewhy_lab.experiments.planning import MEASURES, summary, trial
 from seewhy_lab.experiments.statistics import Interval
+from tower import TOWER
 
 OFFICE = load_planning_domain("robot_assistant")
 AT_WORK = "loc(P, L) if work_place(P, L), not -loc(P, L)"
@@ -209,7 +210,7 @@ def test_a_stay_is_counted_once_and_what_the_robot_did_not_at_all() -> None:
 
 def test_boxes_teach_the_same_way() -> None:
     """Another domain, in which a sort says where things are."""
-    tower = load_planning_domain("tower_building")
+    tower = load_planning_domain(TOWER)
     robot = tower.without("default on(B, table)")
     lines = []
     for number in range(12):

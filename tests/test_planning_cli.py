@@ -18,6 +18,7 @@ from seewhy.planning.diagnosis import diagnosis
 from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.execution.environment import PlanningEnvironment
 from seewhy.report.floor_plan import Occupant, draw_floor_plan, layout
+from tower import TOWER
 
 PAPER = "message_status(m1, sarah, delivered), loc(rob1, L), loc(sally, L)"
 
@@ -266,7 +267,7 @@ def test_a_talk_about_a_run_in_json_is_a_line_each(run: Run) -> None:
 
 
 def test_a_talk_ends_with_its_input(run: Run) -> None:
-    talk = ("simulate", "tower_building", "--goal", "holding(rob1, b1)", "--chat")
+    talk = ("simulate", str(TOWER), "--goal", "holding(rob1, b1)", "--chat")
     asked = run(*talk, stdin="what do you hold\nwhat do you sing")
     assert asked.code == 0
     assert asked.out == f"{run(*talk).out}I hold the first small box.\n"
@@ -294,7 +295,7 @@ def test_a_domain_can_ask_answer_sets_alone(
 
 
 def test_a_domain_that_plans_is_checked(run: Run, tmp_path: Path) -> None:
-    done = run("check", "tower_building")
+    done = run("check", str(TOWER))
     assert done.out.splitlines()[1:] == [
         "  fluents: 11",
         "  actions: 5",
@@ -318,13 +319,12 @@ def test_a_domain_that_plans_is_checked(run: Run, tmp_path: Path) -> None:
     assert (len(found["axioms"]), found["planning"]["fluents"]) == (0, 7)
 
 
-def test_a_domain_that_plans_is_not_trained(run: Run, tmp_path: Path) -> None:
-    done = run("train", "tower_building", "--data", str(tmp_path), "--out", str(tmp_path / "m"))
+def test_a_folder_that_only_plans_is_not_trained(run: Run, tmp_path: Path) -> None:
+    done = run("train", str(TOWER), "--data", str(tmp_path), "--out", str(tmp_path / "m"))
     assert done.code == 2
     assert done.err == (
-        "seewhy: 'tower_building' is a domain that plans and has no pictures to train on; ask "
-        "'seewhy plan tower_building', 'seewhy simulate tower_building' or 'seewhy check "
-        "tower_building'\n"
+        f"seewhy: {TOWER}: the folder plans and has no pictures to train on; ask 'seewhy plan "
+        f"{TOWER}', 'seewhy simulate {TOWER}' or 'seewhy check {TOWER}'\n"
     )
 
 

@@ -86,7 +86,7 @@ def test_a_folder_without_mistakes_is_loaded(tmp_path: Path) -> None:
 
 def test_bundled_domains_are_loaded_by_name() -> None:
     names = bundled_planning_domains()
-    assert {"robot_assistant", "tower_building"} <= {*names}
+    assert {"robot_assistant", "tabletop"} <= {*names}
     assert [load_planning_domain(name).name for name in names] == list(names)
 
 
@@ -319,10 +319,9 @@ def test_a_folder_without_planning_toml(tmp_path: Path) -> None:
 
 def test_neither_a_folder_nor_a_name() -> None:
     with pytest.raises(DomainError) as problem:
-        load_planning_domain("tower_bilding")
+        load_planning_domain("tabeltop")
     assert str(problem.value) == (
-        "'tower_bilding' is neither a folder nor a bundled domain that plans; did you mean "
-        "'tower_building'?"
+        "'tabeltop' is neither a folder nor a bundled domain that plans; did you mean 'tabletop'?"
     )
 
 
@@ -362,5 +361,5 @@ def test_a_mistake_in_the_history(tmp_path: Path) -> None:
 
 
 def test_a_folder_may_be_copied(tmp_path: Path) -> None:
-    shutil.copytree(load_planning_domain("tower_building").folder, tmp_path / "mine")
-    assert load_planning_domain(tmp_path / "mine").title == "A robot that stacks boxes"
+    shutil.copytree(load_planning_domain("tabletop").folder, tmp_path / "mine")
+    assert load_planning_domain(tmp_path / "mine").title == "Things on a table"

@@ -125,7 +125,7 @@ def test_what_was_learned_may_be_damaged(run: Run, finished: Path, content: byte
     ("name", "options", "says"),
     [
         ("planning", ("--sizes", "100"), "--sizes goes with the other experiments; planning is of"),
-        ("planning", ("--domain", "tower_building"), "--domain goes with the other experiments"),
+        ("planning", ("--domain", "tabletop"), "--domain goes with the other experiments"),
         ("vqa", ("--answer-sets",), "--answer-sets goes with the experiment planning only"),
         ("vqa", ("--before", "0"), "--before goes with the experiment planning only"),
     ],

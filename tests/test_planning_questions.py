@@ -24,6 +24,7 @@ from seewhy.planning.execution.transition_function import TransitionFunction, Wo
 from seewhy.planning.goal import read_goal
 from seewhy.planning.tables import ActionTable, FluentTable
 from seewhy.planning.words import PlanningWords
+from tower import TOWER
 
 OFFICE = load_planning_domain("robot_assistant")
 TO_SALLY = read_goal("message_status(m1, sally, delivered)", OFFICE.knowledge)
@@ -706,7 +707,7 @@ def test_a_record_tells_why_its_plan_changed(lost: Run, question: str) -> None:
 
 @pytest.fixture(scope="module")
 def tower() -> tuple[PlanningDomain, Run]:
-    domain = load_planning_domain("tower_building")
+    domain = load_planning_domain(TOWER)
     goal = read_goal("height(b1, 3)", domain.knowledge)
     *_, run = execute(domain, goal, sensed=[], act=lambda _: [])
     return domain, run
@@ -759,7 +760,7 @@ def test_answers_about_boxes(tower: tuple[PlanningDomain, Run], question: str) -
 
 
 def test_an_action_is_also_done_for_what_it_removes() -> None:
-    domain = load_planning_domain("tower_building")
+    domain = load_planning_domain(TOWER)
     goal = read_goal("holding(rob1, b3)", domain.knowledge)
     *_, run = execute(domain, goal, sensed=[], act=lambda _: [])
     reply = answer(domain, run, "why did you pick up the ball?")

@@ -83,12 +83,12 @@ def test_a_plan_that_was_not_found_says_so() -> None:
 
 
 def test_a_run_shows_its_steps() -> None:
-    domain = load_planning_domain("tower_building")
-    goal = read_goal("on(b3, table)", domain.knowledge)
+    domain = load_planning_domain("tabletop")
+    goal = read_goal("on_table(thing5)", domain.knowledge)
     *_, run = execute(domain, goal, sensed=[], act=lambda _: [])
     shown = Shown(run._repr_html_())
     assert run.outcome is not None
-    assert shown.text[0] == f"goal: on(b3, table); {run.outcome.value}"
+    assert shown.text[0] == f"goal: on_table(thing5); {run.outcome.value}"
     assert shown.elements.count("tr") == 1 + len(run.steps)
     going_on = Shown(replace(run, outcome=None)._repr_html_())
     assert going_on.text[0].endswith("; goes on")

@@ -22,6 +22,7 @@ from seewhy.planning.execution.recording import record_of
 from seewhy.planning.execution.sight import Look, Sight
 from seewhy.planning.execution.simulation import simulate
 from seewhy.planning.goal import read_goal
+from tower import TOWER
 
 KNOWLEDGE = """\
 #sort view.
@@ -323,7 +324,7 @@ def test_a_model_of_another_domain_cannot_see(house: PlanningDomain, agent: Agen
 
 def test_a_robot_of_which_nothing_says_what_pictures_show_cannot_see(agent: Agent) -> None:
     with pytest.raises(PlanningError, match=r"planning\.toml: nothing says what pictures show"):
-        Sight(load_planning_domain("tower_building"), agent)
+        Sight(load_planning_domain(TOWER), agent)
 
 
 def test_a_picture_of_two_places_is_refused(tmp_path: Path, model: Path) -> None:

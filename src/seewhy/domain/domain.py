@@ -164,6 +164,11 @@ def load_domain(name: str | Path) -> Domain:
     'Structures of blocks'
     """
     folder = domain_folder(name)
+    if (folder / "planning.toml").is_file() and not (folder / "domain.toml").is_file():
+        raise DomainError(
+            f"{folder}: the folder plans and has no pictures to train on; ask 'seewhy plan "
+            f"{folder}', 'seewhy simulate {folder}' or 'seewhy check {folder}'"
+        )
     for file in FILES:
         if not (folder / file).is_file():
             raise DomainError(

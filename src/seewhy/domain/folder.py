@@ -40,11 +40,6 @@ def domain_folder(name: str | Path) -> Path:
         return path
     if str(name) in bundled_domains():
         return _BUNDLED / str(name)
-    if (_BUNDLED / str(name) / "planning.toml").is_file():
-        raise DomainError(
-            f"'{name}' is a domain that plans and has no pictures to train on; ask 'seewhy plan "
-            f"{name}', 'seewhy simulate {name}' or 'seewhy check {name}'"
-        )
     raise DomainError(
         f"'{name}' is neither a folder nor a bundled domain; "
         f"{did_you_mean(str(name), bundled_domains())}"

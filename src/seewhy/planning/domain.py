@@ -176,8 +176,8 @@ def plans_only(name: str | Path) -> bool:
 
     Examples
     --------
-    >>> plans_only("tower_building"), plans_only("robot_assistant")
-    (True, False)
+    >>> plans_only("tabletop"), plans_only("robot_assistant")
+    (False, False)
     """
     return plans(name) and not _has(name, "domain.toml")
 

@@ -19,7 +19,7 @@ from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.execution.recording import record_of
 from seewhy.planning.execution.run_narration import narrate_end
 from seewhy.planning.execution.simulation import Simulation, ground_fluents, simulate
-from seewhy.planning.goal import read_goal
+from seewhy.planning.spoken_goals import goal_of
 from seewhy.report.run_page import StepsShown, run_page
 
 __all__ = ["PAGE_FILE", "RECORD_FILE", "run_robot"]
@@ -32,7 +32,7 @@ def run_robot(
 ) -> None:
     """Let the robot pursue the goal; print its steps."""
     domain = load_planning_domain(name)
-    aim = read_goal(goal, domain.knowledge)
+    aim = goal_of(goal, domain)
     start = ground_fluents(at_first, domain.knowledge)
     shown = StepsShown(domain)
     supposed = "".join(f' --at-first "{literal}"' for literal in at_first)

@@ -28,7 +28,7 @@ from seewhy.planning.domain import (
     plans,
 )
 from seewhy.planning.execution.execution import Run
-from seewhy.planning.goal import read_goal
+from seewhy.planning.spoken_goals import goal_of
 from seewhy.studio.jobs import Job
 from seewhy.studio.project import Project
 from seewhy.studio.robot_process import RECORD_FILE
@@ -173,7 +173,7 @@ def _answers_about(job: Job) -> RunAnswers:
 def _answers(domain_name: str, goal: str, record: Path, changed: int) -> RunAnswers:  # noqa: ARG001
     domain = load_planning_domain(domain_name)
     history = read_history_file(record, domain.knowledge.signature)
-    return RunAnswers(domain, Run(read_goal(goal, domain.knowledge), history))
+    return RunAnswers(domain, Run(goal_of(goal, domain), history))
 
 
 @lru_cache(maxsize=8)

@@ -41,8 +41,6 @@ fall_onto(X, Y) causes on(X, Y).
 
 %% a thing is on one thing only
 -on(X, Z) if on(X, Y), thing(Z), Y != Z.
-%% a thing carries one thing only
--on(Z, Y) if on(X, Y), thing(Z), X != Z.
 %% nothing is on what stands above it
 -on(X, Y) if above(Y, X).
 %% nothing is on itself

@@ -41,7 +41,7 @@ def why_did(view: RunView, query: Query) -> Told:
             when = join_words([str(step.number) for step in done])
             asked = f"{asked} at step {query.step}, but at step {when}"
         return sentences([asked]), {"steps": [step.number for step in done]}
-    step = chosen[-1]
+    step = chosen[0] if query.first else chosen[-1]
     action = step.action
     assert action is not None
     needs = view.intentions.needs(step)

@@ -39,7 +39,10 @@ def count_actions(actions: int) -> str:
 
 
 def say_obstacle(obstacles: Sequence[Applied], speech: Speech, *, past: bool = True) -> str:
-    """The first obstacle as a clause, those with a sentence before the others."""
+    """The first obstacle as a clause, those with a sentence before the others.
+
+    ``past`` says whether it is told of what was done; else of what is to be done.
+    """
     ranked = sorted(obstacles, key=lambda applied: not applied.axiom.has_sentence)
     if not ranked:
         return ""

@@ -43,7 +43,7 @@ def why_changed(view: RunView, query: Query) -> Told:
 def _change(view: RunView, before: Step, step: Step) -> Told:
     speech = view.speech
     hoped_for = _disappointed(view, step)
-    seen = hoped_for or _unexpected(view, before, step)
+    seen = hoped_for or unexpected(view, before, step)
     noticed = [
         past(speech.surprise(surprise))
         for surprise in step.surprises
@@ -98,7 +98,8 @@ def _disappointed(view: RunView, step: Step) -> list[clingo.Symbol]:
     return [complement_of(hope) for hope in supposed if complement_of(hope) in sensed]
 
 
-def _unexpected(view: RunView, before: Step, step: Step) -> list[clingo.Symbol]:
+def unexpected(view: RunView, before: Step, step: Step) -> list[clingo.Symbol]:
+    """Return what is seen at a step that is not as the action before it should have left it."""
     assert before.action is not None
     expected = state_after(view.domain.knowledge, [before.action], start=before.believed)
     if expected is None:

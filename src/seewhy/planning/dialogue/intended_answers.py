@@ -7,6 +7,7 @@ from typing import Any
 
 import clingo
 
+from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.dialogue.action_reason import Against, WhyNot
 from seewhy.planning.dialogue.action_words import (
     count_actions,
@@ -19,6 +20,7 @@ from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.run_view import RunView, fits
 from seewhy.planning.dialogue.surface_realisation import sentences
 from seewhy.planning.execution.execution import Decision, Step
+from seewhy.planning.execution.plan_monitoring import state_after
 
 __all__ = ["not_begun", "say_against", "why_would"]
 
@@ -33,20 +35,21 @@ def why_would(view: RunView, query: Query) -> Told:
     """Why the plan has an action, of which nothing is done yet."""
     step, speech = view.present, view.speech
     begun = "I have not done anything yet"
-    places = [place for place, action in enumerate(step.plan) if fits(query, action)]
-    reasons: dict[str, Any] = {"steps": [], "planned": places}
-    if not places:
+    planned = _planned_steps(view, query)
+    reasons: dict[str, Any] = {"steps": [], "planned": [of_plan.number for of_plan in planned]}
+    if not planned:
         terms = [clingo.parse_term(argument or '"anything"') for argument in query.arguments]
         action = clingo.Function(query.predicate or "", terms)
         who = speech.subject(action)
         said = f"{begun}, and {who} would not {speech.act(action)}"
         return sentences([said]), reasons
-    action = step.plan[places[0]]
-    would = f"{speech.subject(action)} would {speech.act(action)}"
-    if places[0]:
-        return sentences([begun, f"{would} as action {places[0] + 1} of my plan"]), reasons
-    needs = view.intentions.needs(replace(step, action=action))
-    reasons |= {"step": step.number, "action": str(action)}
+    of_plan = planned[0]
+    assert of_plan.action is not None
+    would = f"{speech.subject(of_plan.action)} would {speech.act(of_plan.action)}"
+    if of_plan.number > step.number:
+        would = f"{would} as action {of_plan.number - step.number + 1} of my plan"
+    needs = view.intentions.needs(of_plan)
+    reasons |= {"step": of_plan.number, "action": str(of_plan.action)}
     reasons["needed_by"] = needs_values(needs, view.run)
     wanted = [speech.do(need.action) for need in needs if need.action is not None]
     if not needs:
@@ -55,7 +58,27 @@ def why_would(view: RunView, query: Query) -> Told:
         wish = say_goal(view.run.goal, view.domain, speech, end=needs[0].state)
         return sentences([begun, f"{would} because my goal is that {wish}"]), reasons
     then = f", in order to {wanted[-1]}" if len(wanted) > 1 else ""
-    return sentences([begun, f"{would} because I want to {wanted[0]}{then}"]), reasons
+    told = [begun, f"{would} because I want to {wanted[0]}{then}"]
+    obstacle = say_obstacle(needs[0].obstacles, speech, past=False)
+    if obstacle:
+        told.append(f"otherwise I could not do that: {obstacle}")
+    return sentences(told), reasons
+
+
+def _planned_steps(view: RunView, query: Query) -> list[Step]:
+    """The steps of the plan at which an action is to be done, as they would then be."""
+    first = view.present
+    state: State | None = first.believed
+    found = []
+    for place, action in enumerate(first.plan):
+        if state is None:
+            break
+        number = first.number + place
+        if fits(query, action) and query.step in (None, number):
+            plan = first.plan[place:]
+            found.append(replace(first, number=number, believed=state, plan=plan, action=action))
+        state = state_after(view.domain.knowledge, [action], start=state)
+    return found
 
 
 def say_against(view: RunView, step: Step, action: clingo.Symbol, why: WhyNot) -> str:

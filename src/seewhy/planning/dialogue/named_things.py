@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from seewhy.dialogue.question_words import words_of
+from seewhy.errors import QuestionError
 from seewhy.planning.dialogue.location_fluents import places
 from seewhy.planning.dialogue.question_templates import plain_words
 from seewhy.planning.domain import PlanningDomain
+from seewhy.planning.things.descriptions import descriptions, which_is_meant
 
 LOCATION = ("location", "position", "whereabouts")
 _SELF = ("you", "yourself", "me")
+
+
+class UnclearThingError(QuestionError):
+    """A question speaks of one thing where there are several that it may mean."""
 
 
 @dataclass(frozen=True)
@@ -64,20 +70,34 @@ class NamedThings:
         for term in self.sorts:
             for name in (domain.words.name(term), term.strip('"').replace("_", " ")):
                 self._names.setdefault(tuple(plain_words(words_of(name))), term)
+        self._several: dict[tuple[str, ...], tuple[str, ...]] = {}
+        if domain.at_first is not None:
+            self._describe(descriptions(domain.at_first))
         if domain.robot:
             self._names.update({(word,): domain.robot for word in _SELF})
         self._names.pop((), None)
-        self._longest = max(map(len, self._names), default=1)
+        self._longest = max(map(len, (*self._names, *self._several)), default=1)
         self.located = {
             signature.predicates[place.predicate].sorts[place.place]
             for place in places(domain)
             if place.single
         }
 
+    def _describe(self, called: Mapping[str, tuple[str, ...]]) -> None:
+        """Take descriptions as names; of those that fit several things it is asked which."""
+        for said, terms in called.items():
+            words = tuple(plain_words(words_of(said)))
+            # "Cube" is a thing of that shape rather than the shape.
+            if len(terms) == 1:
+                self._names[words] = terms[0]
+            else:
+                self._names.pop(words, None)
+                self._several[words] = terms
+
     @property
     def vocabulary(self) -> set[str]:
         """The words of all names."""
-        return {word for name in self._names for word in name} | {
+        return {word for name in (*self._names, *self._several) for word in name} | {
             *LOCATION,
             "your",
             *self.words.possessives.values(),
@@ -107,11 +127,19 @@ class NamedThings:
     def _named(self, words: Sequence[str], place: int) -> tuple[Thing, int] | None:
         for length in range(min(self._longest, len(words) - place), 0, -1):
             term = self._names.get(tuple(words[place : place + length]))
-            if term is not None:
+            if term is None:
+                self._refuse_several(tuple(words[place : place + length]))
+            else:
                 said = " ".join(words[place : place + length])
                 thing = Thing(term, self.sorts[term], said=said, acts=term == self.robot)
                 return thing, length
         return None
+
+    def _refuse_several(self, words: tuple[str, ...]) -> None:
+        terms = self._several.get(words)
+        if terms is not None:
+            names = [self.words.name(term) for term in terms]
+            raise UnclearThingError(which_is_meant(" ".join(words), names), nearest=tuple(names))
 
     def _located(self, words: Sequence[str], place: int) -> tuple[Thing, int] | None:
         """What "Sally's location" and "your location" mean, and how many words they are."""

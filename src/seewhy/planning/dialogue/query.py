@@ -32,6 +32,8 @@ class Asks(StrEnum):
     DID = "did"
     ENDED = "ended"
     WHY_ENDED = "why_ended"
+    EXPECTED = "expected"
+    SCENE = "scene"
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,8 @@ class Query:
     step : int or None
     past : bool
         Whether it is asked what was so, of no step in particular.
+    first : bool
+        Whether the first of several times is meant: "why did you move the ball first?"
     foil : Query or None
         What it is contrasted with: "rather than on the table".
     """
@@ -65,6 +69,7 @@ class Query:
     whose: int | None = None
     step: int | None = None
     past: bool = False
+    first: bool = False
     foil: Query | None = None
 
     def symbol(self) -> clingo.Symbol:

@@ -33,6 +33,8 @@ _STEP = re.compile(r"(?: (?:at|in|during|after))? step (\d{1,6})\b")
 _AT_FIRST = re.compile(
     r" (?:(?:at|in|from)(?: the)? (?:first|start|beginning|outset)|initially|to begin with)\b"
 )
+_FIRST = re.compile(r"^(?:why )?(?:did|have|will|would|are) you .*\w( first| before all else)$")
+"""What was done first of all, or for the first time."""
 _CONTRAST = re.compile(r" (?:rather than|instead of|as opposed to|and not) ")
 _CONTRASTED = (Asks.WHY_DID, Asks.WHY_BELIEVE)
 _PAST = {"is": "was", "are": "were", "am": "was", "do": "did", "does": "did", "has": "had"}
@@ -131,10 +133,13 @@ class PlanningQuestions:
         marked: list[str | Thing] = []
         for spelt in self._spelling.readings(read_words):
             joined = _AT_FIRST.sub(" step 0", spelt.replace("first plan", "plan at first"))
+            first = _FIRST.search(joined)
+            joined = joined if first is None else joined[: first.start(1)]
             step = _STEP.search(joined)
             words = plain_words(_STEP.sub("", joined).split())
             marked = self._things.marked(self._things.written_out(words))
             found = self._readings(marked, step and int(step.group(1)))
+            found = [replace(query, first=first is not None) for query in found]
             if len(found) == 1:
                 return _in_its_tense(found[0], spelt.split())
             if found:

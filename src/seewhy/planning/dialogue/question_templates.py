@@ -33,6 +33,17 @@ _SAME = {"are": "is", "am": "is", "was": "is", "were": "is", "be": "is", "think"
 KNOWN_WORDS = frozenset({*_DROPPED, *_SAME})
 """Words that any question may have."""
 _SUPPOSING = ("what would you do if", "what would happen if", "what if")
+_BEFORE_INSTRUCTIONS = (
+    (Asks.WHY_DID, "why did you"),
+    (Asks.WHY_DID, "why will you"),
+    (Asks.WHY_DID, "why would you"),
+    (Asks.WHY_NOT, "why did you not"),
+    (Asks.WHY_NOT, "why do you not"),
+    (Asks.WHY_NOT, "why can you not"),
+    (Asks.WHY_NOT, "why could you not"),
+    (Asks.WHY_NOT, "why not"),
+    (Asks.DID, "did you"),
+)
 _UNFILLED = {
     Asks.PLAN: ("what is your plan", "what do you plan to do", "what will you do",
                 "what will you do next", "what do you intend to do", "what do you plan",
@@ -43,6 +54,10 @@ _UNFILLED = {
                          "how many actions did you need", "how many actions did it take",
                          "how many steps did you take", "how many steps have you taken",
                          "how many steps did you do", "how many steps did it take"),
+    Asks.EXPECTED: ("what did you expect", "what did you expect and what happened",
+                    "what did you expect and what did you see", "what surprised you",
+                    "what was unexpected", "what did you not expect",
+                    "what went wrong", "what went other than you expected"),
     Asks.GOAL: ("what is your goal", "what do you want to achieve", "what do you want"),
     Asks.WHY_CHANGED: ("why did the plan change", "why did your plan change",
                        "why did you change your plan", "why did you plan anew",
@@ -186,17 +201,10 @@ def _about_an_action(predicate: Predicate, table: ActionTable | None) -> Iterato
         do = did = f"{_words(predicate.name)} {slots}"
     else:
         do, did = table.do or table.did, table.did
-    for asks, beginning in (
-        (Asks.WHY_DID, "why did you"),
-        (Asks.WHY_NOT, "why did you not"),
-        (Asks.WHY_NOT, "why do you not"),
-        (Asks.WHY_NOT, "why can you not"),
-        (Asks.WHY_NOT, "why could you not"),
-        (Asks.WHY_NOT, "why not"),
-        (Asks.DID, "did you"),
-    ):
-        yield _template(asks, f"{beginning} {do}", predicate)
-    yield _template(Asks.WHY_DID, f"why are you {gerund(do)}", predicate)
+    for instruction in (do, *(table.also if table is not None else ())):
+        for asks, beginning in _BEFORE_INSTRUCTIONS:
+            yield _template(asks, f"{beginning} {instruction}", predicate)
+        yield _template(Asks.WHY_DID, f"why are you {gerund(instruction)}", predicate)
     yield _template(Asks.DID, f"have you {did}", predicate)
     for beginning, text in (("did you", do), ("have you", did)):
         less = without_last_thing(text)

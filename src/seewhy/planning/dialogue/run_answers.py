@@ -11,6 +11,7 @@ from seewhy.planning.dialogue import (
     action_answers,
     change_answers,
     course_answers,
+    expectation_answers,
     past_answers,
     supposed_answers,
 )
@@ -22,6 +23,7 @@ from seewhy.planning.dialogue.reconstructed_run import recalled
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
+from seewhy.planning.things.scene_answers import SceneAnswers
 
 _ABOUT_RUN: Mapping[Asks, Callable[[RunView, Query], Told]] = {
     Asks.PLAN: course_answers.plan,
@@ -35,6 +37,7 @@ _ABOUT_RUN: Mapping[Asks, Callable[[RunView, Query], Told]] = {
     Asks.WHY_NOT: action_answers.why_not,
     Asks.WHAT_IF: supposed_answers.what_if,
     Asks.WHY_CHANGED: change_answers.why_changed,
+    Asks.EXPECTED: expectation_answers.expected,
 }
 _IN_THE_PAST: Mapping[Asks, Callable[[RunView, Query], Told]] = {
     Asks.IS: past_answers.was_so,
@@ -119,6 +122,7 @@ class RunAnswers:
         self.questions = PlanningQuestions(domain)
         self.view = RunView(domain, run)
         self.beliefs = BeliefAnswers(domain, run)
+        self.scene = None if domain.at_first is None else SceneAnswers(domain.at_first, self.view)
 
     def answer(self, question: str) -> PlanningReply:
         """Answer a question in words; where it begins or ends with a robot's name, as that robot.
@@ -130,10 +134,23 @@ class RunAnswers:
         """
         other, rest = addressed(self._domain, question)
         if other is None or other == self._domain.robot:
-            return self.reply(self.questions.understand(rest))
+            return self._replied(rest)
         if other not in self._others:
             self._others[other] = RunAnswers(as_asked(self._domain, other), self.run)
         return self._others[other].answer(rest)
+
+    def _replied(self, question: str) -> PlanningReply:
+        """An answer about the run, or about the things as they are believed to be now."""
+        try:
+            query = self.questions.understand(question)
+        except QuestionError as problem:
+            if self.scene is None:
+                raise
+            told = self.scene.answer(question, instead_of=problem)
+            return PlanningReply(told.text, Query(Asks.SCENE, question.strip(" ?")), told.reasons)
+        if self.scene is not None:
+            self.scene.forget()
+        return self.reply(query)
 
     def reply(self, query: Query) -> PlanningReply:
         """Answer a question that was understood."""

@@ -12,7 +12,8 @@ from seewhy.errors import PlanningError, SeeWhyError
 from seewhy.planning.dialogue.run_answers import PlanningReply
 from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.execution.simulation import ground_fluents
-from seewhy.planning.goal import example_fluent, read_goal
+from seewhy.planning.goal import example_fluent
+from seewhy.planning.spoken_goals import goal_of
 from seewhy.studio.jobs import Job, jobs_of
 from seewhy.studio.pages.page import Page
 from seewhy.studio.rendering import from_script, render
@@ -61,7 +62,7 @@ def begin(
     studio = studio_of(request)
     name = _domain(studio, domain, folder.strip())
     loaded = load_planning_domain(name)
-    read_goal(goal, loaded.knowledge)
+    goal_of(goal, loaded)
     literals = [part.strip() for part in at_first.split(";") if part.strip()]
     ground_fluents(literals, loaded.knowledge)
     asked = {"domain": name, "goal": goal, "seed": seed, "steps": steps, "at_first": literals}
