@@ -177,7 +177,7 @@ def load_domain(name: str | Path) -> Domain:
             )
     path = folder / "domain.toml"
     table = read_toml(path, DomainFile)
-    knowledge = _knowledge(folder / "knowledge.al")
+    knowledge = read_knowledge_file(folder / "knowledge.al").without_change
     questions = read_toml(folder / "questions.toml", QuestionsFile)
     place = KeyPlace(path)
     _check_source(table, place)
@@ -185,7 +185,7 @@ def load_domain(name: str | Path) -> Domain:
     _check_scene(table, knowledge, place)
     things = None if table.things is None else read_things(table.things, knowledge, place)
     if things is not None:
-        knowledge = knowledge.with_things(things.most)
+        knowledge = _with_origins(knowledge).with_things(things.most)
     features = {
         key: feature_of_table(key, feature_table, table, knowledge, place)
         for key, feature_table in table.features.items()
@@ -220,11 +220,13 @@ def load_domain(name: str | Path) -> Domain:
     return domain
 
 
-def _knowledge(file: Path) -> Knowledge:
-    """What a file says, with what the learned ones of its axioms rest on."""
-    knowledge = read_knowledge_file(file).without_change
-    axioms = with_origins(knowledge.axioms, file.read_text(encoding="utf-8"))
-    return replace(knowledge, axioms=axioms)
+def _with_origins(knowledge: Knowledge) -> Knowledge:
+    """The knowledge, with what those of its axioms rest on that were learned.
+
+    Where pictures show one thing, what is learned is kept with the model.
+    """
+    source = Path(knowledge.file).read_text(encoding="utf-8")
+    return replace(knowledge, axioms=with_origins(knowledge.axioms, source))
 
 
 def _check_source(table: DomainFile, place: KeyPlace) -> None:

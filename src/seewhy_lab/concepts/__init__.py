@@ -1,0 +1,1 @@
+"""Concepts about several things, and what learns them from scenes."""
