@@ -818,7 +818,9 @@ def test_a_plan_that_was_as_short_is_no_worse(begun: Run) -> None:
 
 BECAUSE_OF_SALLY = (
     "I have not done anything yet. I would move to the kitchen because I want to move to Sally's "
-    "office, in order to deliver the first message to Sally."
+    'office, in order to deliver the first message to Sally. Otherwise I could not do that: "the '
+    'robot moves to places next to its own", and I am in the library and the library is not next '
+    "to Sally's office."
 )
 LONGER = (
     "plan would be longer: 5 actions (move to Bob's office, move to the library, move to the "
@@ -828,7 +830,7 @@ ONLY_PLANNED = {
     "why did you move to the kitchen?": BECAUSE_OF_SALLY,
     "why did you deliver the first message to Sally?": (
         "I have not done anything yet. I would deliver the first message to Sally as action 3 of "
-        "my plan."
+        "my plan because my goal is that the first message for Sally is delivered."
     ),
     "why did you move to the library?": (
         "I have not done anything yet, and I would not move to the library."

@@ -126,9 +126,9 @@ def test_what_is_planned_is_told_why(table: PlanningDomain) -> None:
         RunAnswers(table, Run(goal, table.history)).answer("why will you move the small ball?").text
     )
     assert text == (
-        f"I will pick up {BALL} at step 0 because I want to put {BALL} on the table, in order to "
-        f'pick up {GREEN}. Otherwise I could not do that: "only a thing that is held can be put '
-        f'on the table", and I do not hold {BALL}.'
+        f"I have not done anything yet. I would pick up {BALL} because I want to put {BALL} on the "
+        f"table, in order to pick up {GREEN}. Otherwise I could not do that: "
+        f'"only a thing that is held can be put on the table", and I do not hold {BALL}.'
     )
 
 
