@@ -47,7 +47,7 @@ def test_the_wheel_holds_the_package_and_no_laboratory(wheel: Path) -> None:
 
 def test_bundled_folders_are_text_only() -> None:
     endings = {Path(name).suffix for name in files_of("seewhy/domains")}
-    assert endings == {".al", ".csv", ".toml"}
+    assert endings == {".al", ".csv", ".json", ".toml"}
 
 
 def test_the_wheel_needs_neither_simulator_nor_environment(wheel: Path) -> None:

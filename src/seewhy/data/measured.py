@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 
 from seewhy.data.thing import BoundingBox
 
-__all__ = ["MEASURES", "TOUCHING", "how_probable"]
-__all__ = ["MEASURES", "STANDING", "TOUCHING", "feet"]
+__all__ = ["MEASURES", "STANDING", "TOUCHING", "feet", "how_probable"]
 
 TOUCHING = 0.05
 """The gap between two things that touch, at most, as a share of the shortest side of both."""
