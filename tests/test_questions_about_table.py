@@ -41,7 +41,7 @@ def answers(table: PlanningDomain) -> RunAnswers:
             if fluent.name in ("on", "holding")
         ]
 
-    goal = goal_of("put the green cube on the cylinder", table)
+    goal = goal_of("put the small ball on the table and the green cube is on the cylinder", table)
     *_, run = execute(table, goal, sensed=[], act=act)
     return RunAnswers(table, run)
 
