@@ -118,8 +118,12 @@ def trial(
     agent: ThingAgent | None = None,
     placed: float = PLACED,
     released: float = RELEASED,
+    size: int = 320,
 ) -> Trial | None:
-    """Let a hand pursue a random goal on a table; None where no goal is to be had there."""
+    """Let a hand pursue a random goal on a table; None where no goal is to be had there.
+
+    ``size`` is the longer side, in pixels, of the picture that an agent sees.
+    """
     things = load_domain(DOMAIN).things
     assert things is not None
     truth = load_planning_domain(DOMAIN, scene=scene_of_table(table, things, view.azimuth))
@@ -134,7 +138,7 @@ def trial(
         if agent is None:
             run = carried_out(truth, goal, hand, bodies=everything)
         else:
-            believed, bodies = _as_seen(agent, table, view, scene)
+            believed, bodies = _as_seen(agent, table, view, scene, size=size)
             run = carried_out(believed, goal_of(said, believed), hand, bodies=bodies)
     except SeeWhyError as problem:
         return Trial(kind, said, False, problem=str(problem))
@@ -142,12 +146,12 @@ def trial(
 
 
 def _as_seen(
-    agent: ThingAgent, table: Table, view: View, scene: Scene
+    agent: ThingAgent, table: Table, view: View, scene: Scene, *, size: int
 ) -> tuple[PlanningDomain, dict[str, int]]:
     """What a model sees of a table, and which body each thing that it sees is."""
-    read = agent.scene_of(agent.read(render(scene, table, view, size=320)))
+    read = agent.scene_of(agent.read(render(scene, table, view, size=size)))
     domain = load_planning_domain(DOMAIN, scene=read.scene)
-    truly = boxes(seen_things(scene, view, size=320), len(table.things))
+    truly = boxes(seen_things(scene, view, size=size), len(table.things))
     assert domain.at_first is not None
     found: dict[str, int] = {}
     for number, thing in enumerate(read.reading.things):
@@ -187,6 +191,7 @@ def _options() -> Mapping[str, object]:
     parser.add_argument("--count", type=int, default=100, help="Tables.")
     parser.add_argument("--seed", type=int, default=0, help="Settles every random choice.")
     parser.add_argument("--model", type=Path, help="What sees the tables at first.")
+    parser.add_argument("--size", type=int, default=320, help="Of what it sees, in pixels.")
     parser.add_argument("--placed", type=float, default=PLACED, help="Spread of places, in m.")
     parser.add_argument("--released", type=float, default=RELEASED, help="Spread of speed, in m/s.")
     return vars(parser.parse_args())
@@ -213,6 +218,7 @@ def main() -> None:
             agent=agent,
             placed=float(str(options["placed"])),
             released=float(str(options["released"])),
+            size=int(str(options["size"])),
         )
         if found is not None:
             trials.append(found)
