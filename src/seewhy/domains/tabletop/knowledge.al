@@ -50,3 +50,8 @@ stable(X) if thing(X), not stands_on_something(X).
 stable(X) if on(X, Y), stable(Y), -shape(Y, sphere).
 %% what is above a thing falls when that is taken away
 falls_without(X, Y) if above(X, Y).
+
+%% a thing is on one thing only
+-on(X, Z) if on(X, Y), thing(Z), Y != Z.
+%% nothing is on what stands above it
+-on(X, Y) if above(Y, X).

@@ -39,10 +39,6 @@ fall_onto(X, Y) causes on(X, Y).
 
 % What is so in every state
 
-%% a thing is on one thing only
--on(X, Z) if on(X, Y), thing(Z), Y != Z.
-%% nothing is on what stands above it
--on(X, Y) if above(Y, X).
 %% nothing is on itself
 -on(X, X) if thing(X).
 %% a thing that is held is on nothing
