@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from conftest import Run, Shelf
+from seewhy.cli.scene_of_plan import BeginningScene
 from seewhy.data.dataset import Dataset
 from seewhy.data.thing_scene import thing_scene
 from seewhy.domain.domain import load_domain
@@ -248,6 +249,11 @@ def test_a_plan_for_what_a_model_sees(shelf: Shelf, run: Run, tmp_path: Path) ->
     named = [line.removeprefix("seen: ") for line in done.err.splitlines() if "seen: " in line]
     taken = [line.split(". take ")[1] for line in done.out.splitlines() if ". take " in line]
     assert sorted(taken) == sorted(named)
+    # What a model sees may be wrong; what somebody annotated is not.
+    assert (
+        BeginningScene(picture=picture, model=shelf.model).planning_domain(str(folder)).sensors_err
+    )
+    assert not BeginningScene().planning_domain("tabletop").sensors_err
     wrong = run("plan", "tabletop", *seen, "--goal", "clear(thing1)")
     assert wrong.code == 2
     assert "train a model for 'tabletop'" in wrong.err

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -54,7 +54,7 @@ class BeginningScene:
     model: Path | None = None
 
     def planning_domain(self, name: str) -> PlanningDomain:
-        """Return the planning domain with these things.
+        """Return the planning domain with these things; what a model saw of them may be wrong.
 
         Raises
         ------
@@ -63,7 +63,8 @@ class BeginningScene:
         """
         from seewhy.planning.domain import load_planning_domain
 
-        return load_planning_domain(name, scene=self._scene(name))
+        domain = load_planning_domain(name, scene=self._scene(name))
+        return domain if self.picture is None else replace(domain, seen_by_networks=True)
 
     def _scene(self, name: str) -> ThingScene | None:
         from seewhy.errors import PlanningError

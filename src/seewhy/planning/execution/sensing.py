@@ -14,6 +14,7 @@ from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import at_step, fixed_rules, rule
 from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge, read_axioms, read_literal
+from seewhy.knowledge.signature import Signature
 from seewhy.planning.execution.transition_function import World
 from seewhy.planning.goal import example_fluent
 
@@ -73,13 +74,8 @@ def read_sensing(literal: str, where: str, knowledge: Knowledge, *, error: float
         )
     try:
         axioms = read_axioms(f"{literal} if {where}.", signature, file="sensing")
-    except KnowledgeError:
-        part = "where"
-        try:  # the literal by itself: what is not wrong with it is wrong with the conditions
-            read_axioms(f"{literal}.", signature, file="sensing")
-        except KnowledgeError as of_literal:
-            part, problem = "literal", of_literal
-        raise SensingError(_PLACE.sub("", str(problem)), part=part) from None
+    except KnowledgeError as problem:
+        raise _misread(literal, problem, signature) from None
     if len(axioms) != 1:
         raise SensingError(
             f"found {len(axioms)} statements in '{where}'; write conditions with commas between "
@@ -87,6 +83,15 @@ def read_sensing(literal: str, where: str, knowledge: Knowledge, *, error: float
             part="where",
         )
     return Sensing(literal=axioms[0].head, conditions=axioms[0].body, error=error)
+
+
+def _misread(literal: str, problem: KnowledgeError, signature: Signature) -> SensingError:
+    """What is wrong with the literal; where nothing is, with the conditions."""
+    try:
+        read_axioms(f"{literal}.", signature, file="sensing")
+    except KnowledgeError as of_literal:
+        return SensingError(_PLACE.sub("", str(of_literal)), part="literal")
+    return SensingError(_PLACE.sub("", str(problem)), part="where")
 
 
 def condition_to_sense(sensing: Sensing, literal: clingo.Symbol) -> str | None:
