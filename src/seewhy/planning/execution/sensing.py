@@ -73,13 +73,13 @@ def read_sensing(literal: str, where: str, knowledge: Knowledge, *, error: float
         )
     try:
         axioms = read_axioms(f"{literal} if {where}.", signature, file="sensing")
-    except KnowledgeError:
-        part = "where"
+    except KnowledgeError as problem:
+        part, said = "where", str(problem)
         try:  # the literal by itself: what is not wrong with it is wrong with the conditions
             read_axioms(f"{literal}.", signature, file="sensing")
         except KnowledgeError as of_literal:
-            part, problem = "literal", of_literal
-        raise SensingError(_PLACE.sub("", str(problem)), part=part) from None
+            part, said = "literal", str(of_literal)
+        raise SensingError(_PLACE.sub("", said), part=part) from None
     if len(axioms) != 1:
         raise SensingError(
             f"found {len(axioms)} statements in '{where}'; write conditions with commas between "
