@@ -78,6 +78,22 @@ def test_a_fluent_of_other_sorts_than_what_is_seen_is_refused() -> None:
         read_changeable("#sort box = {b1}. #static on(box, box).", "#fluent basic on(box).")
 
 
+ON_THE_GREEN_CUBE = "observed on(thing5, thing3) at 0."
+
+
+def test_a_history_leaves_what_is_seen(tmp_path: Path) -> None:
+    mine = tmp_path / "mine"
+    shutil.copytree(FOLDER, mine)
+    (mine / "history.al").write_text("observed holding(hand, thing1) at 0.", encoding="utf-8")
+    domain = load_planning_domain(mine)
+    seen = list(map(str, domain.history.observations))
+    assert seen[0] == "observed holding(hand, thing1) at 0."
+    assert ON_THE_GREEN_CUBE in seen[1:]
+    nothing = tmp_path / "nothing.al"
+    nothing.write_text("", encoding="utf-8")
+    assert ON_THE_GREEN_CUBE in map(str, domain.history_of(nothing).observations)
+
+
 # Goals in words
 
 SAID = {
@@ -183,7 +199,7 @@ REFUSED: dict[str, Callable[[Path], tuple[object, ...]]] = {
     "give the file with --scene": lambda _: ("plan", "tabletop", "--image", "3"),
     "give --model, too": lambda _: ("plan", "tabletop", "--picture", "p.png"),
     "give --picture, too": lambda _: ("plan", "tabletop", "--model", "model"),
-    "the domain has no [things] that a scene could show": (
+    "the domain has no [things] that a scene could show; leave the scene out": (
         lambda f: ("plan", "robot_assistant", "--scene", two_scenes(f), "--image", "0")
     ),
     "give them with --scene or --picture, or keep scene.json": _lacking_scene,

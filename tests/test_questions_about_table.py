@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import clingo
 import pytest
 
 from conftest import Run as RunCommand
+from desk_builder import write_domain
+from seewhy.data.thing_scene import thing_scene
+from seewhy.domain.domain import load_domain
 from seewhy.errors import QuestionError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import literal_of
+from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.dialogue.run_answers import RunAnswers
 from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.execution import Run, execute
 from seewhy.planning.execution.transition_function import TransitionFunction
 from seewhy.planning.spoken_goals import goal_of
+from seewhy.planning.things.initial_scene import SceneOfPlan
+from seewhy.planning.things.scene_answers import believed_scene
 
 
 @pytest.fixture(scope="module")
@@ -151,3 +160,32 @@ def test_questions_on_the_command_line(run: RunCommand) -> None:
     assert done.code == 0
     assert f"No: there is no sphere on {CYLINDER}." in done.out
     assert f"My plan is to pick up {BALL}." in done.out
+
+
+# What is seen of a thing, and changes
+
+
+@pytest.mark.parametrize(
+    ("believed", "open_", "colour", "heavy"),
+    [
+        ((), (), "red", "yes"),
+        (("colour(thing1,blue)", "heavy(thing1)"), (), "blue", "yes"),
+        (("-colour(thing1,red)", "-heavy(thing1)"), (), None, "no"),
+        ((), ("colour(thing1,red)", "heavy(thing1)"), None, None),
+    ],
+)
+def test_a_thing_is_now_as_it_is_believed_to_be(
+    believed: tuple[str, ...],
+    open_: tuple[str, ...],
+    colour: str | None,
+    heavy: str | None,
+    tmp_path: Path,
+) -> None:
+    domain = load_domain(write_domain(tmp_path / "desk"))
+    assert domain.things is not None
+    scene = thing_scene(domain.things, [{"colour": "red", "heavy": "yes"}], relations={})
+    state = State(
+        frozenset(map(clingo.parse_term, believed)), frozenset(map(clingo.parse_term, open_))
+    )
+    values = believed_scene(SceneOfPlan(domain, scene), state).values
+    assert (values["colour"][0], values["heavy"][0]) == (colour, heavy)

@@ -242,6 +242,21 @@ def test_a_box_beyond_its_picture_has_a_region_all_the_same() -> None:
     assert (found[:, 16, 16] == [255, 0, 0]).all()
 
 
+@pytest.mark.parametrize(
+    ("values", "refusal"),
+    [
+        ([{}, {}], "'values' must have one entry for each of 1 boxes, got 2"),
+        ([{"colours": "red"}], "'colours' is no feature of things; did you mean 'colour'"),
+        ([{"colour": "rd"}], "'rd' is no value of 'colour'; did you mean 'red'"),
+    ],
+)
+def test_what_is_said_of_boxes_is_checked(values: list[dict[str, str]], refusal: str) -> None:
+    with pytest.raises(DatasetError, match=refusal):
+        ThingAgent(load_domain("tabletop")).read(
+            np.zeros((40, 40, 3)), boxes=[BoundingBox(0, 0, 20, 20)], values=values
+        )
+
+
 def test_boxes_are_in_pixels_of_the_picture_however_large_it_is(agent: ThingAgent) -> None:
     """A large picture is reduced before it is looked at, and its boxes are not."""
     large = Image.new("RGB", (2000, 1500), (200, 200, 200))

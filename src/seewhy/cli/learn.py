@@ -130,7 +130,8 @@ def learn(
     with_things = domain_of_things(model)
     if (out is not None and with_things is None) or without:
         given = "--without" if without else "--out"
-        raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the model")
+        kept = "model" if with_things is None else "domain"
+        raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the {kept}")
     from seewhy.evaluation.held_back import not_worse
     from seewhy.induction.axiom_learning import DEFAULTS, LearningOptions
 

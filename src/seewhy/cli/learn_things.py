@@ -128,17 +128,12 @@ def _print(found: LearnedAboutThings, domain: Domain) -> None:
 
 def _said(domain: Domain, judged: JudgedRule) -> str:
     """A rule with the pictures that bear it out: "good: there is a red cube: 41 of 41 pictures"."""
-    from seewhy.domain.wording import join_words
     from seewhy.induction.sentence import things
-    from seewhy.induction.things.rule_sentence import say_condition
+    from seewhy.induction.things.rule_sentence import say_conditions
 
     rule, tally = judged.rule, judged.tally
-    said = [say_condition(domain, condition) for condition in rule.conditions]
-    others = join_words([domain.classes[other].say for other in rule.unless], word="or")
-    said += [f"nothing says that {domain.subject} is {others}"] if others else []
-    clause = " and ".join(said)
     support = f"{tally.right} of {tally.right + tally.wrong} {things(domain)}"
-    return f"{domain.classes[rule.label].say}: {clause}: {support}"
+    return f"{domain.classes[rule.label].say}: {say_conditions(domain, rule)}: {support}"
 
 
 def _to_dict(found: LearnedAboutThings, domain: Domain, *, written: Path | None) -> dict[str, Any]:

@@ -81,7 +81,6 @@ def plan(
     asked about like a run: --history takes what 'seewhy simulate --record' writes.
     """
     from seewhy.knowledge.ground_literal import read_ground_literal
-    from seewhy.knowledge.history import read_history_file
     from seewhy.planning.diagnosis.diagnosis import diagnose
     from seewhy.planning.dialogue.run_answers import RunAnswers
     from seewhy.planning.execution.execution import Run
@@ -96,7 +95,7 @@ def plan(
     )
     knowledge = robot_domain.knowledge
     aim = goal_of(goal, robot_domain)
-    past = read_history_file(history, knowledge.signature) if history else robot_domain.history
+    past = robot_domain.history_of(history) if history else robot_domain.history
     seen = [read_ground_literal(text, knowledge.signature, of="fluent") for text in observed or ()]
     past = past.with_observations(seen, step=past.last_step)
     known = diagnose(knowledge, past, sensors_err=robot_domain.sensors_err)

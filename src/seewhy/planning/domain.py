@@ -14,7 +14,7 @@ from seewhy.domain.folder import domain_folder
 from seewhy.domain.tables import DomainFile
 from seewhy.errors import DomainError, PlanningError
 from seewhy.files.toml_file import line_of, read_toml
-from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.axiom import Axiom, Literal
 from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import fixed_rules
 from seewhy.knowledge.grounding_size import grounding_size
@@ -45,7 +45,8 @@ class PlanningDomain:
     name, title : str
     knowledge : Knowledge
     history : History
-        What is known at first (``history.al`` of the folder; empty where there is none).
+        What is known at first: ``history.al`` of the folder, if there is one, and what is seen of
+        the things of a picture.
     words : PlanningWords
         How fluents, actions and things are said.
     robot : str or None
@@ -68,6 +69,8 @@ class PlanningDomain:
         Goals that can be said in words.
     at_first : SceneOfPlan or None
         The things of a picture, where planning is about them.
+    seen_at_first : tuple of Literal
+        What is seen of them that may change.
 
     Examples
     --------
@@ -92,11 +95,23 @@ class PlanningDomain:
     seen_by_networks: bool = False
     goals: tuple[GoalTable, ...] = ()
     at_first: SceneOfPlan | None = None
+    seen_at_first: tuple[Literal, ...] = ()
 
     @property
     def sensors_err(self) -> bool:
         """Whether what is sensed may be wrong."""
         return self.seen_by_networks or any(sensing.error for sensing in self.sensing)
+
+    def history_of(self, file: Path) -> History:
+        """Return what a file says was seen and done, with what is seen of things at first.
+
+        Raises
+        ------
+        KnowledgeError
+            If the file is missing or wrong.
+        """
+        said = read_history_file(file, self.knowledge.signature)
+        return said.with_observations(self.seen_at_first, step=0)
 
     def statics(self, predicate: str) -> list[clingo.Symbol]:
         """The literals about a static that follow from the knowledge, sorted."""
@@ -224,11 +239,10 @@ def load_planning_domain(name: str | Path, *, scene: ThingScene | None = None) -
     seen = read_toml(pictures, DomainFile) if pictures.is_file() else None
     knowledge = _read_knowledge(folder, picture=None if seen is None else seen.domain.scene)
     past = folder / "history.al"
-    history = History()
     at_first = scene_of_plan(folder, scene)
+    seen_at_first: list[Literal] = []
     if at_first is not None:
-        knowledge, observed = with_scene(knowledge, at_first)
-        history = history.with_observations(observed, step=0)
+        knowledge, seen_at_first = with_scene(knowledge, at_first)
     source = path.read_text(encoding="utf-8-sig")
     features = {} if seen is None else seen.features
     for keys, problem in (
@@ -240,13 +254,12 @@ def load_planning_domain(name: str | Path, *, scene: ThingScene | None = None) -
     sensing, shows = _read_sensing(
         table, knowledge, at=lambda *keys: f"{path}:{line_of(source, keys)}"
     )
-    if past.is_file():
-        history = read_history_file(past, knowledge.signature)
+    history = read_history_file(past, knowledge.signature) if past.is_file() else History()
     return PlanningDomain(
         name=table.planning.name,
         title=table.planning.title,
         knowledge=knowledge,
-        history=history,
+        history=history.with_observations(seen_at_first, step=0),
         words=_words(table, knowledge, at_first),
         robot=table.planning.robot,
         horizon=table.planning.horizon,
@@ -258,6 +271,7 @@ def load_planning_domain(name: str | Path, *, scene: ThingScene | None = None) -
         folder=folder,
         goals=table.goals,
         at_first=at_first,
+        seen_at_first=tuple(seen_at_first),
     )
 
 

@@ -91,9 +91,10 @@ class Correcting:
                 f"no box is drawn around {self.read.things.one} {number + 1}: it is said to be "
                 "imagined already, and the model learns that when it is trained again"
             )
-        changes[name] = None
         if self.keeps_all:
             del changes[name]
+        else:
+            changes[name] = None
         left = changes if self.keeps_all else {*self._here.things} - {name}
         return self._note(changes, who=who, none=not left)
 

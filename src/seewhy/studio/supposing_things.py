@@ -99,14 +99,14 @@ def read_supposition(fields: Sequence[tuple[str, str]], read: ReadScene) -> Supp
             key, thing = _relation(of[0], orders(read)), _thing(of[1], count)
             places[key, thing] = _number(value, name, count - 1)
         elif kind == "holds" and len(of) == 3:
-            key, one, other = (
+            key, thing, other = (
                 _relation(of[0], loose_relations(read)),
                 _thing(of[1], count),
                 _thing(of[2], count),
             )
             if value not in _SAYS:
                 raise SeeWhyError(f"'{name}' is 'yes' or 'no', got '{value}'")
-            related[key, one, other] = _SAYS[value]
+            related[key, thing, other] = _SAYS[value]
     at = str(count) if "more" in said else said.get("go") or said.get("at")
     found = replace(
         found,
@@ -135,11 +135,11 @@ def _otherwise(said: Supposition, read: ReadScene) -> Supposition:
             if thing not in here or scene.related[key][thing].bit_count() != place
         },
         related={
-            (key, one, other): holds
-            for (key, one, other), holds in said.related.items()
-            if one != other
+            (key, thing, other): holds
+            for (key, thing, other), holds in said.related.items()
+            if thing != other
             and holds
-            != (other in here and one in here and bool(scene.related[key][other] >> one & 1))
+            != (other in here and thing in here and bool(scene.related[key][other] >> thing & 1))
         },
     )
 
@@ -149,9 +149,9 @@ def edits_of(said: Supposition, read: ReadScene) -> tuple[Edit, ...]:
     count = read.scene.count
     added = [_added(said, number, read) for number in range(count, count + said.added)]
     related = [
-        Relate(one, key, other, holds)
-        for (key, one, other), holds in said.related.items()
-        if one < count or other > one
+        Relate(thing, key, other, holds)
+        for (key, thing, other), holds in said.related.items()
+        if thing < count or other > thing
     ]
     return (
         *added,
@@ -173,8 +173,8 @@ def _added(said: Supposition, number: int, read: ReadScene) -> Add:
         tuple((key, min(number, said.places.get((key, number), number))) for key in orders(read)),
         tuple(
             (key, other)
-            for (key, one, other), holds in said.related.items()
-            if one == number and other < number and holds
+            for (key, thing, other), holds in said.related.items()
+            if thing == number and other < number and holds
         ),
     )
 
@@ -187,9 +187,9 @@ def fields_of(said: Supposition, *, but: int | None = None) -> Iterator[tuple[st
     for (key, thing), place in said.places.items():
         if thing != but:
             yield f"place.{key}.{thing + 1}", str(place)
-    for (key, one, other), holds in said.related.items():
-        if one != but:
-            yield f"holds.{key}.{one + 1}.{other + 1}", "yes" if holds else "no"
+    for (key, thing, other), holds in said.related.items():
+        if thing != but:
+            yield f"holds.{key}.{thing + 1}.{other + 1}", "yes" if holds else "no"
     for thing in sorted(said.gone):
         if thing != but:
             yield "gone", str(thing + 1)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -173,11 +173,12 @@ def _overlap(box: BoundingBox, other: tuple[int, int, int, int]) -> float:
 
 
 def _print(trials: list[Trial]) -> None:
-    count, good = Counter(one.kind for one in trials), Counter(t.kind for t in trials if t.reached)
+    count = Counter(found.kind for found in trials)
+    good = Counter(found.kind for found in trials if found.reached)
     print("goal", "tables", "reached", sep=" | ")
     for kind in sorted(count):
         print(kind, count[kind], good[kind], sep=" | ")
-    runs = [one.run for one in trials if one.run is not None]
+    runs = [found.run for found in trials if found.run is not None]
     surprised = sum(any(step.surprises for step in run.steps) for run in runs)
     print(f"reached: {sum(good.values())} of {len(trials)}")
     print(
@@ -186,7 +187,7 @@ def _print(trials: list[Trial]) -> None:
     )
 
 
-def _options() -> Mapping[str, object]:
+def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser("python -m seewhy_lab tables_planned", description=__doc__)
     parser.add_argument("--count", type=int, default=100, help="Tables.")
     parser.add_argument("--seed", type=int, default=0, help="Settles every random choice.")
@@ -194,36 +195,36 @@ def _options() -> Mapping[str, object]:
     parser.add_argument("--size", type=int, default=320, help="Of what it sees, in pixels.")
     parser.add_argument("--placed", type=float, default=PLACED, help="Spread of places, in m.")
     parser.add_argument("--released", type=float, default=RELEASED, help="Spread of speed, in m/s.")
-    return vars(parser.parse_args())
+    return parser.parse_args()
 
 
 def main() -> None:
     """Print the table of goals."""
     options = _options()
     agent = None
-    if isinstance(options["model"], Path):
+    if options.model is not None:
         from seewhy.agent.things.thing_agent import ThingAgent
 
-        agent = ThingAgent.load(options["model"])
+        agent = ThingAgent.load(options.model)
     trials: list[Trial] = []
     index = 0
-    while len(trials) < int(str(options["count"])):
-        seed = int(str(options["seed"]))
-        table, view, scene = random_scene(seed=seed, index=index)
+    while len(trials) < options.count:
+        table, view, scene = random_scene(seed=options.seed, index=index)
         found = trial(
             table,
             view,
             scene,
-            rng=np.random.default_rng([seed, index, 1]),
+            rng=np.random.default_rng([options.seed, index, 1]),
             agent=agent,
-            placed=float(str(options["placed"])),
-            released=float(str(options["released"])),
-            size=int(str(options["size"])),
+            placed=options.placed,
+            released=options.released,
+            size=options.size,
         )
         if found is not None:
             trials.append(found)
             if not found.reached:
-                print(f"table {index}: {found.goal}: not reached; {found.problem}", flush=True)
+                why = f"; {found.problem}" if found.problem else ""
+                print(f"table {index}: {found.goal}: not reached{why}", flush=True)
         index += 1
     _print(trials)
 

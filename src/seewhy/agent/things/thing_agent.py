@@ -16,12 +16,14 @@ from seewhy.agent.things.thing_reply import PictureReply, ReadScene
 from seewhy.agent.things.thing_seeing import ThingSeeing
 from seewhy.dialogue.things.answering import ThingAnswerer
 from seewhy.domain.domain import Domain
-from seewhy.errors import DomainError, NotFittedError
+from seewhy.domain.things import Things
+from seewhy.errors import DatasetError, DomainError, NotFittedError
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.perception.backbones import EMBEDDED, NONE
 from seewhy.perception.course import Course
 from seewhy.perception.things.boxes import Boxes, in_order
 from seewhy.perception.things.given_detector import OnnxDetector, as_detector
+from seewhy.text.nearest import did_you_mean
 
 if TYPE_CHECKING:
     from seewhy.agent.things.thing_seeing import Picture
@@ -181,7 +183,10 @@ class ThingAgent:
         ------
         NotFittedError, PictureError
             If nothing sees yet; if it is no picture.
+        DatasetError
+            If there are not as many ``values`` as ``boxes``, or they name no feature or value.
         """
+        _check_said(values, len(boxes or ()), self.things)
         if boxes is None:
             return self.reader.read(self.trained.look([picture])[0])
         found = _rows_of(boxes)
@@ -284,6 +289,24 @@ class ThingAgent:
         )
         agent.seeing, agent.trained_on = seeing, model.trained_on
         return agent
+
+
+def _check_said(said: Sequence[Mapping[str, str]], boxes: int, things: Things) -> None:
+    if said and len(said) != boxes:
+        raise DatasetError(
+            f"'values' must have one entry for each of {boxes} boxes, got {len(said)}"
+        )
+    for of_thing in said:
+        for key, value in of_thing.items():
+            if key not in things.features:
+                raise DatasetError(
+                    f"'{key}' is no feature of things; {did_you_mean(key, things.features)}"
+                )
+            known = things.features[key].values
+            if value not in known:
+                raise DatasetError(
+                    f"'{value}' is no value of '{key}'; {did_you_mean(value, known)}"
+                )
 
 
 def _rows_of(boxes: Sequence[BoundingBox]) -> Boxes:

@@ -188,7 +188,7 @@ class _Judge:
         if (
             tolerance is not None
             and wrong
-            and at_least(wrong, right + wrong, tolerance) < (BY_CHANCE)
+            and at_least(wrong, right + wrong, tolerance) < BY_CHANCE
         ):
             reason = f"{wrong} scenes speak against it"
             return replace(judged, fate=Fate.REJECTED, reason=reason)

@@ -143,17 +143,22 @@ class _Chooser:
         )
         both = covers[:, None] | covers[None]
         pairs = costs[:, None] + costs[None] + self.exceptions(both)
-        one, other = divmod(int(np.argmin(pairs)), len(conjunctions))
-        if pairs[one, other] < best.bits:
-            best = _Chosen((conjunctions[one], conjunctions[other]), float(pairs[one, other]))
+        first_of_two, second = divmod(int(np.argmin(pairs)), len(conjunctions))
+        if pairs[first_of_two, second] < best.bits:
+            best = _Chosen(
+                (conjunctions[first_of_two], conjunctions[second]),
+                float(pairs[first_of_two, second]),
+            )
         while 2 <= len(best.conjunctions) < _MOST_RULES:
             covered = either(best.covers)
             spent = sum(conjunction.bits for conjunction in best.conjunctions)
             further = spent + costs + self.exceptions(covers | covered)
-            next_one = int(np.argmin(further))
-            if further[next_one] >= best.bits:
+            next_place = int(np.argmin(further))
+            if further[next_place] >= best.bits:
                 break
-            best = _Chosen((*best.conjunctions, conjunctions[next_one]), float(further[next_one]))
+            best = _Chosen(
+                (*best.conjunctions, conjunctions[next_place]), float(further[next_place])
+            )
         return best
 
     def _signed(self, pool: Sequence[Found]) -> list[_Conjunction]:

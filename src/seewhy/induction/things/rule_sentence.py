@@ -25,7 +25,7 @@ from seewhy.induction.things.conditions import (
 from seewhy.text.nouns import with_article
 from seewhy.text.number_words import number_word
 
-__all__ = ["say_condition", "say_thing_rule"]
+__all__ = ["say_condition", "say_conditions", "say_thing_rule"]
 
 _PLURAL = {"does": "do", "has": "have"}
 
@@ -45,12 +45,25 @@ def say_thing_rule(domain: Domain, rule: ThingRule) -> str:
     >>> say_thing_rule(domain, ThingRule("good", (There(ball),)))
     'if there is a sphere, then the picture is good'
     """
+    label = domain.classes[rule.label].say
+    return f"if {say_conditions(domain, rule)}, then {domain.subject} is {label}"
+
+
+def say_conditions(domain: Domain, rule: ThingRule) -> str:
+    """Return all that a rule asks of a picture as one clause.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> balls = There(Pattern.of(1, [HasValue(0, "shape", "sphere")]), 2)
+    >>> say_conditions(load_domain("tabletop"), ThingRule("good", (balls, balls.denied)))
+    'there are at least two spheres and there is at most one sphere'
+    """
     said = [say_condition(domain, condition) for condition in rule.conditions]
     if rule.unless:
         others = [domain.classes[other].say for other in rule.unless]
         said.append(f"nothing says that {domain.subject} is {join_words(others, word='or')}")
-    label = domain.classes[rule.label].say
-    return f"if {' and '.join(said)}, then {domain.subject} is {label}"
+    return " and ".join(said)
 
 
 def say_condition(domain: Domain, condition: Condition) -> str:
@@ -306,7 +319,9 @@ def _relative(clauses: Sequence[str], verb: str) -> list[str]:
     being = [said.removeprefix("is ") for said in clauses if said.startswith("is ")]
     doing = [said for said in clauses if not said.startswith(("is ", "such "))]
     if verb == "are":
-        doing = [re.sub("^(does|has)", lambda one: _PLURAL[one[0]], said) for said in doing]
+        doing = [
+            re.sub("^(does|has)", lambda verb_found: _PLURAL[verb_found[0]], said) for said in doing
+        ]
     such = [said for said in clauses if said.startswith("such ")]
     relative = [*([f"{verb} {' and '.join(being)}"] if being else []), *doing]
     that = [f"that {' and '.join(relative)}"] if relative else []

@@ -19,7 +19,6 @@ __all__ = ["Bits", "Concluded", "ThingTable", "as_bits", "count_bits", "either",
 Bits = NDArray[np.uint64]
 """A bit a scene along the last axis, 64 of them a number."""
 
-
 _NONE = np.uint64(0)
 
 
@@ -191,7 +190,6 @@ def thing_table(
     """
     columns = dict(zip(schema.features, zip(*vectors, strict=True), strict=False))
     terms = [term for term, feature in schema.presence.items() if "yes" in columns.get(feature, ())]
-
     terms = terms or list(schema.presence)[:1]
 
     def is_yes_or_no(key: str) -> bool:

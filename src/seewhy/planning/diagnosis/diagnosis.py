@@ -156,16 +156,17 @@ def diagnose(
     )
     # The same history is looked at again by who answers questions about it.
     key = (text, last, knowledge.axioms)
-    if key not in _DIAGNOSED:
-        size = grounding_size(knowledge).times(last + 1)
-        found = _diagnosed(knowledge, BoundedControl(text, size=size, arguments=_OPTIONS), last)
-        if found is None:
-            raise PlanningError(unexplained(knowledge, history))
-        if len(_DIAGNOSED) >= _MOST_KEPT:
-            _DIAGNOSED.pop(next(iter(_DIAGNOSED)), None)
-        _DIAGNOSED[key] = found
-        return found
-    return _DIAGNOSED[key]
+    known = _DIAGNOSED.get(key)
+    if known is not None:
+        return known
+    size = grounding_size(knowledge).times(last + 1)
+    found = _diagnosed(knowledge, BoundedControl(text, size=size, arguments=_OPTIONS), last)
+    if found is None:
+        raise PlanningError(unexplained(knowledge, history))
+    if len(_DIAGNOSED) >= _MOST_KEPT:
+        _DIAGNOSED.pop(next(iter(_DIAGNOSED)), None)
+    _DIAGNOSED[key] = found
+    return found
 
 
 _MOST_KEPT = 64

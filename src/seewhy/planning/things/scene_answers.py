@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from itertools import permutations
 from typing import TYPE_CHECKING, Any
 
+import clingo
+
 from seewhy.data.thing_scene import ThingScene, thing_scene
 from seewhy.dialogue.things.answering import ThingAnswerer, ThingReply
 from seewhy.domain.things import CONCLUDED
@@ -27,6 +29,31 @@ class SceneAnswer:
     reasons: dict[str, Any] = field(default_factory=dict)
 
 
+_Atom = tuple[str, ...]
+"""A predicate with its arguments."""
+
+
+@dataclass(frozen=True)
+class _Believed:
+    """What holds in a state, what does not, and what is open."""
+
+    holds: frozenset[_Atom]
+    denied: frozenset[_Atom]
+    unknown: frozenset[_Atom]
+
+    @classmethod
+    def of(cls, state: State) -> _Believed:
+        return cls(
+            frozenset(_atom(literal) for literal in state.holds if literal.positive),
+            frozenset(_atom(literal) for literal in state.holds if not literal.positive),
+            frozenset(map(_atom, state.unknown)),
+        )
+
+
+def _atom(literal: clingo.Symbol) -> _Atom:
+    return (literal.name, *map(str, literal.arguments))
+
+
 def believed_scene(at_first: SceneOfPlan, state: State) -> ThingScene:
     """Return the scene of a state: what is seen may have changed, and follows anew.
 
@@ -42,12 +69,12 @@ def believed_scene(at_first: SceneOfPlan, state: State) -> ThingScene:
     (0, 1, 0, 0, 0, 0)
     """
     things, scene = at_first.things, at_first.scene
-    holds = {(literal.name, *map(str, literal.arguments)) for literal in state.positive()}
-    open_ = {(fluent.name, *map(str, fluent.arguments)) for fluent in state.unknown}
-    spoken_of = {name for name, *_ in holds | open_} | {literal.name for literal in state.holds}
+    believed = _Believed.of(state)
+    holds, open_ = believed.holds, believed.unknown
+    spoken_of = {name for name, *_ in holds | believed.denied | open_}
     pairs = list(permutations(range(scene.count), 2))
     values = [
-        {key: _value(at_first, key, number, holds) for key in things.features}
+        {key: _value(at_first, key, number, believed) for key in things.features}
         for number in range(scene.count)
     ]
     relations: dict[str, list[tuple[int, int]]] = {}
@@ -57,9 +84,9 @@ def believed_scene(at_first: SceneOfPlan, state: State) -> ThingScene:
         if relation.measure == CONCLUDED or relation.converse in relations:
             continue
         if key in spoken_of:
-            terms = [(n, to, at_first.term(n), at_first.term(to)) for n, to in pairs]
-            relations[key] = [(n, to) for n, to, one, two in terms if (key, one, two) in holds]
-            unknown[key] = [(n, to) for n, to, one, two in terms if (key, one, two) in open_]
+            named = {(n, to): (key, at_first.term(n), at_first.term(to)) for n, to in pairs}
+            relations[key] = [pair for pair, atom in named.items() if atom in holds]
+            unknown[key] = [pair for pair, atom in named.items() if atom in open_]
             continue
         here = [(n, to) for n, to in pairs if not {n, to} & moved]
         relations[key] = [(n, to) for n, to in here if scene.related[key][to] >> n & 1]
@@ -72,16 +99,20 @@ def believed_scene(at_first: SceneOfPlan, state: State) -> ThingScene:
     return at_first.conclusions.conclude(found)
 
 
-def _value(at_first: SceneOfPlan, key: str, number: int, holds: set[tuple[str, ...]]) -> str | None:
+def _value(at_first: SceneOfPlan, key: str, number: int, state: _Believed) -> str | None:
     """A feature's value now, where it is one that changes; else as it was seen."""
-    term = at_first.term(number)
-    now = [rest for name, *rest in holds if name == key and rest[:1] == [term]]
-    if now:
-        return now[0][1] if len(now[0]) > 1 else "yes"
-    return at_first.scene.values[key][number]
+    here = (key, at_first.term(number))
+    for atom in state.holds:
+        if atom[:2] == here:
+            return atom[2] if len(atom) > 2 else "yes"
+    if here in state.denied:
+        return "no"
+    seen = at_first.scene.values[key][number]
+    is_open = any(atom[:2] == here for atom in state.unknown)
+    return None if is_open or (*here, seen) in state.denied else seen
 
 
-def _moved(at_first: SceneOfPlan, holds: set[tuple[str, ...]]) -> set[int]:
+def _moved(at_first: SceneOfPlan, holds: frozenset[_Atom]) -> set[int]:
     """The things that stand on something else than in the picture, or are held."""
     support, scene = at_first.things.support, at_first.scene
     if support is None:

@@ -60,7 +60,9 @@ def chosen_scene(folder: Path, file: Path, image: str | None) -> ThingScene:
     """
     things = load_domain(folder).things if (folder / "domain.toml").is_file() else None
     if things is None:
-        raise PlanningError(f"{folder}: the domain has no [things] that a scene could show")
+        raise PlanningError(
+            f"{folder}: the domain has no [things] that a scene could show; leave the scene out"
+        )
     scenes = {str(number): scene for number, scene in read_scenes(file, things).items()}
     if image is None and len(scenes) > 1:
         raise PlanningError(f"{file}: has {len(scenes)} scenes; say which with --image")
