@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -159,7 +159,7 @@ def _as_seen(
         best = int(np.argmax(shares))
         if shares[best] >= _OVERLAP and best not in found.values():
             found[domain.at_first.term(number)] = best
-    return replace(domain, seen_by_networks=True), found
+    return domain, found
 
 
 def _overlap(box: BoundingBox, other: tuple[int, int, int, int]) -> float:

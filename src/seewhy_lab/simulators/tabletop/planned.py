@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import permutations
 
 import clingo
@@ -11,6 +12,7 @@ from seewhy.data.thing_scene import ThingScene, thing_scene
 from seewhy.domain.things import Things
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import key_of
+from seewhy.knowledge.history import History
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run, execute
 from seewhy.planning.execution.transition_function import TransitionFunction
@@ -78,7 +80,8 @@ def carried_out(
 ) -> Run:
     """Let the hand pursue a goal, looking at the table after every action; return the run.
 
-    What falls is seen, and planned anew for.
+    What falls is seen, and planned anew for. What the hand sees of the table before it begins takes
+    the place of what a picture was taken to show of the same things.
 
     Raises
     ------
@@ -92,8 +95,22 @@ def carried_out(
             getattr(hand, action.name)(*(bodies[term] for term in terms))
         return seen_by(hand, bodies)
 
-    *_, run = execute(domain, goal, sensed=seen_by(hand, bodies), act=act, most_steps=most_steps)
+    first = seen_by(hand, bodies)
+    begun = replace(domain, history=_without(domain.history, first))
+    *_, run = execute(begun, goal, sensed=first, act=act, most_steps=most_steps)
     return run
+
+
+def _without(history: History, seen: Sequence[Literal]) -> History:
+    """A history without what was observed of the same fluents at first."""
+    anew = {(literal.predicate, literal.arguments) for literal in seen}
+    kept = tuple(
+        observation
+        for observation in history.observations
+        if observation.step
+        or (observation.literal.predicate, observation.literal.arguments) not in anew
+    )
+    return replace(history, observations=kept)
 
 
 def reached(domain: PlanningDomain, goal: Goal, seen: Sequence[Literal]) -> bool:
