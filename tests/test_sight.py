@@ -168,7 +168,7 @@ def written(folder: Path, **texts: str) -> Path:
         "pictures.py": PICTURES,
         "history.al": "observed at(rob1, hall) at 0.\n",
     }
-    names = {"planning": "planning.toml", "domain": "domain.toml", "pictures": "pictures.py"}
+    names = {name.partition(".")[0]: name for name in files}
     for name, text in {**files, **{names[key]: text for key, text in texts.items()}}.items():
         (folder / name).write_text(text, encoding="utf-8")
     return folder
@@ -301,6 +301,7 @@ def test_only_features_of_yes_and_no_are_fluents(tmp_path: Path) -> None:
     lamp = FEATURE.format(key="lamp").replace("yes = ", "red = ").replace("no = ", "blue = ")
     home = written(
         tmp_path / "house",
+        knowledge=f"{KNOWLEDGE}#sort hue = {{red, blue}}.\n#static lamp(view, hue).\n",
         domain=DOMAIN + lamp,
         planning=PLANNING.replace('lit = "bright(L)"', 'lamp = "bright(L)"'),
     )
