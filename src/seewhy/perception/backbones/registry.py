@@ -81,8 +81,8 @@ def load_backbone(name: str, *, device: str = "auto") -> Backbone:
 
     Examples
     --------
-    >>> load_backbone("efficientnet-lite0").side
-    112
+    >>> load_backbone("efficientnet-lite0").name
+    'efficientnet-lite0'
     """
     from seewhy.perception.device import device_of
 
