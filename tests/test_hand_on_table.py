@@ -24,7 +24,8 @@ from seewhy_lab.simulators.tabletop.planned import carried_out, reached, scene_o
 from seewhy_lab.simulators.tabletop.source import random_scene
 from seewhy_lab.simulators.tabletop.table import Table, TableThing, half_extent
 from seewhy_lab.simulators.tabletop.view import View
-from seewhy_lab.simulators.tabletop.visibility import boxes, seen_things
+from seewhy_lab.simulators.tabletop.visibility import seen_things
+from seewhy_lab.simulators.thing_rows import boxes
 
 
 def thing(

@@ -18,7 +18,8 @@ pytest.importorskip("mujoco")
 from seewhy_lab.commands.tables_fall import measured_rightly, share_fallen, taken_away
 from seewhy_lab.simulators.tabletop.source import draw, random_scene
 from seewhy_lab.simulators.tabletop.table import COLOURS, Table
-from seewhy_lab.simulators.tabletop.visibility import LEAST_PIXELS, boxes, seen_things
+from seewhy_lab.simulators.tabletop.visibility import LEAST_PIXELS, seen_things
+from seewhy_lab.simulators.thing_rows import boxes
 
 COUNT = 12
 HUES = {

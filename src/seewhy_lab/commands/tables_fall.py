@@ -27,7 +27,8 @@ from seewhy_lab.simulators.tabletop.table import (
     TableThing,
     half_extent,
 )
-from seewhy_lab.simulators.tabletop.visibility import boxes, seen_things
+from seewhy_lab.simulators.tabletop.visibility import seen_things
+from seewhy_lab.simulators.thing_rows import boxes
 
 __all__ = ["main", "measured_rightly", "share_fallen", "taken_away"]
 

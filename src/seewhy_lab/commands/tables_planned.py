@@ -33,7 +33,8 @@ from seewhy_lab.simulators.tabletop.planned import carried_out, reached, scene_o
 from seewhy_lab.simulators.tabletop.rendering import render
 from seewhy_lab.simulators.tabletop.source import random_scene
 from seewhy_lab.simulators.tabletop.table import Table
-from seewhy_lab.simulators.tabletop.visibility import boxes, seen_things
+from seewhy_lab.simulators.tabletop.visibility import seen_things
+from seewhy_lab.simulators.thing_rows import boxes
 
 if TYPE_CHECKING:
     from seewhy.agent.things.thing_agent import ThingAgent

@@ -14,7 +14,7 @@ from seewhy_lab.simulators.structure_stability.physics import build_model
 from seewhy_lab.simulators.structure_stability.rendering import render
 from seewhy_lab.simulators.structure_stability.structure import Block
 from seewhy_lab.simulators.structure_stability.view import camera_of, random_view
-from seewhy_lab.simulators.tabletop.visibility import boxes
+from seewhy_lab.simulators.thing_rows import boxes, thing_rows
 
 __all__ = ["COLOURS", "colour_of", "draw", "width_of"]
 
@@ -72,23 +72,10 @@ def draw(
     geom, _, _ = scene.cast(camera.eye, camera.rays(rows + 0.5, columns + 0.5))
     seen = np.maximum(geom - 1, -1).reshape(size, size)  # geom 0 is the table
     found = boxes(seen, len(structure.blocks))
-    order = sorted(range(len(found)), key=lambda number: found[number][0] + found[number][2])
-    names = {number: str(place) for place, number in enumerate(order, start=1)}
-    things: list[dict[str, str | int]] = []
-    for number in order:
-        left, top, right, bottom = found[number]
-        block = structure.blocks[number]
-        things.append(
-            {
-                "thing": names[number],
-                "left": left,
-                "top": top,
-                "right": right,
-                "bottom": bottom,
-                "colour": colour_of(block),
-                "width": width_of(block),
-            }
-        )
+    things, names = thing_rows(
+        found,
+        [{"colour": colour_of(block), "width": width_of(block)} for block in structure.blocks],
+    )
     related = [("on", names[number], names[number - 1]) for number in range(1, len(found))]
     related += [
         ("beyond", names[number], names[number - 1]) for number in displaced_blocks(structure)

@@ -11,7 +11,8 @@ from seewhy_lab.simulators.tabletop.generation import MOST, random_table, told_a
 from seewhy_lab.simulators.tabletop.rendering import render
 from seewhy_lab.simulators.tabletop.table import Table
 from seewhy_lab.simulators.tabletop.view import View, random_view
-from seewhy_lab.simulators.tabletop.visibility import boxes, seen_things, well_seen
+from seewhy_lab.simulators.tabletop.visibility import seen_things, well_seen
+from seewhy_lab.simulators.thing_rows import boxes, thing_rows
 
 __all__ = ["draw", "random_scene"]
 
@@ -62,24 +63,17 @@ def draw(
     table, view, scene = random_scene(seed=seed, index=index)
     picture = render(scene, table, view, size=size)
     found = boxes(seen_things(scene, view, size=size), len(table.things))
-    order = sorted(range(len(found)), key=lambda number: found[number][0] + found[number][2])
-    names = {number: str(place) for place, number in enumerate(order, start=1)}
-    things: list[dict[str, str | int]] = []
-    for number in order:
-        left, top, right, bottom = found[number]
-        thing = table.things[number]
-        things.append(
+    things, names = thing_rows(
+        found,
+        [
             {
-                "thing": names[number],
-                "left": left,
-                "top": top,
-                "right": right,
-                "bottom": bottom,
                 "size": thing.size,
                 "colour": thing.colour,
                 "material": thing.material,
                 "shape": thing.shape,
             }
-        )
+            for thing in table.things
+        ],
+    )
     related = [("on", names[upper], names[lower]) for upper, lower in table.stands_on()]
     return picture, {}, None, things, sorted(related)

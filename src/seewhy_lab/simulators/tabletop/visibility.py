@@ -8,7 +8,7 @@ from seewhy_lab.rendering.rays import Scene
 from seewhy_lab.rendering.vectors import Array
 from seewhy_lab.simulators.tabletop.view import View, camera_of
 
-__all__ = ["LEAST_PIXELS", "LEAST_SHARE", "boxes", "seen_things", "well_seen"]
+__all__ = ["LEAST_PIXELS", "LEAST_SHARE", "seen_things", "well_seen"]
 
 LEAST_PIXELS = 60
 """So many pixels of a thing are seen at least, in a picture of 320 by 240, ..."""
@@ -50,27 +50,3 @@ def well_seen(scene: Scene, view: View, count: int) -> bool:
         if shown[number] < LEAST_SHARE * alone.sum():
             return False
     return True
-
-
-def boxes(seen: Array, count: int) -> list[tuple[int, int, int, int]]:
-    """Left, top, right and bottom of what is seen of each thing, in pixels.
-
-    Right and bottom are the first that lie outside.
-
-    Examples
-    --------
-    >>> boxes(np.array([[-1, 0, 0], [-1, 0, -1]]), 1)
-    [(1, 0, 3, 2)]
-    """
-    found = []
-    for number in range(count):
-        rows, columns = np.nonzero(seen == number)
-        found.append(
-            (
-                int(columns.min()),
-                int(rows.min()),
-                int(columns.max()) + 1,
-                int(rows.max()) + 1,
-            )
-        )
-    return found
