@@ -195,3 +195,10 @@ def test_nothing_stays_on_a_ball(
     upper: tuple[str, str], lower: tuple[str, str], share: float
 ) -> None:
     assert share_fallen(upper, lower, runs=4, rng=np.random.default_rng(1)) == share
+
+
+def test_pictures_too_small_for_a_thing_are_refused() -> None:
+    seen = np.array([[-1, 0], [-1, 0]])
+    assert boxes(seen, 1) == [(1, 0, 2, 2)]
+    with pytest.raises(ValueError, match=r"make larger pictures \(--size\)"):
+        boxes(seen, 2)

@@ -19,6 +19,11 @@ def boxes(seen: Array, count: int) -> list[Box]:
 
     Right and bottom are the first that lie outside.
 
+    Raises
+    ------
+    ValueError
+        Where nothing is seen of a thing.
+
     Examples
     --------
     >>> boxes(np.array([[-1, 0, 0], [-1, 0, -1]]), 1)
@@ -27,6 +32,8 @@ def boxes(seen: Array, count: int) -> list[Box]:
     found = []
     for number in range(count):
         rows, columns = np.nonzero(seen == number)
+        if not len(rows):
+            raise ValueError("no pixel shows one of the things; make larger pictures (--size)")
         found.append(
             (
                 int(columns.min()),
