@@ -58,7 +58,9 @@ def test_the_table_names_kinds_and_the_total(
     shelf: Shelf, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     scenes, questions = tmp_path / "scenes.json", tmp_path / "questions.json"
-    scenes.write_text(json.dumps({"scenes": [{"image_index": 0, "objects": [], "relationships": {}}]}))
+    scenes.write_text(
+        json.dumps({"scenes": [{"image_index": 0, "objects": [], "relationships": {}}]})
+    )
     asked = {
         "image_index": 0,
         "question": "How many shapes are there?",

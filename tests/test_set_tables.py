@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from itertools import product
 from pathlib import Path
 
@@ -12,7 +14,7 @@ from PIL import Image, ImageDraw
 from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import load_domain
 from seewhy.errors import DatasetError
-from seewhy_lab.commands.set_tables import HEIGHT, WIDTH, main, photographs
+from seewhy_lab.commands.set_tables import HEIGHT, WIDTH, is_judged, main, photographs
 
 COLOURS = {"red": (200, 30, 30), "green": (20, 130, 40), "purple": (90, 20, 140)}
 
@@ -103,3 +105,65 @@ def test_too_few_kinds(source: Path, tmp_path: Path) -> None:
         (few / folder.name).symlink_to(folder)
     with pytest.raises(DatasetError, match="kinds of cards for one part of the tables"):
         main(few, out=tmp_path / "out", count=3, seed=0)
+
+
+def photographed(folder: Path, *, cards: int = 9, name: str = "red-2-2020_9") -> Path:
+    """A photograph of a whole table: bright cards in rows of three, a little askew."""
+    folder.mkdir(exist_ok=True)
+    table = Image.new("RGB", (360, 480), (25, 24, 26))
+    draw = ImageDraw.Draw(table)
+    for place in range(cards):
+        row, column = divmod(place, 3)
+        left, top = 20 + 110 * column + 4 * row, 30 + 140 * row + 6 * column
+        draw.rectangle((left, top, left + 79, top + 109), fill=(215, 214, 210))
+        draw.ellipse((left + 20, top + 30, left + 60, top + 70), fill=COLOURS["red"])
+    table.save(folder / f"{name}.jpg", quality=95)
+    return folder
+
+
+def test_photographs_of_whole_tables_are_annotated(source: Path, tmp_path: Path) -> None:
+    main(source, out=tmp_path / "out", count=2, whole_tables=photographed(tmp_path / "whole"))
+    *_, scene = Dataset.load(tmp_path / "out", load_domain("set_cards")).scenes
+    assert (scene.picture.name, scene.group) == ("red-2-2020_9.jpg", "2020_9")
+    assert scene.split == ("test" if is_judged("2020_9") else "train")
+    assert len(scene.things) == 9
+    fourth = scene.things[3]
+    assert fourth.values == {
+        "number": "two",
+        "colour": "red",
+        "shading": "striped",
+        "shape": "oval",
+    }
+    assert fourth.box is not None
+    assert fourth.box.left == pytest.approx(24, abs=3)
+    assert fourth.box.bottom == pytest.approx(280, abs=3)
+
+
+@pytest.mark.parametrize(
+    ("name", "cards", "said"),
+    [
+        ("red-2-2020_9", 8, "9 cards were expected, 8 found"),
+        ("red-two-2020_9", 9, "must be called COLOUR-NUMBER-CAPTURE"),
+        ("pink-2-2020_9", 9, "must be called COLOUR-NUMBER-CAPTURE"),
+    ],
+)
+def test_a_photograph_that_is_no_such_table_is_named(
+    source: Path, tmp_path: Path, name: str, cards: int, said: str
+) -> None:
+    whole = photographed(tmp_path / "whole", cards=cards, name=name)
+    with pytest.raises(DatasetError, match=said):
+        main(source, out=tmp_path / "out", count=2, whole_tables=whole)
+
+
+def test_a_folder_without_photographs_is_named(source: Path, tmp_path: Path) -> None:
+    with pytest.raises(DatasetError, match="has no photographs of whole tables"):
+        main(source, out=tmp_path / "out", count=2, whole_tables=tmp_path)
+
+
+def test_the_command_runs_from_the_outside(source: Path, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "seewhy_lab", "set_tables", str(source)]
+    done = subprocess.run(
+        [*command, "--count", "2", "--out", str(tmp_path / "out")], capture_output=True, text=True
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("2 tables")

@@ -1,6 +1,7 @@
 """Compose pictures of tables with several cards of the game SET from photographs of single cards.
 
     python -m seewhy_lab set_tables SOURCE --count 300 --seed 0 --out tables
+    python -m seewhy_lab set_tables SOURCE --photographs TABLES --out tables
 
 SOURCE has a folder for each of the 81 kinds, called NUMBER-COLOUR-SHADING-SHAPE, as in
 ``2-red-striped-oval``. Each photograph shows one card on a dark ground. On a table lie 9 to 12
@@ -31,10 +32,10 @@ from seewhy.data.thing import BoundingBox, Thing
 from seewhy.domain.domain import load_domain
 from seewhy.errors import DatasetError, PictureError
 from seewhy.perception.picture_file import open_picture
+from seewhy_lab.photographed_tables import NUMBERS, photographed_table
 
-__all__ = ["compose", "main", "photographs"]
+__all__ = ["compose", "is_judged", "main", "photographs"]
 
-NUMBERS = {"1": "one", "2": "two", "3": "three"}
 KINDS = 81
 FEWEST, MOST = 9, 12
 WIDTH, HEIGHT = 960, 720
@@ -54,7 +55,18 @@ class Photograph:
     @property
     def is_test(self) -> bool:
         """Whether it is for judging: told by its group alone, so that no run mixes them."""
-        return int(sha256(f"final/{self.group}".encode()).hexdigest()[:8], 16) % _PARTS == 0
+        return is_judged(self.group)
+
+
+def is_judged(capture: str) -> bool:
+    """Whether what was taken in one go is for judging.
+
+    Examples
+    --------
+    >>> is_judged("20161231_114459")
+    False
+    """
+    return int(sha256(f"final/{capture}".encode()).hexdigest()[:8], 16) % _PARTS == 0
 
 
 def photographs(source: Path) -> list[Photograph]:
@@ -151,11 +163,33 @@ def _noise(shape: tuple[int, int], rng: np.random.Generator) -> NDArray[np.float
     return np.asarray(large.filter(ImageFilter.GaussianBlur(1.5)), float) / 127.5 - 1.0
 
 
+def _whole_tables(folder: Path, out: Path) -> list[Scene]:
+    """Photographs of whole tables, copied, with the cards on them."""
+    files = sorted(file for file in folder.glob("*") if file.suffix.lower() in _PICTURES)
+    if not files:
+        raise DatasetError(f"{folder}: has no photographs of whole tables")
+    domain = load_domain("set_cards")
+    scenes = []
+    for file in files:
+        picture, things = photographed_table(file)
+        copied = out / "images" / f"{file.stem}.jpg"
+        picture.save(copied, quality=92)
+        capture = file.stem.split("-", 2)[-1]
+        split = "test" if is_judged(capture) else "train"
+        whole = (None,) * len(domain.features)
+        scenes.append(Scene(copied, whole, split=split, group=capture, things=things))
+    return scenes
+
+
 def main(
     source: Annotated[Path, typer.Argument(help="The folder with 81 folders of photographs.")],
     out: Annotated[Path, typer.Option("--out", help="The folder to write.")],
     count: Annotated[int, typer.Option("--count", min=2, help="How many tables.")] = 300,
     seed: Annotated[int, typer.Option("--seed", help="Another seed makes other tables.")] = 0,
+    whole_tables: Annotated[
+        Path | None,
+        typer.Option("--photographs", help="The folder of photographs of whole tables."),
+    ] = None,
 ) -> None:
     """Compose tables; every third is for judging, and shows photographs of its own."""
     domain = load_domain("set_cards")
@@ -176,8 +210,9 @@ def main(
         split = "test" if is_test else "train"
         whole = (None,) * len(domain.features)
         scenes.append(Scene(file, whole, split=split, group=f"table{index}", things=things))
-    write_tables(Dataset(tuple(scenes), domain, out))
-    print(f"{count} tables in {out}")
+    photographed = [] if whole_tables is None else _whole_tables(whole_tables, out)
+    write_tables(Dataset((*scenes, *photographed), domain, out))
+    print(f"{count} tables and {len(photographed)} photographs of tables in {out}")
 
 
 def _drawn(cards: list[Photograph], rng: np.random.Generator, source: Path) -> list[Photograph]:
@@ -196,13 +231,13 @@ def _drawn(cards: list[Photograph], rng: np.random.Generator, source: Path) -> l
     return [by_kind[kind][int(rng.integers(len(by_kind[kind])))] for kind in chosen]
 
 
-if __name__ == "__main__":
-    typer.run(main)
-
-
 def _photograph(file: Path) -> Image.Image:
     try:
         with open_picture(file) as opened:
             return opened.convert("RGB")
     except PictureError as problem:
         raise PictureError(f"{file} {problem}") from None
+
+
+if __name__ == "__main__":
+    typer.run(main)
