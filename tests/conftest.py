@@ -205,6 +205,7 @@ def taught_in_seconds() -> Iterator[None]:
         patch.setattr(embedded, "SIDE", EYES_SIDE)
         patch.setattr(fitting_eyes, "_PASSES", (3, 3))
         patch.setattr(fitting_eyes, "_PASSES_AGAIN", (3, 3))
+        patch.setattr(fitting_eyes, "_PASSES_ANEW", (3, 3))
         patch.setattr(fitting_eyes, "_VIEWS", (2, 2))
         patch.setattr(recurrent, "ENOUGH_EXAMPLES", 800)
         yield
@@ -299,6 +300,7 @@ def _quickly(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(fitting_eyes, "FEW", 20)
     patch.setattr(fitting_eyes, "_PASSES", (2, 2))
     patch.setattr(fitting_eyes, "_PASSES_AGAIN", (1, 1))
+    patch.setattr(fitting_eyes, "_PASSES_ANEW", (1, 1))
     patch.setattr(fitting_eyes, "_VIEWS", (1, 1))
     patch.setattr(fitting_detector, "FEW", 20)
     patch.setattr(fitting_detector, "_PASSES", (20, 20))

@@ -202,6 +202,7 @@ def test_an_interrupted_tuning_goes_on_with_the_same_weights(
     monkeypatch.setattr(tail_training, "_BATCH", 2)
     monkeypatch.setattr(fitting_eyes, "_PASSES", (1, 1))
     monkeypatch.setattr(fitting_eyes, "_PASSES_AGAIN", (1, 1))
+    monkeypatch.setattr(fitting_eyes, "_PASSES_ANEW", (1, 1))
     whole = fit_eyes(backbone, lesson, seed=2).eyes.tail
 
     def until(stage: str, pictures: int, *, seed: int = 2) -> list[EyesEvent]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -44,6 +44,7 @@ _FOLDS, _HELD_OUT = 3, 5
 # Pictures gone over: as many as a minute has room for on two cores, within bounds for each picture.
 _GONE_OVER, _PASSES = 8000, (5, 40)
 _AGAIN, _PASSES_AGAIN = 6000, (3, 60)
+_ANEW, _PASSES_ANEW = 12_000, (3, 120)  # where pictures are so few that each was kept out once
 _VARIATIONS, _VIEWS = 9600, (2, 64)
 
 
@@ -269,14 +270,16 @@ class _Tuning:
         """Over the pictures that are not kept out."""
         return float(np.clip(_GONE_OVER / len(self.maps.plain), *_PASSES))
 
-    @property
-    def passes_again(self) -> float:
-        """Over all pictures, in the end."""
-        return float(np.clip(_AGAIN / len(self.maps.plain), *_PASSES_AGAIN))
+    def passes_in_the_end(self, *, anew: bool) -> float:
+        """Over all pictures: by a tail that nothing has taught, or by one that most have."""
+        gone_over, bounds = (_ANEW, _PASSES_ANEW) if anew else (_AGAIN, _PASSES_AGAIN)
+        return float(np.clip(gone_over / len(self.maps.plain), *bounds))
 
     def gone_over(self, held: Sequence[Rows]) -> int:
         """How often the pictures were gone over for the tail that is kept."""
-        return round(self.passes_again + (self.passes if len(held) == 1 else 0.0))
+        if len(held) == 1:
+            return round(self.passes + self.passes_in_the_end(anew=False))
+        return round(self.passes_in_the_end(anew=True))
 
     def of_part(self, rows: Rows, number: int) -> Tail:
         """A tail that the pictures at ``rows`` taught."""
@@ -286,9 +289,9 @@ class _Tuning:
     def of_all(self, tail: Tail | None) -> Tail:
         """A tail that all pictures taught: anew, or further one that most had taught."""
         place = ("all",)
-        schedule = Schedule(self.passes_again)
+        schedule = Schedule(self.passes_in_the_end(anew=tail is None))
         if tail is not None:
-            schedule = Schedule(self.passes_again, rate=5e-4, new_rate=1.5e-3)
+            schedule = replace(schedule, rate=5e-4, new_rate=1.5e-3)
         rows = np.arange(len(self.maps.plain))
         return self._tuned(tail or self._new(place), rows, schedule, place, "once more, by all")
 
