@@ -31,6 +31,7 @@ __all__ = [
     "polar",
     "possible",
     "preferred",
+    "rule",
     "supposing",
     "sure",
     "told",
@@ -210,6 +211,12 @@ def possible(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questio
     features = dict.fromkeys(roles(bindings, "feature"))
     if len(features) == 1:
         yield _question(Asks.POSSIBLE, feature=next(iter(features)))
+
+
+def rule(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
+    """By which rule it is of its class; what is seen follows from no rule."""
+    if not any(binding.role == "fact" for binding in bindings):
+        yield _question(Asks.WHICH_RULE)
 
 
 def difference(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
