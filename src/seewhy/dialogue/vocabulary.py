@@ -98,6 +98,9 @@ class Vocabulary:
         self._states = {
             word for scene_class in domain.classes.values() for word in scene_class.words
         }
+        self._named = {
+            _lemmas(words_of(feature.name))[-1] for feature in domain.features.values()
+        } | {"people"}
         self._fillers = sorted(map(_lemmas, fillers), key=len, reverse=True)
 
     def for_templates(self, text: str) -> tuple[str, ...]:
@@ -152,13 +155,12 @@ class Vocabulary:
         >>> words.speaks_of_another("is a tower stable"), words.speaks_of_another("is it a tower")
         (True, False)
         """
-        words = [*words_of(text), "", ""]
-        whether = words[0] in _AUXILIARIES
+        words = ["", *words_of(text), "", ""]
         return any(
             article in _ANY_ONE
             and stem_of(noun) in self._nouns
             and behind not in _WITH_MORE
-            and (before == "like" or (whether and place == 0))
+            and (before in ("", "like") or (place == 1 and before in _AUXILIARIES))
             for place, (before, article, noun, behind) in enumerate(
                 zip(words, words[1:], words[2:], words[3:], strict=False)
             )
@@ -192,7 +194,7 @@ class Vocabulary:
         Examples
         --------
         >>> from seewhy.domain.domain import load_domain
-        >>> Vocabulary(load_domain("traffic_signs")).plainly("what does it mean for me, please")
+        >>> Vocabulary(load_domain("traffic_signs")).plainly("what does it really mean, please")
         'what does it mean'
         """
         words = [word for word in words_of(text) if word not in self._adverbs]
@@ -221,7 +223,9 @@ class Vocabulary:
         for length in range(min(len(words) - 1, _LONGEST_AROUND), 0, -1):
             if words[:length] in self._before and len(words) - length >= _LEAST_BARE:
                 return self.bare(words[length:])
-            if words[-length:] in self._behind:
+            # "A chair like this" is one of a kind, where "can it stay like this?" asks of it.
+            of_a_kind = words[-length] == "like" and words[-length - 1] in self._named
+            if words[-length:] in self._behind and not of_a_kind:
                 return self.bare(words[:-length])
         return words
 
