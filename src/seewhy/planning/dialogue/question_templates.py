@@ -39,6 +39,8 @@ _BEFORE_INSTRUCTIONS = (
     (Asks.WHY_DID, "why would you"),
     (Asks.WHY_NOT, "why did you not"),
     (Asks.WHY_NOT, "why do you not"),
+    (Asks.WHY_NOT, "why will you not"),
+    (Asks.WHY_NOT, "why would you not"),
     (Asks.WHY_NOT, "why can you not"),
     (Asks.WHY_NOT, "why could you not"),
     (Asks.WHY_NOT, "why not"),
