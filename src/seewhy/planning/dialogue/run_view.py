@@ -40,7 +40,7 @@ class RunView:
         self.speech = Speech(domain.words)
         self.intentions = Intentions(domain, run)
 
-    @property
+    @cached_property
     def present(self) -> Step:
         """The step that the run has come to, or what would be decided there."""
         last = self.run.steps[-1] if self.run.steps else None
