@@ -357,6 +357,15 @@ OPPOSITE = (
     "why did you not leave the kitchen?",
     "did you avoid the kitchen?",
     "why do you believe that Sally left her office?",
+    "why did you move from the kitchen?",
+    "did you come from the kitchen?",
+    "did you move in the kitchen?",
+    "what if Sally walked from the kitchen?",
+    "why did you deliver the first message by Sally?",
+    "what is by the kitchen?",
+    "what is unusual in the kitchen?",
+    "who will be in the kitchen?",
+    "what will you see in the kitchen?",
 )
 
 
@@ -378,6 +387,20 @@ def begun(transitions: TransitionFunction) -> Run:
 
 
 BEGUN = {
+    "why was Sarah in the library?": (
+        "I do not believe that; I believe that Sarah is not in the library. I saw at step 0 that "
+        "Sarah was not in the library; nothing that I know of has changed it since."
+    ),
+    "why were you in the library?": (
+        "At step 0 I believed that I was in the library. I saw at step 0 that I was in the library."
+    ),
+    "why is Bob's office not closed?": (
+        "I believe that Bob's office is open. I saw at step 1 that Bob's office was open."
+    ),
+    "why don't you have the first message?": (
+        "I do not believe that; I believe that I have the first message. I saw at step 1 that I "
+        "had the first message."
+    ),
     "what is your goal?": (
         "My goal is that the first message for some person is delivered, I am in the kitchen "
         "and that person is not Bob."

@@ -12,7 +12,7 @@ from rapidfuzz.distance import DamerauLevenshtein
 
 from seewhy.dialogue.inflection import lemma
 
-__all__ = ["Spelling", "english_words", "first_names"]
+__all__ = ["DENYING", "Spelling", "english_words", "first_names"]
 
 _MOST_READINGS = 64
 
@@ -47,7 +47,7 @@ def _listed(file: str) -> frozenset[str]:
     return frozenset(text.read_text(encoding="utf-8").split())
 
 
-_DENYING = frozenset({"un", "in", "im", "ir", "non", "dis"})
+DENYING = frozenset({"un", "in", "im", "ir", "non", "dis"})
 """What stands before a word to say the opposite."""
 
 
@@ -101,7 +101,7 @@ class Spelling:
         close = process.extract(
             word,
             # "Unsteady" is no misspelling of "steady": it says the opposite.
-            [known for known in near if word.removesuffix(known) not in _DENYING],
+            [known for known in near if word.removesuffix(known) not in DENYING],
             scorer=DamerauLevenshtein.distance,
             score_cutoff=allowed,
             limit=None,
