@@ -337,11 +337,11 @@ SUPPOSED_EVENTS = {
         "Sally's office and deliver the first message to Sally: 4 actions instead of 3."
     ),
     "what would you do if you moved to the bathroom?": (
-        'It cannot be that I moved to the bathroom: "the robot moves to places next to its '
-        'own", and I was in the library and the library is not next to the bathroom.'
+        'I cannot move to the bathroom now: "the robot moves to places next to its '
+        'own", and I am in the library and the library is not next to the bathroom.'
     ),
     "what if somebody opened the kitchen?": (
-        "It cannot be that somebody opened the kitchen: the kitchen was open."
+        "It cannot be that somebody opened the kitchen: the kitchen is open."
     ),
 }
 
@@ -357,6 +357,15 @@ OPPOSITE = (
     "why did you not leave the kitchen?",
     "did you avoid the kitchen?",
     "why do you believe that Sally left her office?",
+    "why did you move from the kitchen?",
+    "did you come from the kitchen?",
+    "did you move in the kitchen?",
+    "what if Sally walked from the kitchen?",
+    "why did you deliver the first message by Sally?",
+    "what is by the kitchen?",
+    "what is unusual in the kitchen?",
+    "who will be in the kitchen?",
+    "what will you see in the kitchen?",
 )
 
 
@@ -378,6 +387,20 @@ def begun(transitions: TransitionFunction) -> Run:
 
 
 BEGUN = {
+    "why was Sarah in the library?": (
+        "I do not believe that; I believe that Sarah is not in the library. I saw at step 0 that "
+        "Sarah was not in the library; nothing that I know of has changed it since."
+    ),
+    "why were you in the library?": (
+        "At step 0 I believed that I was in the library. I saw at step 0 that I was in the library."
+    ),
+    "why is Bob's office not closed?": (
+        "I believe that Bob's office is open. I saw at step 1 that Bob's office was open."
+    ),
+    "why don't you have the first message?": (
+        "I do not believe that; I believe that I have the first message. I saw at step 1 that I "
+        "had the first message."
+    ),
     "what is your goal?": (
         "My goal is that the first message for some person is delivered, I am in the kitchen "
         "and that person is not Bob."
@@ -388,9 +411,38 @@ BEGUN = {
     ),
     "what did you do?": "I moved to the kitchen.",
     "why do you not print the first message?": (
-        'I could not print the first message at step 1: "messages are printed where a printer '
-        'is", and I was in the kitchen and no printer is in the kitchen.'
+        'I cannot print the first message now: "messages are printed where a printer '
+        'is", and I am in the kitchen and no printer is in the kitchen.'
     ),
+    "why will you deliver the first message to Sarah?": (
+        "I would deliver the first message to Sarah as action 2 of my plan because my goal is that "
+        "the first message for some person is delivered and that person is not Bob."
+    ),
+    "why did you deliver the first message to Sarah?": (
+        "I have not delivered the first message to Sarah yet: it is action 2 of my plan."
+    ),
+    "why will you move to the kitchen?": (
+        "I would move to the kitchen as action 3 of my plan because my goal is that the first "
+        "message for some person is delivered, I am in the kitchen and that person is not Bob."
+    ),
+    "why can you not deliver the first message to Sarah?": (
+        'I cannot deliver the first message to Sarah now: "a message is delivered to somebody who '
+        'is where the robot is", and I am in the kitchen and Sarah is in her office; it is action '
+        "2 of my plan."
+    ),
+    "why will you not move to Sarah's office?": (
+        "But I would move to Sarah's office: my plan goes on with that."
+    ),
+    "why will you not move to the library?": (
+        "The plan would be longer: 5 actions (move to the library, move to the kitchen, move to "
+        "Sarah's office, deliver the first message to Sarah and move to the kitchen) instead of 3."
+    ),
+    "what if you moved to Bob's office?": (
+        'I cannot move to Bob\'s office now: "the robot moves to places next to its own", and I am '
+        "in the kitchen and the kitchen is not next to Bob's office."
+    ),
+    "why did you stop?": "I did not. I am still on my way.",
+    "are you done?": "No, I am still on my way.",
     "what would you do if Sarah were in the bathroom?": (
         "If Sarah were in the bathroom, I would move to Sally's office, deliver the first "
         "message to Sally and move to the kitchen."
@@ -812,7 +864,7 @@ def test_who_fails_says_so_when_asked(failed: Run) -> None:
 
 def test_a_plan_that_was_as_short_is_no_worse(begun: Run) -> None:
     assert asked(begun, "why did you not move to Sally's office at step 1?") == (
-        "I could have as well: that plan has 3 actions too."
+        "I could as well: that plan has 3 actions too."
     )
 
 
@@ -851,6 +903,39 @@ ONLY_PLANNED = {
         f"{BECAUSE_OF_SALLY} If I chose to move to Bob's office, the {LONGER}"
     ),
 }
+
+
+ONLY_PLANNED |= {
+    "are you done?": "No, I have not done anything yet.",
+    "why did you stop?": "I did not. I have not done anything yet.",
+    "why did you give up?": "I did not. I have not done anything yet.",
+    "why did the plan change?": "I have not done anything yet, and my plan has not changed.",
+    "why can you not move to Sally's office?": (
+        'I cannot move to Sally\'s office now: "the robot moves to places next to its own", and I '
+        "am in the library and the library is not next to Sally's office; it is action 2 of my "
+        "plan."
+    ),
+}
+
+
+def test_who_has_nothing_to_do_is_done() -> None:
+    there = Run(read_goal("loc(rob1, library)", OFFICE.knowledge), OFFICE.history)
+    assert asked(there, "are you done?") == "Yes, the goal is reached."
+    assert asked(there, "why did you stop?") == "I did not. The goal is reached."
+
+
+def test_who_sees_no_way_says_so_before_anything_is_done() -> None:
+    shut = "observed loc(rob1, library) at 0. observed -loc(sally, library) at 0."
+    shut += "".join(
+        f" observed closed({place}) at 0." for place in ("kitchen", "bobs_office", "johns_office")
+    )
+    run = Run(TO_SALLY, read_history(shut, OFFICE.knowledge.signature))
+    no_way = (
+        "the goal cannot be reached, since Bob's office, John's office and the kitchen are closed "
+        "and Sally is not in the library."
+    )
+    assert asked(run, "what is your plan?") == f"I have no plan: {no_way}"
+    assert asked(run, "are you done?") == f"No, {no_way}"
 
 
 @pytest.mark.parametrize("question", ONLY_PLANNED)

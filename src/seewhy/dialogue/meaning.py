@@ -10,6 +10,7 @@ from seewhy.dialogue.asked import Asks, Question, Statement
 from seewhy.dialogue.grammar import Binding
 from seewhy.dialogue.lexicon import persons_of
 from seewhy.dialogue.said import Said, all_said, companion_of_the_absent, roles, stated
+from seewhy.dialogue.verbless import verbs_shared
 from seewhy.domain.domain import Domain
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
     "polar",
     "possible",
     "preferred",
+    "rule",
     "supposing",
     "sure",
     "told",
@@ -69,8 +71,8 @@ def preferred(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questi
 
 def joined(domain: Domain, bindings: tuple[Binding, ...], asks: Asks) -> Iterator[Question]:
     """Whether several things are so, or one of them."""
-    spoken_of = all_said(bindings)
-    if companion_of_the_absent(spoken_of):
+    spoken_of = verbs_shared(bindings, all_said(bindings))
+    if spoken_of is None or companion_of_the_absent(spoken_of):
         return
     said = [_turned(domain, spoken) if spoken.denied else spoken.statement for spoken in spoken_of]
     if any(spoken.denied and spoken.statement in said for spoken in spoken_of):
@@ -116,6 +118,8 @@ def contrast(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questio
     if len(said) != 2 or said[0].denied or said[0].statement == said[1].statement:
         return
     first, other = said[0].statement, said[1].statement
+    if said[0].forward:
+        first, other = other, first  # "why isn't it red rather than white?": it is white
     if first.feature == other.feature:
         yield _question(Asks.CONTRAST, statements=(first, other))
 
@@ -131,8 +135,8 @@ def supposing(domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questio
     for label in roles(bindings, "supposed_class"):
         yield _question(Asks.WHAT_IF, label=label)
         return
-    said = all_said(bindings)
-    if companion_of_the_absent(said):
+    said = verbs_shared(bindings, all_said(bindings))
+    if said is None or companion_of_the_absent(said):
         return
     if any(clause.named for clause in said):
         said = [replace(clause, denied=said[-1].denied, named=False) for clause in said]
@@ -207,6 +211,12 @@ def possible(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Questio
     features = dict.fromkeys(roles(bindings, "feature"))
     if len(features) == 1:
         yield _question(Asks.POSSIBLE, feature=next(iter(features)))
+
+
+def rule(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:
+    """By which rule it is of its class; what is seen follows from no rule."""
+    if not any(binding.role == "fact" for binding in bindings):
+        yield _question(Asks.WHICH_RULE)
 
 
 def difference(_domain: Domain, bindings: tuple[Binding, ...]) -> Iterator[Question]:

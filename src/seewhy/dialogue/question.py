@@ -40,6 +40,8 @@ _POLITE_NOT = re.compile(r"^(is|are|does|do|has|have|can|will|would) not (?=it|t
 
 _DEFINED = re.compile(r"what (?:is|are) (?:a|an|meant by) (.+)")
 """Asks what a word means, where "what is the base?" asks what is seen."""
+_LONGEST_DEFINED = 3
+"""Words of what is defined; "what is a driver allowed to do?" asks for something else."""
 _MEANT = "what do you mean by "
 _OF_ANY = re.compile(
     r"(what (?:makes|lets|causes|keeps)|why (?:does|is|would|can)|when (?:does|is|would|can)|"
@@ -143,6 +145,8 @@ class Questions:
 
     def _read(self, text: str, previous: Question | None) -> list[Question]:
         """What a text without typing errors may ask."""
+        if self._vocabulary.speaks_of_another(text) or self._vocabulary.is_command(text):
+            return []
         of_any = _OF_ANY.match(text)
         if of_any is not None and self._vocabulary.speaks_of_many(f"{of_any[2]}s"):
             text = f"{of_any[1]} {of_any[2]}s{text[of_any.end() :]}"
@@ -154,7 +158,7 @@ class Questions:
             read = self._readings.read(self._vocabulary.for_grammar(_MEANT + defined[1]))
             if read:
                 return [self._worded(question) for question in read]
-            if self._vocabulary.for_templates(defined[1]) == ("it",):
+            if len(defined[1].split()) <= _LONGEST_DEFINED:
                 return []  # "what is a room?" asks for no class of this one
         by_template = self._template(self._known, text, self._vocabulary.for_templates(text))
         if by_template is not None and not (previous and by_template.asks is Asks.EXPLAIN):

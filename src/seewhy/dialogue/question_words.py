@@ -19,7 +19,8 @@ CONTRACTIONS = {
     "i'm": "i am", "i'd": "i would", "you're": "you are", "they're": "they are",
     "it'd": "it would", "it'll": "it will", "i've": "i have", "you've": "you have",
     "let's": "let us", "wheres": "where is", "hows": "how is", "whos": "who is",
-    "howmany": "how many",
+    "howmany": "how many", "theres": "there is", "hes": "he is", "shes": "she is", "u": "you",
+    "r": "are", "ur": "your", "pls": "please", "plz": "please",
 }  # fmt: skip
 _WORD = re.compile(r"(?<!\w)-\d+|[\w']+")
 

@@ -146,7 +146,7 @@ _RANKS: tuple[tuple[tuple[str, Meaning], ...], ...] = (
     (
         ("explain_it", _plain(Asks.EXPLAIN)),
         ("how_sure", _plain(Asks.HOW_SURE)),
-        ("which_rule", _plain(Asks.WHICH_RULE)),
+        ("which_rule", meaning.rule),
         ("to_check", _plain(Asks.WHAT_TO_CHECK)),
         ("similar", _plain(Asks.SIMILAR)),
         ("more", _plain(Asks.MORE)),

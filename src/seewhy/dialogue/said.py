@@ -25,6 +25,10 @@ class Said:
     """Whether something else is said instead of it."""
     beside: bool = False
     """Whether it is only said to be with, or without, what was said before."""
+    verbless: bool = False
+    """Whether it is named without a verb, and has the one of what was said before."""
+    denied_by: str = ""
+    """How it was denied: "gone" of what is away, "none" of what there is none of."""
 
 
 _STATEMENTS = (
@@ -33,19 +37,19 @@ _STATEMENTS = (
     "goal", "avoided", "one_value", "first_existing", "existing_too", "deny_one", "deny_other",
     "pair_rest", "lacking", "pair_two", "fragment_named",
     "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class", "supposed_object",
-    "no_object", "half", "inverted", "footing", "existing_absent", "avoided_form", "because_told",
+    "no_object", "half", "inverted", "footing", "existing_absent", "absent_named", "avoided_form",
     "goal_verb", "cause", "concluded", "matter_of", "matter_clause", "because_so", "left_claimed",
-    "because_claimed",
+    "because_claimed", "because_told",
 )  # fmt: skip
 
 _BESIDE = ("equipment", "unequipped", "possessed", "dispossessed")
 _ROLES: dict[str, Fold] = {
-    name: lambda _, role=role: ((Binding(role, True),),)  # type: ignore[misc]
+    name: lambda _, name=name, role=role: ((Binding(role, name),),)  # type: ignore[misc]
     for name, role in {
         "not": "denied", "none": "denied", "without": "denied", "not_longer": "denied",
         "gone": "denied", "taking": "denied", "put_back": "denied", "back": "denied",
         "free_of": "denied", "nothing": "denied", "fore": "forward", "asking_tag": "asking_tag",
-        "asking_there": "asking_tag",
+        "asking_there": "asking_tag", "but": "but",
     }.items()
 }  # fmt: skip
 
@@ -57,6 +61,8 @@ def folds() -> dict[str, Fold]:
         **_ROLES,
         **dict.fromkeys(_BESIDE, _folded_beside),
         "existing_named": _folded_named,
+        "named_only": _folded_verbless,
+        "not_named": _folded_verbless,
         "neither_of": _folded_neither,
         "taken_away": _folded_neither,
         "unequipped_both": _folded_neither,
@@ -133,6 +139,17 @@ def _folded_named(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]
         yield (Binding("said", replace(said, named=True)),)
 
 
+def _folded_verbless(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
+    """What is named without a verb; what else its words may state stays as it is."""
+    for folded in _folded(bindings):
+        yield tuple(
+            Binding("said", replace(binding.meaning, verbless=True))
+            if isinstance(binding.meaning, Said)
+            else binding
+            for binding in folded
+        )
+
+
 def _folded_class(bindings: tuple[Binding, ...]) -> Iterable[tuple[Binding, ...]]:
     """A class that is supposed, which nothing can be concluded from."""
     yield tuple(Binding("supposed_class", label) for label in roles(bindings, "label")[:1])
@@ -167,7 +184,9 @@ def _said_in(bindings: tuple[Binding, ...]) -> tuple[Said, ...] | None:
     facts = [binding.meaning for binding in bindings if binding.role == "fact"]
     labels = list(dict.fromkeys(binding.meaning for binding in bindings if binding.role == "label"))
     about = {binding.meaning for binding in bindings if binding.role in ("feature", "about")}
-    denied = sum(binding.role == "denied" for binding in bindings) % 2 == 1
+    denials = [str(binding.meaning) for binding in bindings if binding.role == "denied"]
+    denied = len(denials) % 2 == 1
+    denied_by = denials[0] if len(denials) == 1 else ""
     forward = any(binding.role == "forward" for binding in bindings)
     if not facts and not labels:
         return ()
@@ -176,8 +195,8 @@ def _said_in(bindings: tuple[Binding, ...]) -> tuple[Said, ...] | None:
     if labels:
         if about:
             return None
-        return (Said(Statement(label=str(labels[0])), denied, forward),)
+        return (Said(Statement(label=str(labels[0])), denied, forward, denied_by=denied_by),)
     statement = stated(facts[0])
     if about - {statement.feature}:
         return None
-    return (Said(statement, denied, forward),)
+    return (Said(statement, denied, forward, denied_by=denied_by),)

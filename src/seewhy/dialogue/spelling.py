@@ -12,7 +12,7 @@ from rapidfuzz.distance import DamerauLevenshtein
 
 from seewhy.dialogue.inflection import lemma
 
-__all__ = ["Spelling", "english_words"]
+__all__ = ["DENYING", "Spelling", "english_words", "first_names"]
 
 _MOST_READINGS = 64
 
@@ -26,11 +26,28 @@ def english_words() -> frozenset[str]:
     >>> "suitable" in english_words(), "unstabel" in english_words()
     (True, False)
     """
-    text = resources.files("seewhy.dialogue").joinpath("english_words.txt")
+    return _listed("english_words.txt")
+
+
+@cache
+def first_names() -> frozenset[str]:
+    """Return common first names: Joan is no misspelling of John.
+
+    Examples
+    --------
+    >>> "joan" in first_names(), "jhon" in first_names()
+    (True, False)
+    """
+    return _listed("first_names.txt")
+
+
+def _listed(file: str) -> frozenset[str]:
+    """The words of a list beside this module."""
+    text = resources.files("seewhy.dialogue").joinpath(file)
     return frozenset(text.read_text(encoding="utf-8").split())
 
 
-_DENYING = frozenset({"un", "in", "im", "ir", "non", "dis"})
+DENYING = frozenset({"un", "in", "im", "ir", "non", "dis"})
 """What stands before a word to say the opposite."""
 
 
@@ -74,7 +91,7 @@ class Spelling:
         if not word.isalpha():
             return [word]
         turned = sorted(_letters_turned(word) & self._known)
-        if word in english_words():
+        if word in english_words() or word in first_names():
             # A "stop sing" is a sign where nothing is understood of what sings.
             return [word, *(turned if len(word) > 3 else ())]
         if len(word) == 3:
@@ -84,7 +101,7 @@ class Spelling:
         close = process.extract(
             word,
             # "Unsteady" is no misspelling of "steady": it says the opposite.
-            [known for known in near if word.removesuffix(known) not in _DENYING],
+            [known for known in near if word.removesuffix(known) not in DENYING],
             scorer=DamerauLevenshtein.distance,
             score_cutoff=allowed,
             limit=None,

@@ -24,6 +24,16 @@ _LEAST_BARE = 3
 """Words of a question that stands by itself: "and blue?" asks what was asked before."""
 _SUPPOSES = frozenset({"if", "when", "once"})
 """Behind "tell me" they ask whether or when; without it, "if it leaned" supposes something."""
+_THOUGHT_OF = frozenset({"about", "of"})
+"""Behind "do you think" they ask for what somebody thinks, where "tell me about it" asks for it."""
+_ASKING = frozenset({"think", "wonder"})
+_AUXILIARIES = frozenset(
+    {"is", "was", "do", "does", "did", "has", "have", "will", "would", "can", "could"}
+)
+_ANY_ONE = frozenset({"a", "an", "any", "some", "one"})
+_WITH_MORE = frozenset({"with", "without", "that", "which", "like"})
+_POINTING = frozenset({"the", "this", "that", "my", "our"})
+_ASKED_FOR = frozenset({"please", "kindly"})
 _Pair = tuple[tuple[str, ...], tuple[str, ...]]
 
 
@@ -85,6 +95,12 @@ class Vocabulary:
         nouns |= {other[-1] for other, canonical in pairs if _lemmas(canonical)[-1:] == one}
         self._nouns = frozenset(map(stem_of, nouns))
         self._one_of_it = {lemma(noun): noun for noun in sorted(nouns)}
+        self._states = {
+            word for scene_class in domain.classes.values() for word in scene_class.words
+        }
+        self._named = {
+            _lemmas(words_of(feature.name))[-1] for feature in domain.features.values()
+        } | {"people"}
         self._fillers = sorted(map(_lemmas, fillers), key=len, reverse=True)
 
     def for_templates(self, text: str) -> tuple[str, ...]:
@@ -129,6 +145,42 @@ class Vocabulary:
         """
         return any(map(self._is_of_many, words_of(text)))
 
+    def speaks_of_another(self, text: str) -> bool:
+        """Whether a text speaks of one that need not be shown: "is a tower stable?".
+
+        Examples
+        --------
+        >>> from seewhy.domain.domain import load_domain
+        >>> words = Vocabulary(load_domain("structure_stability"))
+        >>> words.speaks_of_another("is a tower stable"), words.speaks_of_another("is it a tower")
+        (True, False)
+        """
+        words = ["", *words_of(text), "", ""]
+        return any(
+            article in _ANY_ONE
+            and stem_of(noun) in self._nouns
+            and behind not in _WITH_MORE
+            and (before in ("", "like") or (place == 1 and before in _AUXILIARIES))
+            for place, (before, article, noun, behind) in enumerate(
+                zip(words, words[1:], words[2:], words[3:], strict=False)
+            )
+        )
+
+    def is_command(self, text: str) -> bool:
+        """Whether a text wants something done: "empty the room", where "empty room" asks.
+
+        Examples
+        --------
+        >>> from seewhy.domain.domain import load_domain
+        >>> words = Vocabulary(load_domain("robot_assistant"))
+        >>> words.is_command("please empty the room"), words.is_command("is it an empty room")
+        (True, False)
+        """
+        words = words_of(text)
+        start = next((place for place, word in enumerate(words) if word not in _ASKED_FOR), 0)
+        verb, pointing, noun = [*words[start:], "", "", ""][:3]
+        return verb in self._states and pointing in _POINTING and stem_of(noun) in self._nouns
+
     def _is_of_many(self, word: str) -> bool:
         """Whether a word is the plural of what a picture shows; "sign's" is none."""
         if word.endswith("'s"):
@@ -142,7 +194,7 @@ class Vocabulary:
         Examples
         --------
         >>> from seewhy.domain.domain import load_domain
-        >>> Vocabulary(load_domain("traffic_signs")).plainly("what does it mean for me, please")
+        >>> Vocabulary(load_domain("traffic_signs")).plainly("what does it really mean, please")
         'what does it mean'
         """
         words = [word for word in words_of(text) if word not in self._adverbs]
@@ -171,7 +223,9 @@ class Vocabulary:
         for length in range(min(len(words) - 1, _LONGEST_AROUND), 0, -1):
             if words[:length] in self._before and len(words) - length >= _LEAST_BARE:
                 return self.bare(words[length:])
-            if words[-length:] in self._behind:
+            # "A chair like this" is one of a kind, where "can it stay like this?" asks of it.
+            of_a_kind = words[-length] == "like" and words[-length - 1] in self._named
+            if words[-length:] in self._behind and not of_a_kind:
                 return self.bare(words[:-length])
         return words
 
@@ -179,8 +233,12 @@ class Vocabulary:
         """Words without the domain's fillers around them; "how do you know" is none inside."""
         for filler in self._fillers:
             behind = words[len(filler) : len(filler) + 1]
-            if filler and words[: len(filler)] == filler and not _SUPPOSES.issuperset(behind):
+            kept = _SUPPOSES | (_THOUGHT_OF if _ASKING.intersection(filler) else frozenset())
+            if filler and words[: len(filler)] == filler and not kept.issuperset(behind):
                 return self._unfilled(words[len(filler) :])
+            # "If Bob leaves, tell me" asks to be told when he does.
+            if words and words[0] in _SUPPOSES and "me" in filler:
+                continue
             if filler and words[-len(filler) :] == filler:
                 return self._unfilled(words[: -len(filler)])
         return words

@@ -21,7 +21,13 @@ from seewhy.planning.dialogue.action_words import (
 )
 from seewhy.planning.dialogue.clause_forms import gerund
 from seewhy.planning.dialogue.goal_words import say_goal
-from seewhy.planning.dialogue.intended_answers import not_begun, say_against, why_would
+from seewhy.planning.dialogue.intended_answers import (
+    is_ahead,
+    is_still_open,
+    place_in_plan,
+    say_against,
+    why_would,
+)
 from seewhy.planning.dialogue.query import Asks, Query, Told
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.dialogue.surface_realisation import Speech, sentences
@@ -30,7 +36,7 @@ from seewhy.planning.execution.execution import Decision
 
 def why_did(view: RunView, query: Query) -> Told:
     """Why an action was done: what needed it."""
-    if not_begun(view):
+    if is_ahead(view, query):
         return why_would(view, query)
     done = view.done(query)
     chosen = [step for step in done if query.step in (None, step.number)]
@@ -40,6 +46,9 @@ def why_did(view: RunView, query: Query) -> Told:
         if done:
             when = join_words([str(step.number) for step in done])
             asked = f"{asked} at step {query.step}, but at step {when}"
+        place = None if done or query.step is not None else place_in_plan(view, query)
+        if place is not None:
+            asked = f"{say_not_done(view, query, have=True)} yet: it is action {place} of my plan"
         return sentences([asked]), {"steps": [step.number for step in done]}
     step = chosen[0] if query.first else chosen[-1]
     action = step.action
@@ -105,8 +114,8 @@ def why_not(view: RunView, query: Query) -> Told:
         "obstacles": [obstacle_values(applied) for applied in why.obstacles],
         "actions": [str(planned) for planned in why.actions],
     }
-    if not_begun(view):
-        return sentences([say_against(view, step, action, why)]), reasons
+    if is_still_open(view, step):
+        return sentences([say_against(view, query, step, action, why)]), reasons
     who, act = view.speech.subject(action), view.speech.act(action)
     many = count_actions(len(why.actions))
     if why.against is Against.DONE:
@@ -142,11 +151,13 @@ def rather_than(view: RunView, query: Query, foil: Query, reasons: dict[str, Any
         done = clingo.parse_term(reasons["action"]).arguments
         named = zip(foil.arguments, done, strict=True)
         foil = replace(foil, arguments=tuple(asked or str(term) for asked, term in named))
-    foil = replace(foil, asks=Asks.WHY_NOT, step=reasons["step"])
+    still_open = is_ahead(view, query)
+    step = view.present.number if still_open else reasons["step"]
+    foil = replace(foil, asks=Asks.WHY_NOT, step=step)
     text, against = why_not(view, foil)
     other = clingo.parse_term(against["action"])
     do, who = view.speech.do(other), sentence(view.speech.subject(other)).removesuffix(".")
-    if not_begun(view):
+    if still_open:
         text = text.replace("The plan would", f"If I chose to {do}, the plan would", 1)
         text = text.replace(f"{who} could as well:", f"I could as well choose to {do}:", 1)
     elif against["against"] == Against.LONGER.value:

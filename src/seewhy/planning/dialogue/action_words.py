@@ -85,6 +85,12 @@ def say_gave_up(step: Step, speech: Speech) -> str:
     return f"I gave up: the goal could not be reached{', since ' if since else ''}{since}"
 
 
+def say_no_way(step: Step, speech: Speech) -> str:
+    """That the goal cannot be reached from a step on, and since what is so."""
+    since = speech.every(step.because)
+    return f"the goal cannot be reached{', since ' if since else ''}{since}"
+
+
 def say_end(run: Run, speech: Speech) -> str:
     """How a run ended; nothing where it goes on."""
     if run.outcome is Outcome.ACHIEVED:

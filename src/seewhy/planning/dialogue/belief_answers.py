@@ -123,7 +123,7 @@ class BeliefAnswers:
 
     def _when_it_mattered(self, query: Query) -> Query:
         """A question for a past belief, at the last step at which it was there to act on."""
-        if query.step is not None or not query.text.startswith("why did you "):
+        if query.step is not None or not query.past:
             return query
         literal = query.symbol()
         acting = [step for step in self.run.steps if step.action is not None]

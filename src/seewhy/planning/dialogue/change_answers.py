@@ -16,6 +16,7 @@ from seewhy.planning.dialogue.action_words import (
     say_gave_up,
     say_obstacle,
 )
+from seewhy.planning.dialogue.intended_answers import not_begun
 from seewhy.planning.dialogue.query import Query, Told
 from seewhy.planning.dialogue.run_view import RunView
 from seewhy.planning.dialogue.surface_realisation import sentences
@@ -34,6 +35,10 @@ def why_changed(view: RunView, query: Query) -> Told:
         for before, step in pairwise(steps)
         if step.decision in _CHANGING and query.step in (None, step.number)
     ]
+    if not told and not_begun(view):
+        return sentences(["I have not done anything yet, and my plan has not changed"]), {
+            "changes": []
+        }
     if not told:
         when = "" if query.step is None else f" at step {query.step}"
         return sentences([f"the plan did not change{when}"]), {"changes": []}

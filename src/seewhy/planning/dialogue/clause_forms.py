@@ -13,7 +13,7 @@ from seewhy.text.nouns import plural
 from seewhy.text.predicate_words import base_form, verb_place
 
 SLOT = re.compile(r"\{(\d+)\}")
-_AUXILIARIES = ("is", "are", "can", "was", "would", "could", "will")
+_AUXILIARIES = ("is", "are", "can", "was", "would", "could", "will", "does")
 _ARTICLES = {"a", "an", "the"}
 _WHERE = {"in", "at", "on", "under", "behind", "near", "inside", "beside"}
 
@@ -25,6 +25,8 @@ def question_form(clause: str) -> str:
     --------
     >>> question_form("{0} is in {1}"), question_form("{0} holds {1}")
     ('is {0} in {1}', 'does {0} hold {1}')
+    >>> question_form("{0} does not hold {1}")
+    'does {0} not hold {1}'
     """
     words = clause.split()
     place = verb_place(words, _AUXILIARIES)

@@ -14,6 +14,7 @@ from seewhy.planning.dialogue.action_words import (
     say_end,
     say_gave_up,
     say_hoped,
+    say_no_way,
     say_not_done,
     say_supposed,
 )
@@ -64,7 +65,7 @@ def plan(view: RunView, query: Query) -> Told:
         return sentences([say_gave_up(run.steps[-1], speech)]), {"actions": []}
     step = view.present
     if step.decision is Decision.GIVE_UP:
-        return sentences([say_gave_up(step, speech)]), {"actions": []}
+        return sentences([f"I have no plan: {say_no_way(step, speech)}"]), {"actions": []}
     if not step.plan:
         return "I have nothing to do: the goal is reached.", {"actions": []}
     supposed = say_supposed(view, step)
@@ -152,9 +153,22 @@ def did_so(view: RunView, query: Query) -> Told:
 def has_ended(view: RunView, _: Query) -> Told:
     """Whether the goal is reached."""
     outcome = view.run.outcome
-    yes = "yes" if outcome is Outcome.ACHIEVED else "no"
-    said = say_end(view.run, view.speech) or "I am still on my way"
+    reached = outcome is Outcome.ACHIEVED
+    said = say_end(view.run, view.speech)
+    if outcome is None:
+        reached, said = _stands(view)
+    yes = "yes" if reached else "no"
     return sentences([f"{yes}, {said}"]), {"outcome": outcome.value if outcome else None}
+
+
+def _stands(view: RunView) -> tuple[bool, str]:
+    """Whether the goal of a run that has not ended is reached, and how things stand."""
+    step = view.present
+    if step.decision is Decision.STOP:
+        return True, "the goal is reached"
+    if step.decision is Decision.GIVE_UP:
+        return False, say_no_way(step, view.speech)
+    return False, "I have not done anything yet" if not_begun(view) else "I am still on my way"
 
 
 def why_ended(view: RunView, query: Query) -> Told:
@@ -170,6 +184,8 @@ def why_ended(view: RunView, query: Query) -> Told:
                 "nothing that I saw there, had it alone been otherwise, would have left a plan"
             )
         return sentences(said), reasons
+    if outcome is None:
+        return sentences(["I did not", _stands(view)[1]]), reasons
     gave_up = "give up" in query.text or "fail" in query.text
     return sentences(["I did not" if gave_up else "", say_end(view.run, view.speech)]), reasons
 

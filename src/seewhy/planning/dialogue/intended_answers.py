@@ -1,4 +1,4 @@
-"""Say why actions would be done, or would not, of a plan of which nothing is done yet."""
+"""Say why actions would be done, or would not, of what is still to be done of a plan."""
 
 from __future__ import annotations
 
@@ -22,7 +22,10 @@ from seewhy.planning.dialogue.surface_realisation import sentences
 from seewhy.planning.execution.execution import Decision, Step
 from seewhy.planning.execution.plan_monitoring import state_after
 
-__all__ = ["not_begun", "say_against", "why_would"]
+__all__ = ["is_ahead", "is_still_open", "not_begun", "place_in_plan", "say_against", "why_would"]
+
+_OF_WHAT_CAN_BE = ("why can ", "why could ")
+_OF_WHAT_COMES = ("why will ", "why would ", "why are ", "why is ")
 
 
 def not_begun(view: RunView) -> bool:
@@ -31,10 +34,30 @@ def not_begun(view: RunView) -> bool:
     return not acted and view.run.outcome is None
 
 
+def is_ahead(view: RunView, query: Query) -> bool:
+    """Whether it is asked why something will be done, not why it was."""
+    if not_begun(view):
+        return True
+    asked_ahead = view.run.outcome is None and query.text.startswith(_OF_WHAT_COMES)
+    return asked_ahead and query.step is None and bool(_planned_steps(view, query))
+
+
+def is_still_open(view: RunView, step: Step) -> bool:
+    """Whether a step is the present one of a run that goes on, at which nothing is done yet."""
+    acted = {done.number for done in view.run.steps if done.action is not None}
+    return view.run.outcome is None and step.number not in acted
+
+
+def place_in_plan(view: RunView, query: Query) -> int | None:
+    """Which action of the plan from here on it is that a question is about."""
+    planned = _planned_steps(view, query) if view.run.outcome is None else []
+    return planned[0].number - view.present.number + 1 if planned else None
+
+
 def why_would(view: RunView, query: Query) -> Told:
-    """Why the plan has an action, of which nothing is done yet."""
+    """Why the plan has an action that is still to be done."""
     step, speech = view.present, view.speech
-    begun = "I have not done anything yet"
+    begun = "I have not done anything yet" if not_begun(view) else ""
     planned = _planned_steps(view, query)
     reasons: dict[str, Any] = {"steps": [], "planned": [of_plan.number for of_plan in planned]}
     if not planned:
@@ -81,17 +104,23 @@ def _planned_steps(view: RunView, query: Query) -> list[Step]:
     return found
 
 
-def say_against(view: RunView, step: Step, action: clingo.Symbol, why: WhyNot) -> str:
+def say_against(view: RunView, query: Query, step: Step, action: clingo.Symbol, why: WhyNot) -> str:
     """What speaks against an action that would be done at a step, as a clause."""
     speech = view.speech
     who, act = speech.subject(action), speech.act(action)
     if step.plan and step.plan[0] == action:
-        return f"but {who} would {act}: nothing is done yet, and my plan begins with that"
+        since = "nothing is done yet, and my plan begins with that"
+        since = since if not_begun(view) else "my plan goes on with that"
+        return f"but {who} would {act}: {since}"
+    obstacle = say_obstacle(why.obstacles, speech, past=False)
+    cannot = ": ".join(filter(None, [f"{who} cannot {act} now", obstacle]))
     if action in step.plan:
-        return f"but {who} would {act} later: it is action {step.plan.index(action) + 1} of my plan"
+        place = step.plan.index(action) + 1
+        if query.text.startswith(_OF_WHAT_CAN_BE) and why.against is Against.OBSTACLE:
+            return f"{cannot}; it is action {place} of my plan"
+        return f"but {who} would {act} later: it is action {place} of my plan"
     if why.against is Against.OBSTACLE:
-        obstacle = say_obstacle(why.obstacles, speech, past=False)
-        return ": ".join(filter(None, [f"{who} cannot {act} now", obstacle]))
+        return cannot
     if step.decision is Decision.STOP:
         return "there is nothing to do: the goal is reached"
     if why.against is Against.NO_PLAN:

@@ -38,7 +38,8 @@ _FIRST = re.compile(r"^(?:why )?(?:did|have|will|would|are) you .*\w( first| bef
 _CONTRAST = re.compile(r" (?:rather than|instead of|as opposed to|and not) ")
 _CONTRASTED = (Asks.WHY_DID, Asks.WHY_BELIEVE)
 _PAST = {"is": "was", "are": "were", "am": "was", "do": "did", "does": "did", "has": "had"}
-_TENSED = (Asks.IS, Asks.WHERE, Asks.CONTENTS, Asks.WHICH, Asks.PLAN, Asks.GOAL)
+_TENSED = (Asks.IS, Asks.WHERE, Asks.CONTENTS, Asks.WHICH, Asks.PLAN, Asks.GOAL, Asks.WHY_BELIEVE,
+           Asks.WHY_DISBELIEVE)  # fmt: skip
 """What is asked of the past where its verb is in the past: the rest says itself when."""
 _NOT_YOU = re.compile(r"\b(do|did|would|have|are|can|could) not you\b")
 _POLITE = re.compile(

@@ -39,6 +39,8 @@ _BEFORE_INSTRUCTIONS = (
     (Asks.WHY_DID, "why would you"),
     (Asks.WHY_NOT, "why did you not"),
     (Asks.WHY_NOT, "why do you not"),
+    (Asks.WHY_NOT, "why will you not"),
+    (Asks.WHY_NOT, "why would you not"),
     (Asks.WHY_NOT, "why can you not"),
     (Asks.WHY_NOT, "why could you not"),
     (Asks.WHY_NOT, "why not"),
@@ -172,6 +174,10 @@ def _about_a_relation(domain: PlanningDomain, predicate: Predicate) -> Iterator[
             # What never changes cannot be supposed to be otherwise.
             if asks is not Asks.WHAT_IF or predicate.kind.is_fluent:
                 yield _template(asks, text, predicate, positive=positive)
+    if not denies(say):
+        # "Why is the kitchen not closed?", where what is not closed is called open.
+        for text in with_not(say):
+            yield _template(Asks.WHY_BELIEVE, f"why {text}", predicate, positive=False)
 
 
 def _about_a_clause(clause: str, positive: bool) -> Iterator[tuple[Asks, str]]:

@@ -17,6 +17,9 @@ from seewhy.planning.dialogue.surface_realisation import Speech
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run, Step, execute
 
+_OF_NOW = ("why do ", "why does ", "why will ", "why would ", "why can ", "why not ")
+"""How a question begins that asks why not now, not why not when something else was done."""
+
 
 class RunView:
     """A run with the words and the intentions of whoever is asked about it.
@@ -37,7 +40,7 @@ class RunView:
         self.speech = Speech(domain.words)
         self.intentions = Intentions(domain, run)
 
-    @property
+    @cached_property
     def present(self) -> Step:
         """The step that the run has come to, or what would be decided there."""
         last = self.run.steps[-1] if self.run.steps else None
@@ -61,7 +64,7 @@ class RunView:
         """The step that a question about an action is about."""
         if query.step is not None:
             return self.at(query.step)
-        if query.text.startswith(("why do ", "why does ", "why can ", "why not ")):
+        if query.text.startswith(_OF_NOW):
             return self.present
         acting = [step for step in self.run.steps if step.action is not None]
         same = [step for step in acting if step.action and step.action.name == query.predicate]

@@ -8,6 +8,7 @@ import clingo
 
 from seewhy.knowledge.ground import literal_of
 from seewhy.knowledge.history import History
+from seewhy.knowledge.signature import PredicateKind
 from seewhy.planning.dialogue.action_words import (
     count_actions,
     say_actions,
@@ -46,9 +47,14 @@ def _if_it_happened(view: RunView, query: Query, event: clingo.Symbol) -> Told:
     happened = view.speech.happened(event)
     reasons: dict[str, Any] = {"action": str(event)}
     if state_after(view.domain.knowledge, [event], start=state) is None:
-        obstacle = say_obstacle(view.intentions.obstacles(event, state), view.speech)
-        said = ": ".join(filter(None, [f"it cannot be that {happened}", obstacle]))
-        return sentences([said]), reasons
+        now = history.last_step == view.run.history.last_step and view.run.outcome is None
+        obstacles = view.intentions.obstacles(event, state)
+        obstacle = say_obstacle(obstacles, view.speech, past=not now)
+        cannot = f"it cannot be that {happened}"
+        signature = view.domain.knowledge.signature
+        if now and signature.kind(event.name) is PredicateKind.ACTION:
+            cannot = f"{view.speech.subject(event)} cannot {view.speech.act(event)} now"
+        return sentences([": ".join(filter(None, [cannot, obstacle]))]), reasons
     supposing = history.with_occurrence(literal_of(str(event)), step=history.last_step)
     text, decided = _would(view, supposing, f"if {happened}", present=history)
     return text, reasons | decided

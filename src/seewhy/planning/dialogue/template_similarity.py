@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from rapidfuzz import fuzz
 
+from seewhy.dialogue.spelling import DENYING
 from seewhy.planning.dialogue.query import Asks
 from seewhy.planning.dialogue.question_templates import HOLE
 
@@ -15,8 +16,13 @@ _ALIKE_ACTION = 68.0
 TELLING = frozenset({"why", "what", "where", "who", "if", "not", "no", "how", "which"})
 """Words of which a question has as many as its template."""
 _FREE = {"is", "does", "do", "did", "has", "have", "in", "at", "on", "of", "for", "to", "with",
-         "from", "by", "that", "it", "there", "you", "your", "would", "will", "happen", "up",
+         "by", "that", "it", "there", "you", "your", "would", "will", "happen", "up",
          HOLE} | TELLING  # fmt: skip
+_PREPOSITIONS = (
+    {"in", "at"}, {"to", "into"}, {"on", "onto"}, {"of"}, {"for"}, {"with"}, {"by"}, {"up"},
+)  # fmt: skip
+"""Prepositions, together where one may stand for the other: on the shelf is not in it."""
+_COMING = frozenset({"will", "would"})
 VERBS = (
     {"move", "go", "walk", "drive", "travel", "head", "come", "run", "enter"},
     {"moving", "going", "walking", "driving", "travelling", "heading", "coming", "running",
@@ -49,10 +55,25 @@ def likeness(asks: Asks, read: Sequence[str], skeleton: Sequence[str]) -> float 
     >>> likeness(Asks.WHY_DID, asked, ["why", "did", "you", "not", "go", "to", "§"]) is None
     True
     """
-    if telling_words(read) != telling_words(skeleton):
+    if telling_words(read) != telling_words(skeleton) or _is_ahead(read) > _is_ahead(skeleton):
+        return None
+    if not _same_prepositions(read, skeleton):
         return None
     alike = fuzz.ratio(" ".join(read), " ".join(skeleton))
     return alike if _near_enough(asks, read, skeleton, alike) else None
+
+
+def _is_ahead(words: Sequence[str]) -> bool:
+    """Whether it is asked of what will be, or would be."""
+    return not _COMING.isdisjoint(words)
+
+
+def _same_prepositions(read: Sequence[str], skeleton: Sequence[str]) -> bool:
+    """Whether a question has no preposition but those of the template, or one like them."""
+    return all(
+        sum(word in alike for word in read) <= sum(word in alike for word in skeleton)
+        for alike in _PREPOSITIONS
+    )
 
 
 def telling_words(words: Sequence[str]) -> list[str]:
@@ -77,5 +98,11 @@ def _near_enough(asks: Asks, read: Sequence[str], skeleton: Sequence[str], alike
 def _lacking(words: Sequence[str], others: Sequence[str]) -> Iterator[tuple[str, Sequence[str]]]:
     """The words that carry meaning and are none of the others, with the others."""
     for word in words:
-        if word not in _FREE and max(fuzz.ratio(word, other) for other in others) < _ALIKE:
+        if word not in _FREE and not any(_same_word(word, other) for other in others):
             yield word, others
+
+
+def _same_word(word: str, other: str) -> bool:
+    """Whether two words are forms of one; "unusual" says the opposite of "usual"."""
+    opposite = word.removesuffix(other) in DENYING or other.removesuffix(word) in DENYING
+    return not opposite and fuzz.ratio(word, other) >= _ALIKE
