@@ -11,7 +11,8 @@ from seewhy.data.importers.class_features import ClassFeatures
 from seewhy.data.importers.names import distinct_names
 from seewhy.data.importers.yes_or_no import yes_or_no
 from seewhy.data.thing import CORNERS
-from seewhy.domain.tables import RESERVED, SCENE, TOGETHER
+from seewhy.domain.tables import NO_THINGS, RESERVED, SCENE, TOGETHER
+from seewhy.domain.things import RESERVED as OF_THINGS
 
 THING_COLUMNS = ("image", "thing", *CORNERS, "kind")
 MOST_VALUES = 100
@@ -106,9 +107,9 @@ def vocabulary_of(
     return Vocabulary(
         classes=names,
         # A feature that was called like a class would make both ambiguous.
-        features=_features(said, (*RESERVED, TOGETHER, SCENE, *names.values()), notes),
+        features=_features(said, (*RESERVED, NO_THINGS, TOGETHER, SCENE, *names.values()), notes),
         kinds=distinct_names(naturally({box.kind for box in boxes} - {""})),
-        attributes=_features(of_boxes, THING_COLUMNS, notes),
+        attributes=_features(of_boxes, OF_THINGS, notes),
     )
 
 
