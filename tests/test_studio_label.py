@@ -12,7 +12,9 @@ from fastapi.testclient import TestClient
 from seewhy.data.dataset import Dataset
 from seewhy.revision.edit import Edit
 from seewhy.studio.project import Project
+from seewhy.studio.proposing import Proposals
 from seewhy.studio.site import site
+from seewhy.studio.what_next import what_next, why_next
 from studio_builder import FRUIT, HTMX, RULES, TABLED, Browser, embed, pictures, with_domain
 
 
@@ -193,6 +195,28 @@ def test_the_first_pictures_differ(browser: Browser) -> None:
     order = [name for name, _ in browser.proposer.latest().order]
     # a, c and e are red, b, d and f are green: one of each comes first.
     assert {"ace".find(name[0]) >= 0 for name in order[:2]} == {True, False}
+
+
+def test_why_a_picture_is_next_is_said(browser: Browser) -> None:
+    assert browser.proposer.settle(120)
+    text = browser.get("/label")
+    first = shown_picture(text)
+    assert "Worth a label: many pictures are like it." in text
+    value = "spoilt" if first[0] in "bdf" else "good"
+    for choice in (f"class={value}", "colour=red", "round=yes"):
+        browser.post("/label/set", picture=first, choice=choice)
+    assert browser.proposer.settle(120)
+    assert "Worth a label: it is unlike what is labelled." in browser.get("/label")
+    assert "Worth a label" not in browser.get(f"/label?picture={first}")
+
+
+def test_before_pictures_are_looked_at_the_first_are_of_everywhere(tmp_path: Path) -> None:
+    """Neighbours in a folder are alike, and no chance has a say."""
+    project = Project(with_domain(pictures(tmp_path / "p", 8)))
+    order = list(what_next(project.pictures(), project.labels(), project.domain(), Proposals()))
+    assert order[:8] == [f"{letter}.png" for letter in "aecgbfdh"]
+    said = why_next("e.png", project.labels(), project.domain(), Proposals())
+    assert said == "Next by its place in the folder: it is not looked at yet."
 
 
 def test_news_come_only_where_there_are_any(browser: Browser) -> None:
