@@ -539,6 +539,7 @@ def test_everybody_can_use_the_pages_of_things(
         assert page.get_by_text("As it was seen").is_visible()  # what is supposed stays so
         page.get_by_text("No, that is wrong").click()
         page.get_by_label("1: ", exact=False).first.wait_for()
+        page.get_by_text("Trying exceptions").wait_for(state="detached")
         assert hindrances(page, width) == []
         context.close()
 
