@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import product
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from PIL import Image, ImageDraw
 from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import load_domain
 from seewhy.errors import DatasetError
+from seewhy_lab import commands
 from seewhy_lab.commands.set_tables import HEIGHT, WIDTH, main, photographs
 
 COLOURS = {"red": (200, 30, 30), "green": (20, 130, 40), "purple": (90, 20, 140)}
@@ -103,3 +105,15 @@ def test_too_few_kinds(source: Path, tmp_path: Path) -> None:
         (few / folder.name).symlink_to(folder)
     with pytest.raises(DatasetError, match="kinds of cards for one part of the tables"):
         main(few, out=tmp_path / "out", count=3, seed=0)
+
+
+def test_whatever_runs_as_a_program_is_defined_before_it_runs() -> None:
+    """``python -m seewhy_lab NAME`` runs the module's last line while it is read."""
+    late = [
+        file.name
+        for file in Path(commands.__file__).parent.glob("*.py")
+        if re.search(
+            r"^(def|class) ", file.read_text().partition('if __name__ == "__main__":')[2], re.M
+        )
+    ]
+    assert late == []

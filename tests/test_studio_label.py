@@ -11,6 +11,7 @@ from fastapi.testclient import TestClient
 
 from seewhy.data.dataset import Dataset
 from seewhy.revision.edit import Edit
+from seewhy.studio import progress
 from seewhy.studio.project import Project
 from seewhy.studio.proposing import Proposals
 from seewhy.studio.site import site
@@ -251,7 +252,9 @@ def test_the_most_probable_come_first_on_the_sheet(browser: Browser) -> None:
     assert set(names[2:]) == {"c.png", "e.png"}
 
 
-def test_the_page_says_when_to_go_on_to_train(browser: Browser, project: Project) -> None:
+def test_the_page_says_when_to_go_on_to_train(
+    browser: Browser, project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
     assert "Proposals come as soon as pictures of two classes" in browser.get("/label")
     for name, colour, label in (
         ("a.png", "red", "good"),
@@ -261,6 +264,8 @@ def test_the_page_says_when_to_go_on_to_train(browser: Browser, project: Project
     ):
         project.label({name: {"colour": colour, "round": "yes", "class": label}}, who="Ada")
     assert browser.proposer.settle(120)
+    assert "recognise the class of" not in browser.get("/label")  # so few say nothing
+    monkeypatch.setattr(progress, "_FEWEST", 4)
     text = browser.get("/label")
     assert re.search(r"recognise the class of \d+ % of the labelled pictures", text)
     assert '<a href="/train">' in text

@@ -53,12 +53,12 @@ def why_next(picture: str, labels: Labels, domain: Domain, proposals: Proposals)
     if picture not in proposals.pictures:
         return "Next by its place in the folder: it is not looked at yet."
     worth = dict(proposals.order).get(picture)
-    reasons: list[str] = []
-    if worth is not None:
-        first = not any(labels.is_complete(name, domain) for name in proposals.pictures)
-        reasons = _reasons(worth, first=first, heads=bool(proposals.probabilities))
-    if not reasons:
+    if worth is None:
         return "Others are worth more: something like it is labelled, or it is proposed surely."
+    first = not any(labels.is_complete(name, domain) for name in proposals.pictures)
+    reasons = _reasons(worth, first=first, heads=bool(proposals.probabilities))
+    if not reasons:
+        return "Little is left to learn from it: it is proposed surely, or like what is labelled."
     return f"Worth a label: {', and '.join(reasons)}."
 
 

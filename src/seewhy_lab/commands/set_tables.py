@@ -196,13 +196,13 @@ def _drawn(cards: list[Photograph], rng: np.random.Generator, source: Path) -> l
     return [by_kind[kind][int(rng.integers(len(by_kind[kind])))] for kind in chosen]
 
 
-if __name__ == "__main__":
-    typer.run(main)
-
-
 def _photograph(file: Path) -> Image.Image:
     try:
         with open_picture(file) as opened:
             return opened.convert("RGB")
     except PictureError as problem:
         raise PictureError(f"{file} {problem}") from None
+
+
+if __name__ == "__main__":
+    typer.run(main)
