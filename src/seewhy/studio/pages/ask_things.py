@@ -13,6 +13,7 @@ from fastapi.responses import RedirectResponse
 from seewhy.agent.things.thing_supposing import SupposedThings, say_edits, suppose_things
 from seewhy.errors import PictureError, QuestionError
 from seewhy.report.thing_card import rests_on, spoken_of
+from seewhy.studio.box_labels import box_labels, letter_size
 from seewhy.studio.drawing import picture_size
 from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.pages.done import Done
@@ -143,10 +144,17 @@ def _supposed(
     said = read_supposition(fields, read)
     edits = edits_of(said, read)
     supposed = suppose_things(agent.answerer, reply, edits)
+    size = picture_size(studio.project.picture_file(talk.picture))
+    called = [
+        (supposed if supposed.is_changed(number) else read).words.name(number).removeprefix("the ")
+        for number in range(len(read.reading.things))
+    ]
     return {
+        "labels": box_labels([thing.box for thing in read.reading.things], called, size),
+        "letters": letter_size(size),
         "read": read,
         "reply": reply,
-        "size": picture_size(studio.project.picture_file(talk.picture)),
+        "size": size,
         "shown": rests_on(reply),
         "classes": agent.domain.classes,
         "said": said,

@@ -41,7 +41,7 @@ router = APIRouter()
 
 Name = Annotated[str, Form(max_length=2000)]
 
-_NO_RULE = "No exception and no condition mends it."
+_NO_RULE = "No rule is behind it that an exception, or one more condition, would mend."
 _TAUGHT = "What sees learns from it when it is trained again."
 
 
