@@ -8,6 +8,7 @@ from dataclasses import replace
 from seewhy.agent.learning_from_pictures import AnnotatedScenes
 from seewhy.agent.things.thing_axioms import as_few_things
 from seewhy.agent.working_knowledge import working_knowledge
+from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import Domain
 from seewhy.knowledge.axiom import Axiom
 from seewhy.knowledge.justification import Node
@@ -15,7 +16,7 @@ from seewhy.knowledge.why import why
 from seewhy.revision.edit import FileName
 from seewhy.revision.proposal import Doubted
 
-__all__ = ["axioms_behind", "doubted_scene"]
+__all__ = ["axioms_behind", "doubted_scene", "scenes_with_things"]
 
 
 def doubted_scene(
@@ -49,6 +50,28 @@ def doubted_scene(
     few, cut = as_few_things(domain, beside)
     kept = AnnotatedScenes(cut.vectors[:-1], scenes.labels, scenes.pictures)
     return Doubted(working_knowledge(few), dict(texts), cut.vectors[-1], kept, wanted)
+
+
+def scenes_with_things(dataset: Dataset) -> AnnotatedScenes:
+    """Return the scenes of a dataset with a class whose things are annotated, or that have none.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from seewhy.domain.domain import load_domain
+    >>> scenes_with_things(Dataset((), load_domain("tabletop"), Path("data"))).labels
+    ()
+    """
+    rows = [
+        (vector, scene.label, dataset.name_of(scene))
+        for scene, vector in zip(dataset.scenes, dataset.vectors, strict=True)
+        if scene.label is not None and (scene.things or scene.no_things)
+    ]
+    return AnnotatedScenes(
+        tuple(vector for vector, _, _ in rows),
+        tuple(label for _, label, _ in rows),
+        tuple(name for _, _, name in rows),
+    )
 
 
 def axioms_behind(doubted: Doubted, reasons: Node | None = None) -> tuple[Axiom, ...]:
