@@ -105,6 +105,19 @@ def test_coco(animals: Path, tmp_path: Path) -> None:
     assert dataset.things == 5
 
 
+def test_attributes_called_like_columns_of_the_tables(tmp_path: Path) -> None:
+    """Otherwise the domain that is written could not be read."""
+    draw_all(tmp_path / "p", ["1.jpg"])
+    said = {"x": 3, "Left": "no", "kind": "big"}
+    boxes = [{"image_id": 1, "category_id": 1, "bbox": [0, 0, 5, 5], "attributes": said}]
+    write_json(tmp_path / "p/labels.json", coco([{"id": 1, "file_name": "1.jpg"}], boxes))
+    imported(tmp_path / "p", "coco", tmp_path / "data")
+    header = things(tmp_path / "data")[0].split(",")
+    assert header[:7] == ["image", "thing", "left", "top", "right", "bottom", "kind"]
+    assert len(header) == 10
+    assert not {"x", "left", "kind"} & set(header[7:])
+
+
 @pytest.mark.parametrize(
     ("rule", "labels"), [("largest", ["cat", "dog", "", "dog"]), ("none", ["", "", "", ""])]
 )

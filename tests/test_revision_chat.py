@@ -15,9 +15,10 @@ from seewhy.agent.agent import Agent
 from seewhy.dialogue.question import Questions
 from seewhy.domain.domain import load_domain
 from seewhy.errors import QuestionError, RevisionError
-from seewhy.revision.conversation import Conversation, Said
+from seewhy.revision.conversation import Conversation
 from seewhy.revision.remarks import Says, remark_of
 from seewhy.revision.revisions import Revisions
+from seewhy.revision.said import Said
 
 Talk = Callable[..., Conversation]
 

@@ -15,6 +15,8 @@ from PIL import Image
 from conftest import Run
 from seewhy.check.domain import check_domain
 from seewhy.data.dataset import Dataset
+from seewhy.data.thing_scene import thing_scene
+from seewhy.dialogue.things.answering import ThingAnswerer
 from seewhy.domain.domain import load_domain
 from seewhy.studio import incoming
 from seewhy.studio.access import AccessRules
@@ -249,9 +251,59 @@ def test_names_become_a_domain(new_client: TestClient, folder: Path) -> None:
     check_domain(domain)
     assert list(domain.classes) == ["good", "spoilt"]
     assert {name: one.values for name, one in domain.features.items()} == {
-        "colour": ("green", "red"),
+        "colour": ("red", "green"),  # as it was typed: the keys are in this order
         "has_spots": ("yes", "no"),
     }
+
+
+def test_names_of_things_become_a_domain(new_client: TestClient, folder: Path) -> None:
+    asked = {
+        "csrf": csrf_of(new_client),
+        "subject": "the table",
+        "thing": "Playing card",
+        "of_things": "number: one, two, three\nhas spots\nbent",
+        "most": "4",
+    }
+    answered = new_client.post("/begin/names", data=asked)
+    assert answered.url.path == "/label"
+    (file,) = folder.glob("*/domain.toml")
+    domain = load_domain(file.parent)
+    check_domain(domain)
+    assert (dict(domain.classes), dict(domain.features)) == ({}, {})
+    things = domain.things
+    assert things is not None
+    assert (things.one, things.many, things.most) == ("playing card", "playing cards", 4)
+    assert {name: one.values for name, one in things.features.items()} == {
+        "number": ("one", "two", "three"),
+        "has_spots": ("yes", "no"),
+        "bent": ("yes", "no"),
+    }
+    assert list(things.relations) == ["left", "right", "above", "below"]
+    replies = ThingAnswerer(things)
+    card = {"number": "two", "has_spots": "yes", "bent": "no"}
+    scene = thing_scene(things, [card], relations={})
+    assert replies.answer("how many bent playing cards are there?", scene).value == 0
+    assert replies.answer("is there a playing card with spots?", scene).value is True
+    assert "number of a playing card" in new_client.get("/begin").text
+
+
+def test_classes_and_features_beside_things(new_client: TestClient, folder: Path) -> None:
+    asked = {
+        "csrf": csrf_of(new_client),
+        "subject": "the card",
+        "classes": "sorted, mixed",
+        "thing": "card",
+        "of_things": "colour: red, green",
+    }
+    assert new_client.post("/begin/names", data=asked).url.path == "/label"
+    (file,) = folder.glob("*/domain.toml")
+    domain = load_domain(file.parent)
+    check_domain(domain)
+    assert list(domain.classes) == ["sorted", "mixed"]
+    assert (
+        "%% if there are at least two cards, then the card is sorted"
+        in (file.parent / "knowledge.al").read_text()
+    )
 
 
 @pytest.mark.parametrize(
@@ -263,6 +315,13 @@ def test_names_become_a_domain(new_client: TestClient, folder: Path) -> None:
         ({"classes": "good, bad", "features": "Has spots\nhas_spots"}, "named twice"),
         ({"classes": "good, bad", "table": "class,a\ngood,1\n"}, "the table of classes"),
         ({"classes": "good, bad", "features": "a: b, c", "subject": "?"}, "no word"),
+        ({"of_things": "colour: red, green"}, "say what one of them is called"),
+        ({"thing": "card"}, "say what there is to see of each card"),
+        ({"thing": "card", "of_things": "colour: red"}, "features, line 1"),
+        ({"thing": "card", "of_things": "above"}, "is what is measured between two things"),
+        ({"thing": "card", "of_things": "a", "features": "A"}, "of the picture, too"),
+        ({"thing": "card", "of_things": "a", "most": "99"}, "1 to 50 of them"),
+        ({"thing": "card", "of_things": "a", "classes": "good"}, "at least two"),
     ],
 )
 def test_names_that_make_no_domain(

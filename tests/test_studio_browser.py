@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import pytest
+from PIL import Image
 
 from seewhy.studio.pages import PAGES
 from seewhy.studio.project import Project
@@ -55,8 +56,8 @@ def until(project: Project, expected: dict[str, dict[str, str]]) -> None:
 
 def test_labelling_by_keyboard_alone(page: Page, address: str, project: Project) -> None:
     page.goto(f"{address}/label?picture=a.png")
-    # colour: green, red; round: yes, no; class: good, spoilt. All keys come at once.
-    for key in ("2", "1", "1"):
+    # colour: red, green; round: yes, no; class: good, spoilt. All keys come at once.
+    for key in ("1", "1", "1"):
         page.keyboard.press(key)
     until(project, {"a.png": {"colour": "red", "round": "yes", "class": "good"}})
     page.wait_for_selector("#workbench:not([data-picture='a.png'])")
@@ -233,3 +234,28 @@ def test_tab_reaches_the_content_first(page: Page, address: str) -> None:
     assert page.evaluate("document.activeElement.textContent") == "Skip to the content"
     page.keyboard.press("Enter")
     assert page.evaluate("document.activeElement.id") == "content"
+
+
+def test_all_that_was_sent_is_told_at_once(page: Page, tmp_path: Path) -> None:
+    """Pictures are sent some at a time, which nobody has to know."""
+    sent = tmp_path / "sent"
+    pictures(sent, 26)
+    more = [Image.new("RGB", (8, 8), (n, 9, 9)) for n in range(20)]
+    for number, picture in enumerate(more):
+        picture.save(sent / f"more-{number}.png")
+    (sent / "phone.HEIC").write_bytes(b"....ftypheic")
+    (sent / "a-broken.jpg").write_bytes(b"no picture")
+    for address in served(Project(tmp_path / "new")):
+        page.goto(f"{address}/begin")
+        page.get_by_label("Single pictures").set_input_files(sorted(sent.iterdir()))
+        page.get_by_role("button", name="Send the pictures").click()
+        page.get_by_text("46 pictures came.").wait_for()
+        assert page.get_by_text("2 left out").is_visible()
+        assert page.get_by_text("HEIC is not read: save these photographs as JPEG").is_visible()
+        assert page.get_by_text("a-broken.jpg: ").is_visible()
+        page.get_by_label("Single pictures").set_input_files([sent / "a.png"])
+        page.get_by_role("button", name="Send the pictures").click()
+        page.get_by_text("No new picture came").wait_for()
+        page.get_by_label("Single pictures").set_input_files([sent / "phone.HEIC"])
+        page.get_by_role("button", name="Send the pictures").click()
+        page.get_by_text("None of these is a picture that is read").wait_for()

@@ -11,8 +11,11 @@ from fastapi.testclient import TestClient
 
 from seewhy.data.dataset import Dataset
 from seewhy.revision.edit import Edit
+from seewhy.studio import progress
 from seewhy.studio.project import Project
+from seewhy.studio.proposing import Proposals
 from seewhy.studio.site import site
+from seewhy.studio.what_next import what_next, why_next
 from studio_builder import FRUIT, HTMX, RULES, TABLED, Browser, embed, pictures, with_domain
 
 
@@ -195,6 +198,28 @@ def test_the_first_pictures_differ(browser: Browser) -> None:
     assert {"ace".find(name[0]) >= 0 for name in order[:2]} == {True, False}
 
 
+def test_why_a_picture_is_next_is_said(browser: Browser) -> None:
+    assert browser.proposer.settle(120)
+    text = browser.get("/label")
+    first = shown_picture(text)
+    assert "Worth a label: many pictures are like it." in text
+    value = "spoilt" if first[0] in "bdf" else "good"
+    for choice in (f"class={value}", "colour=red", "round=yes"):
+        browser.post("/label/set", picture=first, choice=choice)
+    assert browser.proposer.settle(120)
+    assert "Worth a label: it is unlike what is labelled." in browser.get("/label")
+    assert "Worth a label" not in browser.get(f"/label?picture={first}")
+
+
+def test_before_pictures_are_looked_at_the_first_are_of_everywhere(tmp_path: Path) -> None:
+    """Neighbours in a folder are alike, and no chance has a say."""
+    project = Project(with_domain(pictures(tmp_path / "p", 8)))
+    order = list(what_next(project.pictures(), project.labels(), project.domain(), Proposals()))
+    assert order[:8] == [f"{letter}.png" for letter in "aecgbfdh"]
+    said = why_next("e.png", project.labels(), project.domain(), Proposals())
+    assert said == "Next by its place in the folder: it is not looked at yet."
+
+
 def test_news_come_only_where_there_are_any(browser: Browser) -> None:
     assert browser.proposer.settle(120)
     browser.get("/label?picture=a.png")
@@ -227,7 +252,9 @@ def test_the_most_probable_come_first_on_the_sheet(browser: Browser) -> None:
     assert set(names[2:]) == {"c.png", "e.png"}
 
 
-def test_the_page_says_when_to_go_on_to_train(browser: Browser, project: Project) -> None:
+def test_the_page_says_when_to_go_on_to_train(
+    browser: Browser, project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
     assert "Proposals come as soon as pictures of two classes" in browser.get("/label")
     for name, colour, label in (
         ("a.png", "red", "good"),
@@ -237,6 +264,8 @@ def test_the_page_says_when_to_go_on_to_train(browser: Browser, project: Project
     ):
         project.label({name: {"colour": colour, "round": "yes", "class": label}}, who="Ada")
     assert browser.proposer.settle(120)
+    assert "recognise the class of" not in browser.get("/label")  # so few say nothing
+    monkeypatch.setattr(progress, "_FEWEST", 4)
     text = browser.get("/label")
     assert re.search(r"recognise the class of \d+ % of the labelled pictures", text)
     assert '<a href="/train">' in text

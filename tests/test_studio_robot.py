@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import html
+import json
+import re
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fastapi.testclient import TestClient
@@ -160,3 +164,106 @@ def test_the_command_line_supposes_the_same(run: Run, lamps: Path) -> None:
     wrong = run("simulate", lamps, "--goal", "lit(desk)", "--at-first", "broken(dusk)")
     assert wrong.code == 2
     assert "desk" in wrong.err
+
+
+# Another scene, and what was done so far ----------------------------------------------------------
+
+SCENES: dict[str, Any] = {
+    "scenes": [
+        {
+            "image_index": number,
+            "image_filename": f"{number}.png",
+            "objects": [
+                {"color": colour, "shape": "cube", "size": "large", "material": "rubber",
+                 "pixel_coords": [60 + 90 * place, 90, 9]}
+                for place, colour in enumerate(colours)
+            ],
+            "relationships": {"on": [[], []]},
+        }
+        for number, colours in enumerate([("red", "blue"), ("green", "gray")])
+    ]
+}  # fmt: skip
+
+
+def begin_with(client: TestClient, project: Project, files: dict[str, Any], **asked: str) -> str:
+    """Let the robot of the table run; the page when it has ended."""
+    form = {"csrf": csrf_of(client), "domain": "tabletop", **asked}
+    begun = client.post("/robot", data=form, files=files)
+    assert begun.status_code == 200, begun.text
+    end = time.monotonic() + 120
+    while jobs_of(project).of("robot")[0].runs:
+        assert time.monotonic() < end
+        time.sleep(0.1)
+    job = jobs_of(project).of("robot")[0]
+    assert job.state == "finished", job.lines()
+    return client.get("/robot").text
+
+
+def test_a_run_begins_with_the_things_of_a_scene_that_is_sent(
+    client: TestClient, project: Project
+) -> None:
+    sent = {"scene_file": ("my scenes.json", json.dumps(SCENES).encode(), "application/json")}
+    goal = "put the green cube on the gray cube"
+    shown = begin_with(client, project, sent, goal=goal, number="1")
+    assert "The things are those of my_scenes, scene 1." in shown
+    assert "In truth it is reached." in shown
+    # It is in the list then, and the next run takes it from there.
+    (value,) = re.findall(r'<option value="([^"]+#0)">my_scenes, scene 0</option>', shown)
+    goal = "put the red cube on the blue cube"
+    shown = begin_with(client, project, {}, goal=goal, scene=html.unescape(value))
+    assert "scene 0</option>" in shown
+    assert "In truth it is reached." in shown
+    told = client.post(
+        "/robot/ask", data={"csrf": csrf_of(client), "question": "what is your goal?"}
+    ).text
+    assert "red" in told
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "asked", "said"),
+    [
+        ("scenes.json", b"{", {}, "scenes"),
+        ("scenes.json", json.dumps(SCENES).encode(), {}, "has 2 scenes; say which"),
+        ("scenes.json", json.dumps(SCENES).encode(), {"number": "7"}, "image_index 7"),
+        ("scenes.txt", b"{}", {}, "is neither a scene (.json) nor a history (.al)"),
+        ("scenes.json", json.dumps(SCENES).encode(), {"domain": "robot_assistant"}, "no [things]"),
+    ],
+)
+def test_a_scene_that_cannot_be_is_said(
+    client: TestClient,
+    project: Project,
+    name: str,
+    content: bytes,
+    asked: dict[str, str],
+    said: str,
+) -> None:
+    form = {"csrf": csrf_of(client), "domain": "tabletop", "goal": "make a tower of two", **asked}
+    files = {"scene_file": (name, content, "application/json")}
+    refused = client.post("/robot", data=form, files=files)
+    assert refused.status_code == 422
+    assert said in refused.text
+    assert not jobs_of(project).of("robot")
+
+
+def test_it_is_planned_on_from_what_was_done_so_far(
+    client: TestClient, project: Project, lamps: Path
+) -> None:
+    run_it(client, project, lamps)
+    record = (jobs_of(project).of("robot")[0].folder / "run.al").read_bytes()
+    files = {"history_file": ("my run.al", record, "text/plain")}
+    form = {"csrf": csrf_of(client), "folder": str(lamps), "goal": "lit(desk)"}
+    shown = begin_with(client, project, files, folder=str(lamps), goal="lit(desk)")
+    assert "What was done so far: press the desk lamp." in shown
+    assert "The goal holds already; nothing is to be done." in shown
+    assert "In truth" not in shown
+    seen = {"history_file": ("seen.al", b"observed -lit(desk) at 0.", "text/plain")}
+    shown = begin_with(client, project, seen, folder=str(lamps), goal="lit(desk)")
+    assert "The shortest plan has 1 action." in shown
+    assert "Intended from here: press the desk lamp." in shown
+    told = client.post(
+        "/robot/ask", data={"csrf": csrf_of(client), "question": "what is your goal?"}
+    ).text
+    assert "the desk lamp is lit" in told
+    wrong = {"history_file": ("run.al", b"moo.", "text/plain")}
+    refused = client.post("/robot", data=form, files=wrong)
+    assert refused.status_code == 422

@@ -144,6 +144,13 @@ def suggested(text: str) -> list[str]:
     return [html.unescape(one) for one in re.findall(r'name="question" value="([^"]+)"', text)]
 
 
+def shown_rows(project: Project) -> list[str]:
+    """The rows of the things of the picture, from the left to the right."""
+    rows = (project.folder / "things.csv").read_text().splitlines()
+    found = [row for row in rows if row.startswith(PICTURE)]
+    return sorted(found, key=lambda row: sum(map(float, row.split(",")[2:5:2])))
+
+
 def count_of(project: Project, value: str = "") -> int:
     rows = (project.folder / "things.csv").read_text().splitlines()
     return sum(row.startswith(PICTURE) and value in row for row in rows)
@@ -255,7 +262,7 @@ def test_what_if_is_a_function_of_its_address(asking: Browser, shown: Project) -
     text = asking.get(f"/ask?picture={PICTURE}")
     count = count_of(shown)
     boxes = re.findall(
-        rf'<a class="box" data-number="(\d)" href="{re.escape(address)}&amp;go=(\d)"', text
+        rf'class="box" data-number="(\d)" href="{re.escape(address)}&amp;go=(\d)"', text
     )
     assert boxes == [(str(number), str(number + 1)) for number in range(count)]
     assert "As it was seen" not in text
@@ -272,11 +279,26 @@ def test_what_if_is_a_function_of_its_address(asking: Browser, shown: Project) -
     assert f'<input type="hidden" name="at" value="{count + 1}">' in then
     assert '<input type="hidden" name="gone" value="1">' in then
     assert "taken away</a>" in then
+    # The picture has the boxes as they are supposed to be.
+    assert '<svg id="read-boxes"' in then
+    assert then.count('hx-swap-oob="true"') == 1
+    one = r'<a id="box-\d".*?<g class="([^"]*)">.*?<text[^>]*>([^<]*)'
+    drawn = re.findall(one, then, re.DOTALL)
+    assert [kind.split()[-1] for kind, _ in drawn].count("gone") == 1
+    assert drawn[0][0].endswith("gone")
+    assert sum(kind.endswith("changed") for kind, _ in drawn[1:]) == sum(
+        ",blue," in row for row in shown_rows(shown)[1:]
+    )
+    assert all("red" in name for kind, name in drawn if kind.endswith("changed"))
     assert "By the rules the picture would " in then
     kept = asking.post("/ask", picture=PICTURE, question="how many shapes are there?", gone="1")
     assert f"<strong>There are {words[count - 1]} shapes: " in kept
+    assert kept.count('<path class="halo"') == 1
+    assert "hx-swap-oob" not in kept
     page = asking.get(f"{address}&gone=1")
     assert "<h1>What if</h1>" in page
+    assert page.count('<path class="halo"') == 1
+    assert '<path class="halo"' not in asking.get(f"/ask?picture={PICTURE}")
     refused = asking.client.get(f"{address}&shows.1.colour=mauve")
     assert refused.status_code == 422
     assert "&#39;mauve&#39; is no value of &#39;colour&#39;" in refused.text
@@ -501,8 +523,15 @@ def test_everybody_can_use_the_pages_of_things(
         page.locator(".boxes.read a").nth(1).focus()
         page.keyboard.press("Enter")
         page.locator("[name='shows.2.form']:checked").focus()
+        page.wait_for_function("document.querySelector('#supposed-form')['htmx-internal-data']")
         page.keyboard.press("ArrowRight")
         page.get_by_text("As it was seen").wait_for()
+        assert page.locator(".boxes .changed").count() == 1
+        page.locator("#gone").check()
+        page.locator(".boxes .gone path").first.wait_for(state="attached")
+        page.locator("#gone").uncheck()
+        page.locator(".boxes .gone").wait_for(state="detached")
+        page.locator("[name='shows.2.form']:checked").focus()
         assert page.evaluate("document.activeElement.name") == "shows.2.form"
         page.locator("#question").fill("how many balls are there?")
         page.keyboard.press("Enter")
@@ -510,6 +539,7 @@ def test_everybody_can_use_the_pages_of_things(
         assert page.get_by_text("As it was seen").is_visible()  # what is supposed stays so
         page.get_by_text("No, that is wrong").click()
         page.get_by_label("1: ", exact=False).first.wait_for()
+        page.get_by_text("Trying exceptions").wait_for(state="detached")
         assert hindrances(page, width) == []
         context.close()
 

@@ -204,6 +204,19 @@ WRONG: dict[str, tuple[str, str, str]] = {
         "domain.toml:20: 'with a stone' stands for 'cherry' of 'kind_of_fruit', too; let it stand "
         "for one",
     ),
+    "feature of the picture called like a column": (
+        "[things]\n",
+        '[features.things]\nname = "things"\n[features.things.values]\n'
+        'yes = { say = "yes" }\nno = { say = "no" }\n\n[things]\n',
+        "domain.toml:7: 'things' is what another column of scenes.csv is called; call the feature "
+        "otherwise",
+    ),
+    "feature of things called like a column": (
+        "[things.features.weight]",
+        "[things.features.left]",
+        "domain.toml:26: 'left' is what another column of things.csv is called; call the feature "
+        "otherwise",
+    ),
     "key that is none": (
         "most = 8",
         "mots = 8",

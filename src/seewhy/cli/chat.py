@@ -56,9 +56,9 @@ def chat(
 
     voice = find_voice() if speak else None
     if is_of_things(model):
-        options = {"--data": data, "--reading": reading, "--gate": gate}
+        options = {"--reading": reading, "--gate": gate}
         refuse({**options, "--known-share": known_share}, why="leave it out")
-        chat_about_things(model, image, device=device, json=json, voice=voice)
+        chat_about_things(model, image, data=data, device=device, json=json, voice=voice)
         return
     agent = Agent.load(model, device=device, reading=reading, gate=gate, known_share=known_share)
     if data is not None:

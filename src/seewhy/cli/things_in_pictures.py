@@ -207,24 +207,30 @@ def _print_scene(read: ReadScene) -> None:
         say(f"class: {domain.classes[reading.label].say}, {by}{sure if by == 'seen' else ''}")
 
 
-def chat_about_things(model: Path, image: Path, *, device: str, json: bool, voice: Any) -> None:
-    """Talk about the things in a picture."""
+def chat_about_things(
+    model: Path, image: Path, *, data: Path | None, device: str, json: bool, voice: Any
+) -> None:
+    """Talk about the things in a picture, and revise the rules about them."""
+    from seewhy.data.dataset import Dataset
+    from seewhy.revision.revisions import Revisions
+    from seewhy.revision.things.conversation import ThingConversation
+
     agent = _loaded(model, device)
-    scene = agent.scene_of(agent.read(image))
-    before: PictureReply | None = None
-
-    def answer(text: str) -> PictureReply:
-        nonlocal before
-        before = agent.answer(text, scene, previous=before)
-        return before
-
+    if data is not None:
+        Dataset.load(data, agent.domain)
+    sighting = agent.read(image).sighting
+    talk = ThingConversation(
+        agent,
+        Revisions(model, dataset=data),
+        look=lambda knowing: knowing.scene_of(knowing.reader.read(sighting)),
+    )
     converse(
-        answer,
+        talk.say,
         greeting=(
             "Ask about the things in the picture, for instance:",
             f"  how many {agent.things.many} are there?",
             "  what is there?",
-            'then "why?"; an empty line ends.',
+            'then "why?"; "the rule is wrong" revises the rules; an empty line ends.',
         ),
         json=json,
         voice=voice,

@@ -8,7 +8,7 @@ from pathlib import Path
 from seewhy.data.picture_path import picture_finder
 from seewhy.data.scene import Scene, TablePlace
 from seewhy.domain.domain import Domain
-from seewhy.domain.tables import CLASS, RESERVED
+from seewhy.domain.tables import CLASS, NO_THINGS, RESERVED
 from seewhy.errors import DatasetError
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.text.nearest import did_you_mean
@@ -16,12 +16,10 @@ from seewhy.text.nearest import did_you_mean
 __all__ = [
     "IMAGE",
     "NONE",
-    "NO_THINGS",
     "OPTIONAL",
     "SPLITS",
     "cells_of_scenes",
     "columns_of",
-    "may_say_none",
     "scenes_of_rows",
 ]
 
@@ -31,8 +29,8 @@ OPTIONAL = ("split", "group", "reasons")
 
 SPLITS = ("train", "test")
 
-NO_THINGS, NONE = "things", "none"
-"""The column, and the cell, by which a picture of a domain with things is said to show none."""
+NONE = "none"
+"""The cell of the column ``things`` by which a picture is said to show none."""
 
 
 def columns_of(domain: Domain) -> tuple[str, ...]:
@@ -45,20 +43,8 @@ def columns_of(domain: Domain) -> tuple[str, ...]:
     ('image', 'class', 'num_blocks', 'base')
     """
     others = (name for name in RESERVED if name not in (IMAGE, CLASS))
-    none = (NO_THINGS,) if may_say_none(domain) else ()
+    none = (NO_THINGS,) if domain.things is not None else ()
     return (IMAGE, CLASS, *domain.features, *none, *others)
-
-
-def may_say_none(domain: Domain) -> bool:
-    """Whether tables have a column for pictures without things; not where a feature has its name.
-
-    Examples
-    --------
-    >>> from seewhy.domain.domain import load_domain
-    >>> may_say_none(load_domain("tabletop")), may_say_none(load_domain("structure_stability"))
-    (True, False)
-    """
-    return domain.things is not None and NO_THINGS not in domain.features
 
 
 def cells_of_scenes(
@@ -113,7 +99,7 @@ def scenes_of_rows(
         place_of.get(name, -1) for name in (IMAGE, CLASS, *OPTIONAL)
     )
     features_at = [place_of.get(key, -1) for key in domain.features]
-    none_at = place_of.get(NO_THINGS, -1) if may_say_none(domain) else -1
+    none_at = place_of.get(NO_THINGS, -1) if domain.things is not None else -1
     find = picture_finder(folder, outside=outside)
     vectors: dict[FeatureVector, FeatureVector] = {}
 

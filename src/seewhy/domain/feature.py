@@ -7,7 +7,15 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from seewhy.domain.key_place import KeyPlace
-from seewhy.domain.tables import CLASS, RESERVED, SCENE, TOGETHER, DomainFile, FeatureTable
+from seewhy.domain.tables import (
+    CLASS,
+    NO_THINGS,
+    RESERVED,
+    SCENE,
+    TOGETHER,
+    DomainFile,
+    FeatureTable,
+)
 from seewhy.errors import DomainError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.language import Knowledge
@@ -93,7 +101,7 @@ def _declared(key: str, file: DomainFile, knowledge: Knowledge, place: KeyPlace)
             f"{'a whole picture' if key == SCENE else 'a class of this domain'} is called; call "
             "the feature otherwise"
         )
-    if key in RESERVED:
+    if key in RESERVED or (key == NO_THINGS and file.things is not None):
         raise DomainError(
             f"{here()}: '{key}' is what another column of scenes.csv is called; call the feature "
             "otherwise"

@@ -26,6 +26,9 @@ SCENE = "scene"
 RESERVED = ("image", CLASS, "split", "group", "reasons")
 """Columns of scenes.csv that are no features."""
 
+NO_THINGS = "things"
+"""One more of these, where the domain has things: whether a picture is said to show none."""
+
 TOGETHER = "together"
 """What all networks of features are called where they are trained together."""
 

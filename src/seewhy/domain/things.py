@@ -15,10 +15,13 @@ from seewhy.knowledge.signature import Predicate, PredicateKind
 from seewhy.text.nearest import did_you_mean
 from seewhy.text.nouns import plural, with_article
 
-__all__ = ["CONCLUDED", "RESERVED", "Relation", "ThingFeature", "Things", "read_things"]
+__all__ = ["CONCLUDED", "RESERVED", "SEEN", "Relation", "ThingFeature", "Things", "read_things"]
 
 RESERVED = ("image", "thing", "left", "top", "right", "bottom", "kind", "x", "y", "z")
 """Columns of things.csv that are no features."""
+
+SEEN = "seen"
+"""The measure of a relation that a head on the two things sees."""
 
 CONCLUDED = "axioms"
 """The measure of a relation that only axioms conclude."""

@@ -7,18 +7,29 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from seewhy.data.importers.annotation import AnnotatedPicture, Notes
+from seewhy.data.importers.annotation import AnnotatedPicture, Box, Notes
 from seewhy.data.importers.class_features import ClassFeatures, read_class_features
 from seewhy.data.importers.names import same_words
-from seewhy.data.importers.vocabulary import vocabulary_of
+from seewhy.data.importers.vocabulary import Vocabulary, vocabulary_of
 from seewhy.data.importers.writing import CLASSES, class_table
 from seewhy.dialogue.question_words import words_of
 from seewhy.errors import DatasetError, DomainError
 from seewhy.new_domain.from_pictures import WrittenDomain, write_domain_of
-from seewhy.new_domain.sketch import look_features, sketch_of_vocabulary
+from seewhy.new_domain.sketch import (
+    SketchThings,
+    look_features,
+    sketch_feature,
+    sketch_of_vocabulary,
+)
+from seewhy.new_domain.thing_texts import RELATIONS
+from seewhy.new_domain.words import in_a_sentence
 
-__all__ = ["NamedDomain", "domain_from_names", "named_classes", "named_features"]
+__all__ = ["MOST_THINGS", "NamedDomain", "domain_from_names", "named_classes", "named_features"]
 
+MOST_THINGS = 12
+"""So many things a picture may show, where nothing else is said."""
+
+_MOST_THINGS = 50
 _YES_OR_NO = ("yes", "no")
 _TABLE = "the table of classes"
 
@@ -38,12 +49,22 @@ class NamedDomain:
         classes and features need not be named otherwise. Empty for none.
     subject : str
         How answers name the picture.
+    thing : str
+        What each of several things in a picture is called, as in "card"; empty where a picture is
+        looked at as a whole. Then classes and features of the picture need not be named.
+    of_things : mapping of str to sequence of str
+        Feature of each thing → its values, in their words.
+    most : int
+        So many things a picture may show.
     """
 
     classes: Sequence[str] = ()
     features: Mapping[str, Sequence[str]] = field(default_factory=dict)
     table: str = ""
     subject: str = "the picture"
+    thing: str = ""
+    of_things: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    most: int = MOST_THINGS
 
 
 def named_classes(text: str) -> tuple[str, ...]:
@@ -109,7 +130,8 @@ def domain_from_names(named: NamedDomain, folder: Path, *, data: str) -> Written
     Raises
     ------
     DatasetError, DomainError
-        If fewer than two classes are named, the table is none, or the folder is taken.
+        If fewer than two classes are named, the table is none, or the folder is taken; if things
+        have no feature, or one that the picture has, too.
 
     Examples
     --------
@@ -132,15 +154,16 @@ def domain_from_names(named: NamedDomain, folder: Path, *, data: str) -> Written
     ]
     if said is not None and named.classes:
         said = said.for_classes(named.classes)
-    vocabulary = vocabulary_of(pictures, said, Notes())
-    if len(vocabulary.classes) < 2:
+    vocabulary = vocabulary_of(pictures, said, Notes(), as_said=True)
+    things = _things(named, vocabulary)
+    if len(vocabulary.classes) == 1 or (things is None and not vocabulary.classes):
         raise DomainError(
             "classes: name at least two, with commas between them; they are what a picture may be"
         )
-    has_look = not vocabulary.features
+    has_look = not vocabulary.features and things is None
     if has_look:
         said = look_features(vocabulary)
-        vocabulary = vocabulary_of(pictures, said, Notes())
+        vocabulary = vocabulary_of(pictures, said, Notes(), as_said=True)
     sketch = sketch_of_vocabulary(
         vocabulary,
         said,
@@ -148,6 +171,7 @@ def domain_from_names(named: NamedDomain, folder: Path, *, data: str) -> Written
         subject=named.subject,
         source="names",
         is_look=has_look,
+        things=things,
     )
     commands = (
         f"seewhy check {folder}",
@@ -161,6 +185,52 @@ def domain_from_names(named: NamedDomain, folder: Path, *, data: str) -> Written
         commands=commands,
         data=data,
     )
+
+
+def _things(named: NamedDomain, vocabulary: Vocabulary) -> SketchThings | None:
+    """What is said of the things in a picture; None where it is looked at as a whole."""
+    one = in_a_sentence(named.thing)
+    if not words_of(one):
+        if named.of_things:
+            raise DomainError(
+                "things: say what one of them is called, such as 'card', or leave their features "
+                "out"
+            )
+        return None
+    if not named.of_things:
+        raise DomainError(
+            f"things: say what there is to see of each {one}, a feature in a line such as "
+            "'colour: red, green'"
+        )
+    if not 1 <= named.most <= _MOST_THINGS:
+        raise DomainError(
+            f"things: a picture may show 1 to {_MOST_THINGS} of them, got {named.most}"
+        )
+    # What is named is what boxes would say of things, one a value.
+    boxes = tuple(
+        Box(0.0, 0.0, 1.0, 1.0, "", {feature: value})
+        for feature, values in named.of_things.items()
+        for value in values
+    )
+    picture = AnnotatedPicture("", boxes=boxes)
+    attributes = vocabulary_of([picture], None, Notes(), as_said=True).attributes
+    of_picture = {each.name: each.words for each in vocabulary.features.values()}
+    taken = {*of_picture, *vocabulary.classes.values()}
+    for words in attributes.values():
+        if words.name in taken:
+            raise DomainError(
+                f"things: '{words.words}' is a feature or a class of the picture, too; call one "
+                "of the two otherwise"
+            )
+    measured = {**of_picture, **{words.name: words.words for words in attributes.values()}}
+    for name in RELATIONS:
+        if name in measured:
+            raise DomainError(
+                f"'{measured[name]}' is what is measured between two things; call the feature "
+                "otherwise"
+            )
+    features = {words.name: sketch_feature(words) for words in attributes.values()}
+    return SketchThings(one, features, named.most)
 
 
 def _table_of(text: str) -> ClassFeatures:

@@ -12,6 +12,9 @@ from seewhy.files.folders import whole_folder
 from seewhy.induction.axiom_text import axiom_statement
 from seewhy.induction.candidate import Candidate
 from seewhy.induction.sentence import say_rule
+from seewhy.induction.things.conditions import Pattern, There, ThingRule
+from seewhy.induction.things.rule_sentence import say_thing_rule
+from seewhy.induction.things.rule_text import thing_rule_statement
 from seewhy.induction.tree import PathCondition
 from seewhy.new_domain.proposals import Proposals, Values, proposals
 from seewhy.new_domain.sketch import Sketch
@@ -96,7 +99,17 @@ def _axiom(domain: Domain, label: str, values: Values) -> tuple[str, str]:
 
 
 def _example(domain: Domain) -> str:
-    """An axiom that could be, with its sentence."""
+    """An axiom that could be, with its sentence; empty where there is no class to conclude."""
+    if not domain.classes:
+        return ""
+    if not domain.features:
+        label = next(iter(domain.classes))
+        rule = ThingRule(label, (There(Pattern(1, ()), least=2),))
+        assert domain.things is not None
+        statement = thing_rule_statement(
+            rule, domain.things, domain.schema, domain.knowledge.signature
+        )
+        return f"%% {say_thing_rule(domain, rule)}\n{statement}"
     name, feature = next(iter(domain.features.items()))
     label = next(iter(domain.classes))
     sentence, statement = _axiom(domain, label, {name: feature.values[0]})

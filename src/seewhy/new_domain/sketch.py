@@ -9,7 +9,7 @@ from seewhy.data.importers.class_features import ClassFeatures
 from seewhy.data.importers.names import valid_name
 from seewhy.data.importers.reading import ReadSource
 from seewhy.data.importers.record import FeatureRecord, WordsRecord
-from seewhy.data.importers.vocabulary import Vocabulary, named_features
+from seewhy.data.importers.vocabulary import FeatureWords, Vocabulary, named_features
 from seewhy.errors import DomainError
 from seewhy.new_domain.words import in_a_sentence, plain_words
 
@@ -28,6 +28,15 @@ class SketchFeature:
 
 
 @dataclass(frozen=True)
+class SketchThings:
+    """The things in a picture: what one is called, its features, how many there may be."""
+
+    one: str
+    features: Mapping[str, SketchFeature]
+    most: int
+
+
+@dataclass(frozen=True)
 class Sketch:
     """A domain to be written.
 
@@ -42,6 +51,8 @@ class Sketch:
         How answers name the picture; its last word names the sort.
     source : str
         What the domain is written from, for its first line.
+    things : SketchThings or None
+        Where a picture shows several; then there need be no classes and no features.
     """
 
     name: str
@@ -50,6 +61,7 @@ class Sketch:
     class_values: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     subject: str = "the picture"
     source: str = ""
+    things: SketchThings | None = None
 
     @property
     def has_look(self) -> bool:
@@ -101,6 +113,7 @@ def sketch_of_vocabulary(
     source: str,
     words: WordsRecord | None = None,
     is_look: bool = False,
+    things: SketchThings | None = None,
 ) -> Sketch:
     """Return what named classes and features make; see :func:`sketch_of`.
 
@@ -113,10 +126,12 @@ def sketch_of_vocabulary(
         As :class:`Sketch` has them.
     words, is_look
         As for :func:`sketch_of`.
+    things : SketchThings, optional
+        What a picture shows several of.
     """
     words = words or WordsRecord()
     classes = _distinct_words({**vocabulary.class_words, **_of(vocabulary, words)})
-    if len(classes) < 2:
+    if len(classes) < 2 and things is None:
         shown = f"one class only ('{next(iter(classes))}')" if classes else "no class"
         raise DomainError(
             f"{source}: says {shown}; a domain tells at least two classes apart: add pictures of "
@@ -125,16 +140,10 @@ def sketch_of_vocabulary(
     features = {}
     for feature in vocabulary.features.values():
         known = words.features.get(feature.name, FeatureRecord(words=feature.words))
-        spelt = {
-            value: in_a_sentence(known.values.get(value, said))
-            for value, said in feature.value_words.items()
-        }
-        features[feature.name] = SketchFeature(
-            words=_LOOK_WORDS if is_look else _worded(in_a_sentence(known.words), feature.name),
-            values=classes if is_look else _distinct_words(spelt),
-            is_boolean=feature.is_boolean and not is_look,
-            is_look=is_look,
-        )
+        sketched = sketch_feature(feature, known)
+        if is_look:
+            sketched = SketchFeature(_LOOK_WORDS, classes, is_look=True)
+        features[feature.name] = sketched
     return Sketch(
         name=name,
         classes=classes,
@@ -142,6 +151,21 @@ def sketch_of_vocabulary(
         class_values=_class_values(class_features, vocabulary),
         subject=subject,
         source=source,
+        things=things,
+    )
+
+
+def sketch_feature(feature: FeatureWords, known: FeatureRecord | None = None) -> SketchFeature:
+    """Return a feature with words for it and its values; ``known`` says some of them."""
+    known = known or FeatureRecord(words=feature.words)
+    spelt = {
+        value: in_a_sentence(known.values.get(value, said))
+        for value, said in feature.value_words.items()
+    }
+    return SketchFeature(
+        _worded(in_a_sentence(known.words), feature.name),
+        _distinct_words(spelt),
+        is_boolean=feature.is_boolean,
     )
 
 

@@ -6,9 +6,11 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 
 from seewhy.data.importers.names import predicate_name, valid_name
+from seewhy.data.thing import CORNERS
 from seewhy.new_domain.common_keys import common_keys
 from seewhy.new_domain.proposals import Proposals
 from seewhy.new_domain.sketch import LOOK, Sketch, SketchFeature
+from seewhy.new_domain.thing_texts import sort_of_things, thing_knowledge_lines, thing_lines
 from seewhy.new_domain.words import (
     as_predicate,
     boolean_changes,
@@ -59,6 +61,12 @@ def value_sort(feature: str) -> str:
     return f"{feature}_value"
 
 
+def thing_sort(sketch: Sketch) -> str:
+    """Return the sort that stands for a thing in a picture."""
+    taken = (*sketch.features, *class_predicate(sketch), scene_sort(sketch))
+    return sort_of_things(sketch, taken)
+
+
 def domain_text(sketch: Sketch) -> str:
     """Return domain.toml."""
     static, _ = class_predicate(sketch)
@@ -87,7 +95,10 @@ def domain_text(sketch: Sketch) -> str:
         ]
     for name, feature in sketch.features.items():
         lines += ["", *_feature_lines(name, feature)]
-    lines += ["", f'# Answers say "{sketch.subject} is …" of a class.']
+    if sketch.things is not None:
+        lines += thing_lines(sketch.things, thing_sort(sketch))
+    if sketch.classes:
+        lines += ["", f'# Answers say "{sketch.subject} is …" of a class.']
     for name, words in sketch.classes.items():
         said = as_predicate(words)
         # The name is a word for it where the words alone do not lead to it.
@@ -111,8 +122,14 @@ def knowledge_text(
     lines = [
         f"% The signature: sorts, and statics over them. '{scene}' is the picture at hand.",
         f"#sort {scene}.",
-        *_sort_lines(sort, sketch.classes),
+        *(_sort_lines(sort, sketch.classes) if sketch.classes else ()),
     ]
+    things = sketch.things
+    if things is not None:
+        lines.append(f"#sort {thing_sort(sketch)} = things.")
+        for name, feature in things.features.items():
+            if not feature.is_boolean:
+                lines += _sort_lines(value_sort(name), feature.values)
     for name, feature in sketch.features.items():
         if feature.is_look:
             continue
@@ -125,7 +142,9 @@ def knowledge_text(
             lines.append(
                 f"#static {name}({scene}, {sort if feature.is_look else value_sort(name)})."
             )
-    lines += [f"#static {static}({scene}, {sort}).", ""]
+    if things is not None:
+        lines += thing_knowledge_lines(things, thing_sort(sketch))
+    lines += [f"#static {static}({scene}, {sort}).", ""] if sketch.classes else [""]
     if sketch.has_look:
         lines += [
             "% Nothing but its look as a whole says what a picture shows; features would say more.",
@@ -143,11 +162,12 @@ def knowledge_text(
     else:
         lines += [
             "% Here belong axioms: what everybody knows who knows such pictures. They need not",
-            "% cover everything: what they leave open is learned from your pictures. For example,",
-            "% without the first % of each line:",
-            "%",
-            *(f"% {line}" for line in example.splitlines()),
+            "% cover everything: what they leave open is learned from your pictures."
+            f"{' For example,' if example else ''}",
         ]
+        if example:
+            lines += ["% without the first % of each line:", "%"]
+            lines += [f"% {line}" for line in example.splitlines()]
     for name, other in proposed.alike.items():
         lines += [
             "",
@@ -165,7 +185,7 @@ def questions_text(sketch: Sketch) -> str:
         "",
         'fillers = ["please", "can you tell me", "could you tell me", "do you think"]',
     ]
-    for asks, patterns in _ABOUT_CLASSES.items():
+    for asks, patterns in _ABOUT_CLASSES.items() if sketch.classes else ():
         worded = [pattern.replace("{scene}", scene) for pattern in patterns]
         lines += _question({"asks": asks}, worded)
     for name, feature in sketch.features.items():
@@ -202,7 +222,7 @@ def questions_text(sketch: Sketch) -> str:
 
 def readme_text(sketch: Sketch, commands: Sequence[str], data: str) -> str:
     """Return README.md."""
-    columns = ",".join(["image", "class", *sketch.features])
+    columns = ",".join(["image", *(["class"] if sketch.classes else []), *sketch.features])
     features = (
         "Its one feature is what a picture looks like as a whole, because no other was found.\n"
         "That classifies pictures, but `why` has one reason only. Features of your own make\n"
@@ -220,18 +240,31 @@ def readme_text(sketch: Sketch, commands: Sequence[str], data: str) -> str:
         "pictures.\n"
     )
     listed = "\n".join(f"    {command}" for command in commands)
+    of_things = (
+        ""
+        if sketch.things is None
+        else f", and {len(sketch.things.features)} of each {sketch.things.one} in a picture"
+    )
     return (
         f"# {sketch.name}\n\n"
         f"A domain of SeeWhy with {len(sketch.classes)} classes and {len(sketch.features)} "
-        f"feature{'s' * (len(sketch.features) != 1)}: what pictures show (`domain.toml`), what is "
-        "known\n(`knowledge.al`), what can be asked (`questions.toml`).\n\n"
+        f"feature{'s' * (len(sketch.features) != 1)}{of_things}: what pictures show\n"
+        "(`domain.toml`), what is known (`knowledge.al`), what can be asked (`questions.toml`).\n\n"
         f"{listed}\n\n{features}\n{proposals}\n"
         f"The pictures lie in `{data}` beside a table `scenes.csv`, one row a picture:\n\n"
-        f"    {columns}\n\n"
+        f"    {columns}\n\n{_boxes_text(sketch)}"
         "An empty cell is a value that nobody knows. A column `split` with the words `train` and\n"
         "`test` says which pictures are kept for evaluation; pictures that show the same thing\n"
         "share a word in a column `group`. Every key of the files: `seewhy reference`.\n"
     )
+
+
+def _boxes_text(sketch: Sketch) -> str:
+    """What README.md says of the table of things; empty where there are none."""
+    if sketch.things is None:
+        return ""
+    columns = ",".join(["image", "thing", *CORNERS, *sketch.things.features])
+    return f"Beside it lies `things.csv`, one row a {sketch.things.one}:\n\n    {columns}\n\n"
 
 
 def _feature_lines(name: str, feature: SketchFeature) -> list[str]:

@@ -105,10 +105,18 @@ def example_fluent(knowledge: Knowledge) -> str:
     >>> from seewhy.knowledge.language import read_knowledge
     >>> example_fluent(read_knowledge("#sort place = {hall}. #fluent basic closed(place)."))
     'closed(hall)'
+    >>> example_fluent(
+    ...     read_knowledge("#sort block = {red, blue}. #fluent basic on(block, block).")
+    ... )
+    'on(red, blue)'
     """
     signature = knowledge.signature
     for predicate in signature.predicates.values():
         if predicate.kind.is_fluent:
-            arguments = [next(iter(signature.members(sort)), sort) for sort in predicate.sorts]
+            arguments: list[str] = []
+            for sort in predicate.sorts:
+                members = signature.members(sort) or (sort,)
+                other = (member for member in members if member not in arguments)
+                arguments.append(next(other, members[0]))
             return f"{predicate.name}({', '.join(arguments)})" if arguments else predicate.name
     return "fluent(argument)"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from seewhy.agent.agent import Agent
 from seewhy.data.dataset import Dataset
@@ -21,47 +20,13 @@ from seewhy.revision.correction import Keeping, corrected, keeping
 from seewhy.revision.misreading import misreadings
 from seewhy.revision.new_rule import known_already, new_rule, rules_by_example
 from seewhy.revision.proposal import Cause, Doubted, Proposal
-from seewhy.revision.record import Revision
 from seewhy.revision.remarks import Remark, Says, remark_of
 from seewhy.revision.revisions import Revisions
 from seewhy.revision.rule_revision import rule_revisions
-from seewhy.revision.telling import say_proposal
+from seewhy.revision.said import Said
+from seewhy.revision.telling import say_offer, say_proposal
 
 __all__ = ["Conversation", "Said"]
-
-
-@dataclass(frozen=True)
-class Said:
-    """What is said back to a remark.
-
-    Attributes
-    ----------
-    text : str
-    proposals : tuple of Proposal
-        What waits for a yes or a no.
-    revision : Revision or None
-        What was taken or taken back.
-    """
-
-    text: str
-    proposals: tuple[Proposal, ...] = ()
-    revision: Revision | None = None
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return it as values that JSON can hold."""
-        revision = self.revision
-        return {
-            "text": self.text,
-            "proposals": [proposal.to_dict() for proposal in self.proposals],
-            "revision": None
-            if revision is None
-            else {
-                "number": revision.number,
-                "cause": revision.taken.cause.value,
-                "sentence": revision.taken.sentence,
-                "taken_back": revision.taken_back is not None,
-            },
-        }
 
 
 class Conversation:
@@ -263,12 +228,7 @@ class Conversation:
         if not found:
             return Said(" ".join((*said, nothing)))
         told = [self._told(proposal) for proposal in found]
-        if len(told) == 1:
-            lines = [*said, told[0], "Shall I take it? Say yes or no."]
-        else:
-            numbered = [f"{number}. {each}" for number, each in enumerate(told, start=1)]
-            lines = [*said, *numbered, f"Which one shall I take? Say 1 to {len(told)}, or no."]
-        return Said("\n".join(lines), self.proposals)
+        return Said(say_offer(told, *said), self.proposals)
 
     def _told(self, proposal: Proposal) -> str:
         said = say_proposal(self.agent.domain, proposal)

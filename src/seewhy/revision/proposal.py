@@ -12,7 +12,12 @@ from seewhy.agent.working_knowledge import WorkingKnowledge, working_knowledge
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.consistency import check_consistency
 from seewhy.knowledge.language import read_knowledge
-from seewhy.knowledge.learned_file import learned_text, parse_learned, parse_withdrawn
+from seewhy.knowledge.learned_file import (
+    learned_text,
+    parse_learned,
+    parse_withdrawn,
+    with_origins,
+)
 from seewhy.knowledge.reasoner import Decision
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.revision.consequences import Consequences, consequences
@@ -152,6 +157,9 @@ def known_by(known: WorkingKnowledge, texts: Texts) -> WorkingKnowledge:
     """
     given = known.given
     knowledge = read_knowledge(texts[KNOWLEDGE], file=given.knowledge.file).without_change
+    if given.things is not None:
+        axioms = with_origins(knowledge.axioms, texts[KNOWLEDGE])
+        knowledge = replace(knowledge, axioms=axioms).with_things(given.things.most)
     check_consistency(knowledge, given.schema)
     learned = texts.get(LEARNED, "")
     return working_knowledge(

@@ -18,7 +18,7 @@ from seewhy.errors import QuestionError
 from seewhy.induction.candidate import Candidate
 from seewhy.revision.new_rule import reason_given, stated
 
-__all__ = ["Remark", "Says", "remark_of", "says_wrong"]
+__all__ = ["Remark", "Says", "plain_remark", "remark_of", "says_wrong"]
 
 _NO = re.compile(r"^\s*(?:no|nope|wrong|but)\b[\s,;:.!–-]*", re.IGNORECASE)
 _NO_AT_ONCE = re.compile(r"^\s*(?:no|nope|wrong|but)\s*[,;:.!–-]", re.IGNORECASE)
@@ -107,19 +107,11 @@ def remark_of(questions: Questions, text: str, *, proposed: int = 0) -> Remark |
     >>> remark_of(questions, "no, is it stable?") is None
     True
     """
-    words = tuple(words_of(text))
-    if not words or text.rstrip().endswith("?"):
+    plain = plain_remark(text, proposed=proposed)
+    if plain is not None:
+        return plain
+    if not words_of(text) or text.rstrip().endswith("?"):
         return None
-    if proposed:
-        answered = _to_proposal(" ".join(words), proposed)
-        if answered is not None:
-            return answered
-    numbered = _NUMBERED.fullmatch(" ".join(words))
-    if numbered is not None:
-        return Remark(Says.TAKE_BACK, number=int(numbered[1]))
-    for says in (Says.WRONG, Says.RULE_WRONG, Says.MISSING, Says.TAKE_BACK):
-        if _is(says, words):
-            return Remark(says)
     rest = _NO.sub("", text, count=1)
     told = words_of(rest)
     if not told or told[0] in _ASKS:
@@ -134,6 +126,39 @@ def remark_of(questions: Questions, text: str, *, proposed: int = 0) -> Remark |
         if _NO_AT_ONCE.match(text):
             raise
         return None
+
+
+def plain_remark(text: str, *, proposed: int = 0) -> Remark | None:
+    """Return what a text says that names nothing of the domain: that something is wrong, yes, no.
+
+    ``proposed`` is as for :func:`remark_of`.
+
+    Raises
+    ------
+    QuestionError
+        If a proposal is chosen that there is not.
+
+    Examples
+    --------
+    >>> plain_remark("the rule is wrong").says.value, plain_remark("undo revision 3").number
+    ('rule_wrong', 3)
+    >>> plain_remark("the second one", proposed=2).number
+    2
+    """
+    words = tuple(words_of(text))
+    if not words or text.rstrip().endswith("?"):
+        return None
+    if proposed:
+        answered = _to_proposal(" ".join(words), proposed)
+        if answered is not None:
+            return answered
+    numbered = _NUMBERED.fullmatch(" ".join(words))
+    if numbered is not None:
+        return Remark(Says.TAKE_BACK, number=int(numbered[1]))
+    for says in (Says.WRONG, Says.RULE_WRONG, Says.MISSING, Says.TAKE_BACK):
+        if _is(says, words):
+            return Remark(says)
+    return None
 
 
 def says_wrong(text: str) -> bool:

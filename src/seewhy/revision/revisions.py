@@ -9,6 +9,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from seewhy.agent.manifest_file import is_of_things
+from seewhy.agent.things.thing_model import write_domain_files
 from seewhy.agent.working_knowledge import WorkingKnowledge, working_knowledge
 from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import Domain, load_domain
@@ -49,7 +51,7 @@ class Revisions:
     agent : Agent, optional
         What reasons with the knowledge, and follows it. The one that was loaded from the folder,
         where that is a model's; with a domain's folder it may be left out, or be any agent of the
-        domain.
+        domain. Of a model of several things none follows: whoever asks it reads its domain again.
     record : Record, optional
         Where revisions are recorded; ``revisions.jsonl`` beside ``knowledge.al`` without it.
     dataset : Path, optional
@@ -93,7 +95,8 @@ class Revisions:
         self.folder = Path(folder)
         self.domain_folder = folder_of_domain(self.folder)
         self.is_model = self.domain_folder != self.folder
-        if self.is_model and agent is None:
+        self.is_of_things = self.is_model and is_of_things(self.folder)
+        if self.is_model and agent is None and not self.is_of_things:
             from seewhy.agent.agent import Agent
 
             agent = Agent.load(self.folder)
@@ -289,6 +292,9 @@ class Revisions:
         """
         record = self.record
         files = {str(KNOWLEDGE): after[KNOWLEDGE]}
+        if self.is_of_things and isinstance(record, RecordFile):
+            write_domain_files(self.folder, {**files, REVISIONS: record.text_with(line)})
+            return
         if self.is_model and agent is not None and isinstance(record, RecordFile):
             # The record lies in the model, which is written whole.
             save_revised(agent, self.folder, {**files, REVISIONS: record.text_with(line)})

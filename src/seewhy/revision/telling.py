@@ -10,7 +10,7 @@ from seewhy.knowledge.reasoner import Decision, Verdict
 from seewhy.revision.consequences import ChangedScene, Consequences, Standing
 from seewhy.revision.proposal import Cause, Proposal
 
-__all__ = ["say_consequences", "say_decision", "say_proposal"]
+__all__ = ["say_consequences", "say_decision", "say_offer", "say_proposal"]
 
 _NAMED = 3
 """So many pictures are named; of more, the number is said."""
@@ -58,6 +58,22 @@ There are no annotated pictures at hand, so that I cannot say which others would
         parts.append(say_decision(domain, proposal.decision))
         parts.append(say_consequences(proposal.consequences))
     return " ".join(map(sentence, parts))
+
+
+def say_offer(told: Sequence[str], *said: str) -> str:
+    """Return proposals in words with the question which one to take; ``said`` stands before.
+
+    Examples
+    --------
+    >>> print(say_offer(["A new rule."]))
+    A new rule.
+    Shall I take it? Say yes or no.
+    """
+    if len(told) == 1:
+        return "\n".join([*said, told[0], "Shall I take it? Say yes or no."])
+    numbered = [f"{number}. {each}" for number, each in enumerate(told, start=1)]
+    which = f"Which one shall I take? Say 1 to {len(told)}, or no."
+    return "\n".join([*said, *numbered, which])
 
 
 def say_decision(domain: Domain, decision: Decision) -> str:

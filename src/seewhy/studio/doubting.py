@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from seewhy.agent.learning_from_pictures import AnnotatedScenes
-from seewhy.domain.domain import Domain
-from seewhy.domain.tables import CLASS
 from seewhy.errors import QuestionError, RevisionError, SeeWhyError
-from seewhy.knowledge.scene import FeatureVector
 from seewhy.revision.correction import cells_of
 from seewhy.revision.misreading import misreadings
 from seewhy.revision.new_rule import known_already, new_rule, reason_given
@@ -17,6 +13,7 @@ from seewhy.revision.proposal import Doubted, Proposal
 from seewhy.revision.rule_revision import rule_revisions
 from seewhy.revision.telling import say_consequences, say_decision
 from seewhy.studio.answering_agent import CORRECTED
+from seewhy.studio.labelled_scenes import labelled_scenes
 from seewhy.studio.labelling import choose
 from seewhy.studio.project_model import ProjectModel
 from seewhy.studio.talk import Talk
@@ -28,7 +25,6 @@ if TYPE_CHECKING:
 __all__ = [
     "for_a_reason",
     "for_the_rules",
-    "labelled_scenes",
     "misread",
     "said_of",
     "take",
@@ -36,27 +32,6 @@ __all__ = [
 
 _READINGS = 4
 _OF_EACH_KIND = 2
-
-
-def labelled_scenes(project: Project) -> AnnotatedScenes:
-    """The pictures of a project whose class somebody said, with the features that were said."""
-    domain, labels = project.domain(), project.labels()
-    found = [
-        (_vector(domain, said), said[CLASS], picture)
-        for picture in project.pictures()
-        if (said := labels.values(picture)).get(CLASS) in domain.classes
-    ]
-    return AnnotatedScenes(
-        tuple(vector for vector, _, _ in found),
-        tuple(label for _, label, _ in found),
-        tuple(picture for _, _, picture in found),
-    )
-
-
-def _vector(domain: Domain, said: Mapping[str, str]) -> FeatureVector:
-    return domain.vector(
-        {key: said[key] for key in domain.features if said.get(key) in domain.features[key].values}
-    )
 
 
 def misread(

@@ -10,7 +10,7 @@ from typing import Any
 
 from seewhy.data.importers.picture_files import read_header
 from seewhy.data.thing import BoundingBox
-from seewhy.domain.things import Things
+from seewhy.domain.things import SEEN, Things
 from seewhy.errors import PictureError, SeeWhyError
 from seewhy.studio.drawn_things import (
     BOXES,
@@ -25,7 +25,6 @@ from seewhy.studio.thing_writing import said_first
 from seewhy.text.nearest import did_you_mean
 
 __all__ = [
-    "SEEN",
     "draw",
     "move",
     "note_things",
@@ -37,9 +36,6 @@ __all__ = [
     "say_of_thing",
     "things_of",
 ]
-
-SEEN = "seen"
-"""The measure of relations that somebody has to say."""
 
 _MIDDLE = 3
 """A box that is added by a key takes one part of so many of each side."""

@@ -42,6 +42,9 @@ LARGEST = 100_000_000
 _IMAGES = "images"
 _INCOMING = ".incoming"
 _DEEPEST = 8
+_UNREAD = (".heic", ".heif", ".avif")
+"""Photographs of telephones that are no pictures for SeeWhy."""
+
 _CHUNK = 1 << 20
 
 
@@ -131,15 +134,22 @@ def from_folder(project: Project, folder: Path) -> Arrived:
     DatasetError
         If there is no such folder, or no picture in it.
     """
+    if folder.is_file():
+        raise DatasetError(
+            f"{folder}: is a file; name the folder that holds the pictures, or import an archive "
+            "of labelled pictures below"
+        )
     if not folder.is_dir():
         raise DatasetError(f"{folder}: there is no such folder; check the spelling of the path")
     files = FolderFiles(folder, Notes())
     names = [name for name in files.names if is_picture_name(name)]
+    unread = [name for name in files.names if name.lower().endswith(_UNREAD)]
     if not names:
-        raise DatasetError(f"{folder}: holds no picture (.jpg, .png and others)")
+        remedy = f"; {_save_as_jpeg(unread)}" if unread else ""
+        raise DatasetError(f"{folder}: holds no picture (.jpg, .png and others){remedy}")
     placing = Placing(files, project.folder, link=True)
     before = set(project.pictures())
-    refused = []
+    refused = [_save_as_jpeg(unread)] if unread else []
     for name, image in zip(names, image_names(names), strict=True):
         try:
             placing.place(name, image)
@@ -147,6 +157,12 @@ def from_folder(project: Project, folder: Path) -> Arrived:
             refused.append(f"{name}: {problem}")
     project.refresh()
     return Arrived(len(set(project.pictures()) - before), tuple(refused))
+
+
+def _save_as_jpeg(names: Sequence[str]) -> str:
+    one = len(names) == 1
+    files = "1 file is" if one else f"{len(names):,} files are"
+    return f"{files} HEIC or AVIF, which is not read; save {'it' if one else 'them'} as JPEG first"
 
 
 def domain_place(project: Project) -> Path:

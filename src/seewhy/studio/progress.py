@@ -10,11 +10,15 @@ from seewhy.domain.tables import CLASS
 from seewhy.domain.things import Things
 from seewhy.evaluation.advice import Shown, few_pictures
 from seewhy.evaluation.share import Share
+from seewhy.new_domain.words import plain_words
 from seewhy.studio.drawn_things import PictureThings, counted
 from seewhy.studio.project import Project
 from seewhy.studio.proposing import Proposals
 
 __all__ = ["Progress", "QuestionProgress", "ValueProgress", "progress_of"]
+
+_FEWEST = 10
+"""Of fewer pictures it is not told how many are recognised."""
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,11 @@ class ValueProgress:
     value: str
     labelled: int
     recognised: Share | None
+
+    @property
+    def words(self) -> str:
+        """The value in plain words."""
+        return plain_words(self.value)
 
 
 @dataclass(frozen=True)
@@ -76,10 +85,13 @@ class Progress:
 
     @property
     def recognised(self) -> Share | None:
-        """How often the heads recognise the class of labelled pictures that were kept out."""
-        return next(
-            (question.recognised for question in self.questions if question.name == CLASS), None
-        )
+        """How often the heads recognise the class of labelled pictures that were kept out.
+
+        None of so few that the share would say nothing.
+        """
+        found = (question.recognised for question in self.questions if question.name == CLASS)
+        share = next(found, None)
+        return None if share is None or share.of < _FEWEST else share
 
 
 def progress_of(project: Project, proposals: Proposals) -> Progress:

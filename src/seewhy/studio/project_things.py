@@ -80,7 +80,7 @@ class ProjectThings(AnsweringAgent["ThingAgent", "ReadScene"]):
         if not _sees_alike(agent.domain, domain):
             return agent
         if self._knowing is None or self._knowing[0] is not agent or self._knowing[1] is not domain:
-            self._knowing = agent, domain, _following(agent, domain)
+            self._knowing = agent, domain, agent.knowing(domain)
             self._forget()
         return self._knowing[2]
 
@@ -111,16 +111,6 @@ def _read(agent: ThingAgent, file: Path, corrected: Sequence[DrawnThing] | None)
     ]
     boxes = [thing.box for thing in corrected if thing.box is not None]
     return agent.read(file, boxes=boxes, values=said)
-
-
-def _following(agent: ThingAgent, domain: Domain) -> ThingAgent:
-    """An agent that sees as the model does, and knows what a domain says."""
-    from seewhy.agent.things.thing_agent import ThingAgent
-
-    settings = agent.settings
-    follower = ThingAgent(domain, seed=settings.seed, eyes=settings.eyes, device=settings.device)
-    follower.seeing, follower.trained_on = agent.seeing, agent.trained_on
-    return follower
 
 
 def _sees_alike(one: Domain, other: Domain) -> bool:

@@ -22,6 +22,7 @@ from seewhy.labelling.labelling_order import (
     landscape,
 )
 from seewhy.labelling.quick_heads import HeldOutCounts, QuickHeads
+from seewhy.labelling.spread_order import spread_order
 from seewhy.studio.labels import Labels
 from seewhy.studio.project import Project
 
@@ -185,8 +186,9 @@ class Proposer:
         """Labelled pictures first, then a few of everywhere: heads begin early, and so."""
         labelled = self._project.labels().of
         others = [name for name in pictures if name not in labelled]
-        shuffled = np.random.default_rng(0).permutation(len(others))
-        return [name for name in pictures if name in labelled] + [others[n] for n in shuffled]
+        return [name for name in pictures if name in labelled] + [
+            others[place] for place in spread_order(len(others))
+        ]
 
     def _look_at(self, names: Sequence[str]) -> None:
         domain = self._project.domain()

@@ -24,13 +24,14 @@ from seewhy.planning.dialogue.run_answers import PlanningReply, RunAnswers
 from seewhy.planning.domain import (
     PlanningDomain,
     bundled_planning_domains,
-    load_planning_domain,
+    planning_folder,
     plans,
 )
 from seewhy.planning.execution.execution import Run
 from seewhy.planning.spoken_goals import goal_of
 from seewhy.studio.jobs import Job
 from seewhy.studio.project import Project
+from seewhy.studio.robot_beginnings import Beginning
 from seewhy.studio.robot_process import RECORD_FILE
 
 __all__ = [
@@ -115,7 +116,7 @@ def what_if(job: Job, literal: str, *, step: int | None = None) -> PlanningReply
     """
     with _answering:
         about = _answers_about(job)
-        domain = load_planning_domain(job.asked["domain"])
+        domain = Beginning.of(job.asked).load()
         read = read_ground_literal(literal, domain.knowledge.signature, of="fluent")
         symbol = clingo.parse_term(key_of(read))
         query = Query(
@@ -129,9 +130,9 @@ def what_if(job: Job, literal: str, *, step: int | None = None) -> PlanningReply
         return about.reply(query)
 
 
-def questions_about(domain: str) -> tuple[str, ...]:
-    """A question of each kind that a run in a domain may be asked."""
-    return _questions_about(domain, _read_when(domain))
+def questions_about(beginning: Beginning) -> tuple[str, ...]:
+    """A question of each kind that a run with such a beginning may be asked."""
+    return _questions_about(beginning, _read_when(beginning.domain))
 
 
 def supposable(domain: PlanningDomain) -> dict[str, str]:
@@ -139,6 +140,7 @@ def supposable(domain: PlanningDomain) -> dict[str, str]:
 
     Examples
     --------
+    >>> from seewhy.planning.domain import load_planning_domain
     >>> supposable(load_planning_domain("robot_assistant"))["closed(library)"]
     'the library is closed'
     """
@@ -166,25 +168,33 @@ def _answers_about(job: Job) -> RunAnswers:
         changed = record.stat().st_mtime_ns
     except OSError:
         raise SeeWhyError("the run has not come to a step yet; ask when it has") from None
-    return _answers(job.asked["domain"], job.asked["goal"], record, changed)
+    return _answers(Beginning.of(job.asked), job.asked["goal"], record, changed)
 
 
 @lru_cache(maxsize=4)
-def _answers(domain_name: str, goal: str, record: Path, changed: int) -> RunAnswers:  # noqa: ARG001
-    domain = load_planning_domain(domain_name)
+def _answers(
+    beginning: Beginning,
+    goal: str,
+    record: Path,
+    changed: int,  # noqa: ARG001
+) -> RunAnswers:
+    domain = beginning.load()
     history = read_history_file(record, domain.knowledge.signature)
     return RunAnswers(domain, Run(goal_of(goal, domain), history))
 
 
 @lru_cache(maxsize=8)
-def _questions_about(domain: str, changed: tuple[int, ...]) -> tuple[str, ...]:  # noqa: ARG001
+def _questions_about(
+    beginning: Beginning,
+    changed: tuple[int, ...],  # noqa: ARG001
+) -> tuple[str, ...]:
     from seewhy.planning.dialogue.question_parsing import PlanningQuestions
 
-    return tuple(PlanningQuestions(load_planning_domain(domain)).examples())
+    return tuple(PlanningQuestions(beginning.load()).examples())
 
 
 def _read_when(domain: str) -> tuple[int, ...]:
-    folder = load_planning_domain(domain).folder
+    folder = planning_folder(domain)
     return tuple(
         file.stat().st_mtime_ns
         for file in (folder / "planning.toml", folder / "knowledge.al")

@@ -7,24 +7,35 @@ from dataclasses import dataclass, replace
 
 from seewhy.agent.axiom_revision import proposed_axioms
 from seewhy.agent.learning_from_pictures import AnnotatedScenes
+from seewhy.agent.things.concluded import where_axioms_speak
+from seewhy.agent.things.thing_axioms import (
+    axioms_of_rules,
+    learn_rules_for_domain,
+    with_axioms_about_things,
+)
 from seewhy.agent.working_knowledge import working_knowledge
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError, RevisionError, SeeWhyError
 from seewhy.induction.axiom_learning import LearningOptions
 from seewhy.induction.candidate import Candidate
+from seewhy.induction.things.rule_learning import ThingLearningOptions
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.axiom import Axiom
+from seewhy.knowledge.language import read_axioms
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.revision.edit import KNOWLEDGE, LEARNED
 from seewhy.revision.knowledge_text import axiom_added, learned_removed
 from seewhy.revision.new_rule import Fit, fit_of, known_already, new_rule, rules_by_example
 from seewhy.revision.proposal import Cause, Doubted, Proposal
-from seewhy.studio.doubting import labelled_scenes
+from seewhy.revision.things.new_rule import new_thing_rule
+from seewhy.revision.things.reasons import rule_of_reason
+from seewhy.studio.doubting_things import doubted_of
+from seewhy.studio.labelled_scenes import labelled_scenes
 from seewhy.studio.project import Project
 from seewhy.studio.project_model import ProjectModel
 from seewhy.text.nearest import did_you_mean
 
-__all__ = ["MadeRule", "learned_rules", "rules_from"]
+__all__ = ["MadeRule", "learned_rules", "rules_from", "rules_in_words"]
 
 
 @dataclass(frozen=True)
@@ -124,6 +135,8 @@ def learned_rules(model: ProjectModel, text: str) -> tuple[MadeRule, ...]:
     scenes = labelled_scenes(project)
     if len(set(scenes.labels)) < 2:
         raise SeeWhyError("a rule tells classes apart: label pictures of two classes first")
+    if project.has_things:
+        return _learned_of_things(project, scenes)
     unknown: FeatureVector = (None,) * len(project.domain().features)
     doubted = _doubted(project, text, scenes, unknown)
     found = proposed_axioms(doubted.known, scenes, options=LearningOptions()).axioms
@@ -135,6 +148,38 @@ def learned_rules(model: ProjectModel, text: str) -> tuple[MadeRule, ...]:
     said = {str(axiom) for axiom in learned}
     rules = [_accepted(doubted, axiom, learned_text) for axiom in learned]
     rules += [_accepted(doubted, axiom, "") for axiom in found if str(axiom) not in said]
+    return tuple(rule for rule in rules if rule is not None)
+
+
+def rules_in_words(project: Project, text: str) -> tuple[MadeRule, ...]:
+    """Return the rule about things that a reason in words states.
+
+    Raises
+    ------
+    QuestionError, RevisionError
+        If the reason is not understood; if the rule is known already, or can never be used.
+    """
+    domain, scenes = project.domain(), labelled_scenes(project)
+    rule = rule_of_reason(domain, text)
+    doubted = doubted_of(project, scenes.vectors[0] if scenes.vectors else domain.vector({}))
+    proposal = new_thing_rule(doubted, rule)
+    (axiom,) = read_axioms(proposal.statement, doubted.known.domain.knowledge.signature)
+    few = doubted.known.domain
+    speaking = with_axioms_about_things(few, [axiom])
+    (where,) = where_axioms_speak(speaking, [axiom], doubted.scenes.vectors)
+    spoken = where.nonzero()[0].tolist()
+    rests_on = tuple(scenes.pictures[n] for n in spoken if scenes.labels[n] == rule.label)
+    against = tuple(scenes.pictures[n] for n in spoken if scenes.labels[n] != rule.label)
+    return (MadeRule(proposal, rests_on, against=against),)
+
+
+def _learned_of_things(project: Project, scenes: AnnotatedScenes) -> tuple[MadeRule, ...]:
+    """The rules about things that the labelled pictures suggest."""
+    doubted = doubted_of(project, scenes.vectors[0])
+    few = doubted.known.domain
+    judged = learn_rules_for_domain(few, doubted.scenes, ThingLearningOptions())
+    found = axioms_of_rules(few, judged, doubted.scenes)
+    rules = [_accepted(doubted, axiom, "") for axiom in found]
     return tuple(rule for rule in rules if rule is not None)
 
 

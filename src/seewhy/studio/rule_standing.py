@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from seewhy.agent.learning_from_pictures import AnnotatedScenes
+from seewhy.agent.things.thing_axioms import as_few_things
 from seewhy.domain.domain import Domain
 from seewhy.evaluation import axiom_outcomes
 from seewhy.knowledge.axiom import Axiom
@@ -70,6 +71,8 @@ def rules_standing(domain: Domain, scenes: AnnotatedScenes) -> RulesStanding:
     >>> found.axioms[0].right, found.axioms[0].wrong, found.right
     (('a.png',), ('b.png',), 1)
     """
+    if domain.things is not None:
+        domain, scenes = as_few_things(domain, scenes)
     reasoner = Reasoner(domain.knowledge, domain.schema)
     outcomes = axiom_outcomes(reasoner, scenes.vectors, scenes.labels)
     decisions = reasoner.decide_all(scenes.vectors)

@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Iterable
-
 from seewhy.dialogue.reply import Reply
-from seewhy.errors import SeeWhyError
-from seewhy.revision.proposal import Proposal
+from seewhy.studio.offered import Offers
 
 __all__ = ["Talk"]
 
 _REMEMBERED = 20
-_PROPOSED = 400
 
 
-class Talk:
+class Talk(Offers):
     """A conversation about a picture; another picture begins another.
 
     Attributes
@@ -30,10 +24,10 @@ class Talk:
     """
 
     def __init__(self) -> None:
+        super().__init__()
         self.picture = ""
         self.replies: list[Reply] = []
         self.wanted: str | None = None
-        self._proposals: dict[str, Proposal] = {}
 
     def about(self, picture: str) -> None:
         """Speak of a picture."""
@@ -49,29 +43,3 @@ class Talk:
     def remember(self, reply: Reply) -> None:
         """Remember an answer, the oldest forgotten."""
         self.replies = [*self.replies, reply][-_REMEMBERED:]
-
-    def propose(self, proposals: Iterable[Proposal]) -> dict[str, Proposal]:
-        """Remember what may be taken; key → proposal, the key the same for the same proposal."""
-        found = {_key(proposal): proposal for proposal in proposals}
-        self._proposals |= found
-        while len(self._proposals) > _PROPOSED:
-            del self._proposals[next(iter(self._proposals))]
-        return found
-
-    def proposal(self, key: str) -> Proposal:
-        """What was proposed.
-
-        Raises
-        ------
-        SeeWhyError
-            If nothing was proposed by this key since the studio was started.
-        """
-        if key not in self._proposals:
-            raise SeeWhyError("that was proposed before the studio was started; look at it again")
-        return self._proposals[key]
-
-
-def _key(proposal: Proposal) -> str:
-    said = [proposal.cause, proposal.sentence, proposal.reading, proposal.label]
-    edits = [(edit.file, edit.at, edit.before, edit.after) for edit in proposal.edits]
-    return hashlib.sha256(json.dumps([said, edits]).encode()).hexdigest()[:20]

@@ -6,9 +6,8 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 from seewhy.data.thing import BoundingBox
-from seewhy.domain.things import Relation, Things
+from seewhy.domain.things import SEEN, Relation, Things
 from seewhy.new_domain.words import plain_words
-from seewhy.studio.drawing import SEEN
 from seewhy.studio.drawn_things import DrawnThing, PictureThings
 from seewhy.studio.thing_writing import said_first
 from seewhy.studio.workbench import RESERVED, Question, letters_of, question

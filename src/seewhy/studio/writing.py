@@ -10,9 +10,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, cast
 
-from seewhy.data.scene_rows import IMAGE, NO_THINGS, NONE, may_say_none
+from seewhy.data.scene_rows import IMAGE, NONE
 from seewhy.domain.domain import Domain
-from seewhy.domain.tables import CLASS
+from seewhy.domain.tables import CLASS, NO_THINGS
 from seewhy.files.whole_files import write_whole
 from seewhy.revision.edit import LEARNED, Edit, FileName, edited
 from seewhy.studio.labels import Labels
@@ -40,8 +40,8 @@ so that it can be taken back whatever was revised behind it.
 
 def scenes_table(labels: Labels, domain: Domain) -> str:
     """The text of scenes.csv: a row for each picture of which something is annotated."""
-    may_say = may_say_none(domain)
-    empty = {picture for picture, here in labels.drawn.items() if here.none and may_say}
+    drawn_in = labels.drawn if domain.things is not None else {}
+    empty = {picture for picture, here in drawn_in.items() if here.none}
     none = (NO_THINGS,) if empty else ()
     columns = (IMAGE, "split", CLASS, *domain.features, *none, "group", "reasons")
     stream = io.StringIO()

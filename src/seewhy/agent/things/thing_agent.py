@@ -105,6 +105,18 @@ class ThingAgent:
             raise NotFittedError("the agent is not trained yet; call fit, or load a model")
         return self.seeing
 
+    def knowing(self, domain: Domain) -> ThingAgent:
+        """Return an agent that sees as this one does, and knows what another domain says.
+
+        The things of both have the same features and relations.
+        """
+        settings = self.settings
+        follower = ThingAgent(
+            domain, seed=settings.seed, eyes=settings.eyes, device=settings.device
+        )
+        follower.seeing, follower.trained_on = self.seeing, self.trained_on
+        return follower
+
     # Learning ---------------------------------------------------------------------------------
 
     def fit(

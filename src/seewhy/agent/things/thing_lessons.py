@@ -14,7 +14,7 @@ from seewhy.data.dataset import Dataset
 from seewhy.data.reading_ahead import read_ahead
 from seewhy.data.scene import Scene
 from seewhy.data.thing import CORNERS, THINGS, BoundingBox, Thing
-from seewhy.domain.things import Things
+from seewhy.domain.things import SEEN, Things
 from seewhy.errors import DatasetError
 from seewhy.perception.lesson import Lesson
 from seewhy.perception.picture import WholePicture, whole_picture
@@ -42,7 +42,6 @@ _MOST = 1500
 """Pictures that teach a detector: more would change it little."""
 
 _BATCH = 64
-_SEEN = "seen"
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +77,7 @@ def seen_once(things: Things) -> tuple[str, ...]:
     """
     found: list[str] = []
     for key, relation in things.relations.items():
-        if relation.measure == _SEEN and relation.converse not in found:
+        if relation.measure == SEEN and relation.converse not in found:
             found.append(key)
     return tuple(found)
 

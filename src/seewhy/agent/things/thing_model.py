@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from seewhy.agent.manifest_file import (
+    MANIFEST,
     THINGS_FORMAT,
     check_files,
     read_manifest,
@@ -19,7 +21,7 @@ from seewhy.agent.manifest_file import (
 from seewhy.agent.model import check_target
 from seewhy.agent.things.thing_seeing import ThingSeeing
 from seewhy.domain.domain import Domain, load_domain
-from seewhy.domain.folder import FILES
+from seewhy.domain.folder import FILES, REVISIONS
 from seewhy.domain.tables import CLASS
 from seewhy.errors import ModelError, SeeWhyError
 from seewhy.files.folders import settle_folder, whole_folder
@@ -30,7 +32,7 @@ from seewhy.perception.things.detector import CentreDetector, Detector, Trust
 from seewhy.perception.things.given_detector import NoDetector, OnnxDetector
 from seewhy.perception.things.thing_eyes import ThingEyes
 
-__all__ = ["ThingModel", "read_thing_model", "write_thing_model"]
+__all__ = ["ThingModel", "read_thing_model", "write_domain_files", "write_thing_model"]
 
 _THINGS, _WHOLE = "things", "whole"
 _ONNX = "detector.onnx"
@@ -130,7 +132,8 @@ def read_thing_model(
     """
     settle_folder(folder)
     manifest = read_manifest(folder, ThingManifest, number=THINGS_FORMAT)
-    check_files(folder, manifest.files, must=(must := _files(manifest)), may=must)
+    must = _files(manifest)
+    check_files(folder, manifest.files, must=must, may=(*must, f"domain/{REVISIONS}"))
     domain = _domain(folder, manifest)
     assert domain.things is not None
     eyes = ThingEyes.load(folder / _THINGS, device=device)
@@ -155,6 +158,24 @@ def read_thing_model(
         detector = _detector(folder / _THINGS, manifest.detector)
     seeing = ThingSeeing(domain, eyes, detector, manifest.trust, whole)
     return ThingModel(seeing, manifest.seed, manifest.trained_on)
+
+
+def write_domain_files(folder: Path, files: Mapping[str, str]) -> None:
+    """Put other texts into the files of a model's domain; the model is written whole.
+
+    Raises
+    ------
+    ModelError
+        If the folder is no model of things.
+    """
+    manifest = read_manifest(folder, ThingManifest, number=THINGS_FORMAT)
+    with whole_folder(folder, replacing=True) as temporary:
+        shutil.copytree(folder, temporary, dirs_exist_ok=True)
+        (temporary / MANIFEST).unlink()
+        for name, text in files.items():
+            (temporary / "domain" / name).write_bytes(text.encode())
+        fields = manifest.model_dump(mode="json", exclude={"files", "digest"})
+        write_manifest(temporary, {**fields, "trained_on": sorted(manifest.trained_on)})
 
 
 def _detector(folder: Path, kind: str) -> Detector:

@@ -59,6 +59,13 @@ class SupposedThings:
         """Whether a thing would not be there."""
         return bool(self.without >> number & 1)
 
+    def is_changed(self, number: int) -> bool:
+        """Whether a thing would look otherwise than it was read; a new one does not."""
+        seen = self.reply.read.scene
+        return number < seen.count and any(
+            column[number] != seen.values[key][number] for key, column in self.scene.values.items()
+        )
+
 
 def suppose_things(
     answerer: ThingAnswerer, reply: PictureReply, edits: Sequence[Edit]

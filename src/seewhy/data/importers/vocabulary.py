@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from seewhy.data.importers.annotation import AnnotatedPicture, Box, Notes
@@ -11,7 +11,8 @@ from seewhy.data.importers.class_features import ClassFeatures
 from seewhy.data.importers.names import distinct_names
 from seewhy.data.importers.yes_or_no import yes_or_no
 from seewhy.data.thing import CORNERS
-from seewhy.domain.tables import RESERVED, SCENE, TOGETHER
+from seewhy.domain.tables import NO_THINGS, RESERVED, SCENE, TOGETHER
+from seewhy.domain.things import RESERVED as OF_THINGS
 
 THING_COLUMNS = ("image", "thing", *CORNERS, "kind")
 MOST_VALUES = 100
@@ -69,9 +70,13 @@ class Vocabulary:
 
 
 def vocabulary_of(
-    pictures: Sequence[AnnotatedPicture], class_features: ClassFeatures | None, notes: Notes
+    pictures: Sequence[AnnotatedPicture],
+    class_features: ClassFeatures | None,
+    notes: Notes,
+    *,
+    as_said: bool = False,
 ) -> Vocabulary:
-    """Return the names for what a source says, in a natural order.
+    """Return the names for what a source says, in a natural order, or in the order it is said in.
 
     Spellings that mean the same become one name. What has too many values to be a feature is
     left out and noted.
@@ -87,9 +92,10 @@ def vocabulary_of(
     >>> found.features["Has Tail"].values
     {'false': 'no', 'True': 'yes'}
     """
-    classes = {picture.class_name for picture in pictures} - {""}
+    order = list if as_said else naturally
+    classes = dict.fromkeys(picture.class_name for picture in pictures if picture.class_name)
     if class_features is not None:
-        classes |= set(class_features.values)
+        classes |= dict.fromkeys(class_features.values)
     said: dict[str, dict[str, None]] = {}
     for feature in class_features.features if class_features is not None else ():
         said[feature] = {}
@@ -101,14 +107,16 @@ def vocabulary_of(
     of_boxes: dict[str, dict[str, None]] = {}
     for box in boxes:
         _collect(of_boxes, box.attributes)
-    names = distinct_names(naturally(classes))
+    names = distinct_names(order(classes))
     _note_merged(names, "classes", notes)
     return Vocabulary(
         classes=names,
         # A feature that was called like a class would make both ambiguous.
-        features=_features(said, (*RESERVED, TOGETHER, SCENE, *names.values()), notes),
-        kinds=distinct_names(naturally({box.kind for box in boxes} - {""})),
-        attributes=_features(of_boxes, THING_COLUMNS, notes),
+        features=_features(
+            said, (*RESERVED, NO_THINGS, TOGETHER, SCENE, *names.values()), notes, order
+        ),
+        kinds=distinct_names(order(dict.fromkeys(box.kind for box in boxes if box.kind))),
+        attributes=_features(of_boxes, OF_THINGS, notes, order),
     )
 
 
@@ -168,7 +176,10 @@ def _collect(said: dict[str, dict[str, None]], features: Mapping[str, str]) -> N
 
 
 def _features(
-    said: Mapping[str, Iterable[str]], taken: Sequence[str], notes: Notes
+    said: Mapping[str, Iterable[str]],
+    taken: Sequence[str],
+    notes: Notes,
+    order: Callable[[Iterable[str]], list[str]],
 ) -> dict[str, FeatureWords]:
     kept = {feature: list(values) for feature, values in said.items()}
     for feature, values in list(kept.items()):
@@ -181,7 +192,7 @@ def _features(
         merged.setdefault(names[feature], []).append(feature)
     found: dict[str, FeatureWords] = {}
     for name, spellings in merged.items():
-        values = naturally({value for feature in spellings for value in kept[feature]})
+        values = order(dict.fromkeys(value for feature in spellings for value in kept[feature]))
         booleans = yes_or_no(values)
         words = FeatureWords(
             name=name,

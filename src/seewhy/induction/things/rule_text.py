@@ -24,7 +24,7 @@ from seewhy.knowledge.scene import SceneSchema
 from seewhy.knowledge.signature import Signature
 from seewhy.knowledge.things import literals_about
 
-__all__ = ["thing_rule_statement"]
+__all__ = ["counted_condition", "thing_rule_statement"]
 
 _THINGS = ("X", "Y", "Z")
 """Variables of an axiom's body; so many range over things, or it would have too many instances."""
@@ -73,6 +73,27 @@ def thing_rule_statement(
             parts.append(writer.counted(condition))
     parts += [f"not {writer.of_scene(schema.classes[other])}" for other in rule.unless]
     return f"{head} if {', '.join(parts)}."
+
+
+def counted_condition(
+    condition: There, things: Things, schema: SceneSchema, signature: Signature
+) -> str:
+    """Return what is asked as one condition of an axiom, which has no variable of its own.
+
+    Raises
+    ------
+    ValueError
+        As :func:`thing_rule_statement`.
+
+    Examples
+    --------
+    >>> from seewhy.domain.domain import load_domain
+    >>> domain = load_domain("tabletop")
+    >>> none = There(Pattern.of(1, [HasValue(0, "colour", "red")]), holds=False)
+    >>> counted_condition(none, domain.things, domain.schema, domain.knowledge.signature)
+    '#count { U : colour(U, red) } = 0'
+    """
+    return _Writer(things, schema, signature).counted(condition)
 
 
 def _first_those_alone(condition: Condition) -> int:

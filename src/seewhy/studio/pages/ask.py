@@ -10,7 +10,6 @@ from fastapi.responses import RedirectResponse
 
 from seewhy.dialogue.asked import Asks, Question
 from seewhy.errors import PictureError, QuestionError, SeeWhyError
-from seewhy.revision.remarks import says_wrong
 from seewhy.studio.incoming import sent_picture
 from seewhy.studio.pages import ask_doubt, ask_things_doubt, ask_where
 from seewhy.studio.pages.ask_things import (
@@ -108,9 +107,8 @@ def answer(
     """Answer a question; one that leaves something out is about what was spoken of."""
     studio = studio_of(request)
     if studio.project.has_things:
-        if says_wrong(question):
-            return ask_things_doubt.doubt_about_things(request, picture)
-        return answer_about_things(request, picture, question, supposed=sent)
+        remarked = ask_things_doubt.remarked_about_things(request, picture, question)
+        return remarked or answer_about_things(request, picture, question, supposed=sent)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     if not question.strip():
@@ -157,6 +155,8 @@ def take(
 ) -> Response:
     """Take what was proposed, and answer the last question anew."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        return ask_things_doubt.take_about_things(request, picture, key)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     done = ask_doubt.taken(studio, talk, key, who=who_of(request))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Form, Query, Request, Response
@@ -13,9 +12,14 @@ from seewhy.errors import SeeWhyError
 from seewhy.revision.proposal import Proposal
 from seewhy.revision.remarks import Remark, Says, remark_of
 from seewhy.studio import doubting
-from seewhy.studio.pages.ask_things_doubt import doubt_about_things
+from seewhy.studio.pages.ask_things_doubt import (
+    doubt_about_things,
+    reason_about_things,
+    rules_about_things,
+)
 from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.pages.done import Done
+from seewhy.studio.pages.remedies import Remedy, shown_remedies
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.talk import Talk
@@ -25,15 +29,6 @@ __all__ = ["doubted", "router", "taken"]
 router = APIRouter()
 
 Name = Annotated[str, Query(max_length=2000)]
-
-
-@dataclass(frozen=True)
-class Remedy:
-    """A proposal as it is shown, with the key to take it by."""
-
-    key: str
-    proposal: Proposal
-    said: str
 
 
 @router.get("/ask/doubt")
@@ -46,7 +41,7 @@ def doubt(
     """What may have been misread; the rules and reasons are asked for from there."""
     studio = studio_of(request)
     if studio.project.has_things:
-        return doubt_about_things(request, picture)
+        return doubt_about_things(request, picture, wanted=wanted)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     with studio.model.at_work() as agent:
@@ -61,6 +56,8 @@ def doubt(
 def rules(request: Request, picture: Name) -> Response:
     """Exceptions to the rules behind the answer, and conditions that they may ask more."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        return rules_about_things(request, picture)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     found = doubting.for_the_rules(studio.model, talk)
@@ -75,6 +72,8 @@ def reason(
 ) -> Response:
     """The rule that a reason states: "it is good because it is red"."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        return reason_about_things(request, picture, because)
     talk = studio.talks.of(request.state.session)
     talk.about(chosen(studio, picture))
     found = doubting.for_a_reason(studio.model, talk, because)
@@ -126,9 +125,8 @@ def taken(studio: Studio, talk: Talk, key: str, *, who: str) -> Done:
 def _remedies(
     request: Request, talk: Talk, found: Mapping[str, Proposal], *, nothing: str
 ) -> Response:
-    template = "_ask_remedies.html" if from_script(request) else "ask_remedies.html"
     remedies = remedies_of(studio_of(request), found)
-    return render(request, template, remedies=remedies, picture=talk.picture, nothing=nothing)
+    return shown_remedies(request, remedies, picture=talk.picture, nothing=nothing)
 
 
 def _shown(

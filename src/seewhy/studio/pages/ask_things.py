@@ -10,9 +10,10 @@ from urllib.parse import urlencode
 from fastapi import Request, Response
 from fastapi.responses import RedirectResponse
 
-from seewhy.agent.things.thing_supposing import say_edits, suppose_things
+from seewhy.agent.things.thing_supposing import SupposedThings, say_edits, suppose_things
 from seewhy.errors import PictureError, QuestionError
 from seewhy.report.thing_card import rests_on, spoken_of
+from seewhy.studio.box_labels import box_labels, letter_size
 from seewhy.studio.drawing import picture_size
 from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.pages.done import Done
@@ -30,7 +31,6 @@ from seewhy.studio.thing_talk import ThingTalk
 
 if TYPE_CHECKING:
     from seewhy.agent.things.thing_agent import ThingAgent
-    from seewhy.agent.things.thing_reply import PictureReply
 
 __all__ = [
     "answer_about_things",
@@ -112,15 +112,11 @@ def _shown(
         return {
             "picture": talk.picture,
             "done": done,
-            "size": picture_size(studio.project.picture_file(talk.picture)),
-            "reply": reply,
-            "read": reply.read,
-            "shown": rests_on(reply),
+            "beside": False,
             "before": talk.replies[-2::-1],
             "suggested": suggested_about_things(agent, reply.read, reply),
-            "classes": agent.domain.classes,
             "features": agent.domain.features,
-            **_supposed(agent, reply, supposed),
+            **_supposed(studio, agent, talk, supposed),
         }
 
 
@@ -131,29 +127,53 @@ def what_if_about_things(request: Request, picture: str) -> Response:
     talk.about(chosen(studio, picture))
     begin(studio, talk)
     with studio.things.at_work() as agent:
-        shown = _supposed(agent, talk.replies[-1], request.query_params.multi_items())
-    template = "_ask_things_supposed.html" if from_script(request) else "ask_what_if.html"
+        shown = _supposed(studio, agent, talk, request.query_params.multi_items())
     part = "_ask_things_supposed.html"
-    return render(request, template, picture=talk.picture, part=part, **shown)
+    template = part if from_script(request) else "ask_what_if.html"
+    # The page has the picture already: its boxes are exchanged beside what is supposed.
+    beside = from_script(request)
+    return render(request, template, picture=talk.picture, part=part, beside=beside, **shown)
 
 
 def _supposed(
-    agent: ThingAgent, reply: PictureReply, fields: Sequence[tuple[str, str]]
+    studio: Studio, agent: ThingAgent, talk: ThingTalk, fields: Sequence[tuple[str, str]]
 ) -> dict[str, Any]:
-    """What the template of what is supposed shows."""
+    """What is shown of what is supposed, in the picture and beside it."""
+    reply = talk.replies[-1]
     read = reply.read
     said = read_supposition(fields, read)
     edits = edits_of(said, read)
     supposed = suppose_things(agent.answerer, reply, edits)
+    size = picture_size(studio.project.picture_file(talk.picture))
+    called = [
+        (supposed if supposed.is_changed(number) else read).words.name(number).removeprefix("the ")
+        for number in range(len(read.reading.things))
+    ]
     return {
+        "labels": box_labels([thing.box for thing in read.reading.things], called, size),
+        "letters": letter_size(size),
         "read": read,
         "reply": reply,
+        "size": size,
+        "shown": rests_on(reply),
         "classes": agent.domain.classes,
         "said": said,
         "clauses": say_edits(read, edits),
         "supposed": supposed,
+        "marked": _marked(supposed, added=said.added),
         "others": list(fields_of(said, but=said.at)),
         "orders": orders(read),
         "loose": loose_relations(read),
         "spoken_of": partial(spoken_of, read=read),
     }
+
+
+def _marked(supposed: SupposedThings, *, added: int) -> list[str]:
+    """What marks in the picture stand for."""
+    seen = range(supposed.reply.read.scene.count)
+    marks = {
+        "green: otherwise": any(map(supposed.is_changed, seen)),
+        "struck out: not there": any(map(supposed.is_gone, seen)),
+        "what is added has no place in it": added > 0,
+    }
+    return [mark for mark, stands in marks.items() if stands]

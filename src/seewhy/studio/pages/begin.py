@@ -11,6 +11,7 @@ from fastapi.responses import RedirectResponse
 from seewhy.data.importers import ImportRequest
 from seewhy.errors import PictureError, SeeWhyError
 from seewhy.new_domain.from_names import (
+    MOST_THINGS,
     NamedDomain,
     domain_from_names,
     named_classes,
@@ -75,6 +76,9 @@ def names(
     features: Text = "",
     table: Text = "",
     subject: Annotated[str, Form(max_length=100)] = "the picture",
+    thing: Annotated[str, Form(max_length=100)] = "",
+    of_things: Text = "",
+    most: Annotated[int, Form(ge=1, le=1000)] = MOST_THINGS,
 ) -> Response:
     """Write the domain of what was named."""
     project = studio_of(request).project
@@ -83,7 +87,15 @@ def names(
             "there is a domain already; the page Rules changes it, or edit domain.toml in "
             f"{project.domain_folder}"
         )
-    named = NamedDomain(named_classes(classes), named_features(features), table, subject)
+    named = NamedDomain(
+        named_classes(classes),
+        named_features(features),
+        table,
+        subject,
+        thing.strip(),
+        named_features(of_things),
+        most,
+    )
     domain_from_names(named, domain_place(project), data=str(project.folder))
     project.refresh(who=who_of(request), why="begun with these names")
     return _to(request, "/label")
@@ -152,6 +164,7 @@ def _state(request: Request) -> dict[str, Any]:
     step = max(1, len(pictures) // _SHOWN)
     return {
         "domain": domain,
+        "most_things": MOST_THINGS,
         "count": len(pictures),
         "some": pictures[::step][:_SHOWN],
         "labelled": len(project.labels().of),

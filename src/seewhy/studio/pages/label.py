@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import RedirectResponse
 
+from seewhy.new_domain.words import plain_words
 from seewhy.studio.entry_words import in_words
 from seewhy.studio.labelling import (
     bring_back,
@@ -78,9 +79,9 @@ def set_value(request: Request, picture: Name, choice: Name = "", other: Name = 
     labels, domain = studio.project.labels(), studio.project.domain()
     if value and labels.is_complete(picture, domain):
         go_on(request)
-        return shown(request, done=f"{picture}: {name} {value}, all said")
+        return shown(request, done=f"{picture}: {name} {plain_words(value)}, all said")
     at = question_after(studio, picture, name) if value else name
-    return shown(request, at=at, done=f"{name} {value or 'open again'}")
+    return shown(request, at=at, done=f"{name} {plain_words(value) or 'open again'}")
 
 
 @router.post("/label/confirm")

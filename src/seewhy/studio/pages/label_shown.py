@@ -17,6 +17,7 @@ from seewhy.studio.record import Entry
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.thing_bench import ThingBench, thing_bench
+from seewhy.studio.what_next import what_next, why_next
 from seewhy.studio.workbench import Workbench, workbench
 
 __all__ = [
@@ -69,7 +70,7 @@ def shown(request: Request, *, at: str = "", thing: str = "", done: str = "") ->
         "bench": bench_of(studio, here, at=at),
         "things": _things(studio, here, at=at, thing=thing),
         "proposals": proposals,
-        "worth": dict(proposals.order).get(here),
+        "why_next": why_next(here, studio.project.labels(), studio.project.domain(), proposals),
         "done": done,
         "progress": progress_of(studio.project, proposals),
     }
@@ -126,17 +127,9 @@ def go_on(request: Request) -> None:
 
 
 def _order(studio: Studio) -> Iterator[str]:
-    """Pictures by what a label is worth, then what is open in the order of the names, then all."""
-    labels, domain = studio.project.labels(), studio.project.domain()
-    pictures = studio.project.pictures()
-    there = set(pictures)
-
-    def is_open(name: str) -> bool:
-        return name in there and not labels.is_complete(name, domain)
-
-    yield from (name for name, _ in studio.proposer.latest().order if is_open(name))
-    yield from filter(is_open, pictures)
-    yield from pictures
+    project = studio.project
+    pictures, labels = project.pictures(), project.labels()
+    return what_next(pictures, labels, project.domain(), studio.proposer.latest())
 
 
 def shown_after(request: Request, entry: Entry, *, done: str) -> Response:

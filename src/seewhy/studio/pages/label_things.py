@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Form, Request, Response
 
 from seewhy.errors import SeeWhyError
+from seewhy.new_domain.words import plain_words
 from seewhy.studio.drawing import (
     draw,
     move,
@@ -89,7 +90,8 @@ def set_value(
     name, _, value = (other or choice).partition("=")
     say_of_thing(studio.project, picture, thing, name, value or None, who=who_of(request))
     at = "" if value else name
-    return shown(request, at=at, thing=thing, done=f"{one} {thing}: {name} {value or 'open again'}")
+    said = plain_words(value) or "open again"
+    return shown(request, at=at, thing=thing, done=f"{one} {thing}: {name} {said}")
 
 
 @router.post("/label/thing/relate")

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Form, HTTPException, Query, Request, Response
+from fastapi import APIRouter, File, Form, HTTPException, Query, Request, Response, UploadFile
 from fastapi.responses import FileResponse, RedirectResponse
 
 from seewhy.errors import PlanningError, SeeWhyError
 from seewhy.planning.dialogue.run_answers import PlanningReply
-from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.execution.simulation import ground_fluents
 from seewhy.planning.goal import example_fluent
-from seewhy.planning.spoken_goals import goal_of
+from seewhy.planning.spoken_goals import SpokenGoals, goal_of
 from seewhy.studio.jobs import Job, jobs_of
 from seewhy.studio.pages.page import Page
 from seewhy.studio.rendering import from_script, render
+from seewhy.studio.robot_beginnings import Beginning, keep_file, scenes_kept
 from seewhy.studio.robot_process import PAGE_FILE
 from seewhy.studio.robot_runs import (
     RobotRun,
@@ -37,7 +39,7 @@ router = APIRouter()
 PAGE = Page("/robot", "Robot", router)
 TASK = "robot"
 
-_NOTHING_ASKED = {"goal": "", "seed": 0, "steps": 60, "at_first": []}
+_NOTHING_ASKED = {"goal": "", "seed": 0, "steps": 60, "at_first": [], "scene": "", "history": ""}
 _KEPT = {"Cache-Control": "private, max-age=3600"}
 Text = Annotated[str, Form(max_length=2000)]
 
@@ -57,19 +59,30 @@ def begin(
     seed: Annotated[int, Form(ge=0, le=2**31 - 1)] = 0,
     steps: Annotated[int, Form(ge=1, le=200)] = 60,
     at_first: Text = "",
+    scene: Annotated[str, Form(max_length=4000)] = "",
+    number: Annotated[str, Form(pattern=r"^\d{0,9}$")] = "",
+    scene_file: Annotated[UploadFile | None, File()] = None,
+    history_file: Annotated[UploadFile | None, File()] = None,
 ) -> Response:
     """Let the robot run; what cannot be is said before anything begins."""
     studio = studio_of(request)
     name = _domain(studio, domain, folder.strip())
-    loaded = load_planning_domain(name)
+    if scene and scene not in scenes_kept(studio.project, name):
+        raise SeeWhyError("that scene is none of the list; send its file")
+    if (sent := _sent(studio, scene_file)) is not None:
+        scene = f"{sent}#{number}" if number else str(sent)
+    history = _sent(studio, history_file)
+    beginning = Beginning(name, scene, "" if history is None else str(history))
+    loaded = beginning.load()
     goal_of(goal, loaded)
+    beginning.past(loaded)
     literals = [part.strip() for part in at_first.split(";") if part.strip()]
     ground_fluents(literals, loaded.knowledge)
-    asked = {"domain": name, "goal": goal, "seed": seed, "steps": steps, "at_first": literals}
+    asked = {**asdict(beginning), "goal": goal, "seed": seed, "steps": steps, "at_first": literals}
     jobs_of(studio.project).start(
         TASK,
         "seewhy.studio.robot_process",
-        [name, goal, str(seed), str(steps), "{job}", *literals],
+        [json.dumps(asked), "{job}"],
         who=who_of(request),
         asked=asked,
     )
@@ -149,12 +162,18 @@ def _shown(
     problem, example = "", ""
     questions: tuple[str, ...] = ()
     literals: dict[str, str] = {}
+    scenes: dict[str, str] = {}
+    goals: tuple[str, ...] = ()
     try:
-        loaded = load_planning_domain(_domain(studio, chosen, ""))
+        name = _domain(studio, chosen, "")
+        scenes = scenes_kept(studio.project, name)
+        same = chosen == asked.get("domain")
+        loaded = (Beginning.of(asked) if same else Beginning(name)).load()
         example = example_fluent(loaded.knowledge)
         literals = supposable(loaded)
+        goals = tuple(SpokenGoals(loaded).examples())
         if job is not None:
-            questions = questions_about(asked["domain"])
+            questions = questions_about(Beginning.of(asked))
     except SeeWhyError as said:
         problem = str(said)
     run = run_of(job) if job else RobotRun(())
@@ -168,6 +187,8 @@ def _shown(
         chosen=chosen,
         asked=asked if same else _NOTHING_ASKED,
         example=example,
+        scenes=scenes,
+        goals=goals,
         questions=questions,
         literals=literals,
         same=same,
@@ -192,9 +213,16 @@ def _actions(job: Job | None, reply: PlanningReply | None) -> list[str]:
         return []
     import clingo
 
-    words = load_planning_domain(job.asked["domain"]).words
+    words = Beginning.of(job.asked).load().words
     found = reply.reasons.get("actions", ())
     return [words.do(clingo.parse_term(action)) for action in found]
+
+
+def _sent(studio: Studio, file: UploadFile | None) -> Path | None:
+    """Keep a file that was chosen; None where none was."""
+    if file is None or not file.filename:
+        return None
+    return keep_file(studio.project, file.filename, file.file)
 
 
 def _last(request: Request) -> Job:

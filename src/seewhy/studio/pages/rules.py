@@ -11,7 +11,7 @@ from fastapi.responses import RedirectResponse
 
 from seewhy.errors import DomainError, KnowledgeError, SeeWhyError
 from seewhy.revision.edit import KNOWLEDGE
-from seewhy.studio.doubting import labelled_scenes
+from seewhy.studio.labelled_scenes import labelled_scenes
 from seewhy.studio.pages import rules_by_example
 from seewhy.studio.pages.page import Page
 from seewhy.studio.project import Project

@@ -14,10 +14,11 @@ from seewhy.domain.tables import CLASS
 from seewhy.errors import DomainError
 from seewhy.revision.edit import KNOWLEDGE
 from seewhy.revision.telling import say_consequences
+from seewhy.revision.things.reasons import example_of_a_reason
 from seewhy.studio.doubting import take
 from seewhy.studio.project import Project
 from seewhy.studio.rendering import from_script, render
-from seewhy.studio.rule_making import MadeRule, learned_rules, rules_from
+from seewhy.studio.rule_making import MadeRule, learned_rules, rules_from, rules_in_words
 from seewhy.studio.session import who_of
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.talk import Talk
@@ -60,6 +61,9 @@ def show(
     if project.domain_folder is None:
         return RedirectResponse("/rules", 303)
     domain, labels = project.domain(), project.labels()
+    if domain.things is not None:
+        example = example_of_a_reason(domain)
+        return render(request, "rules_in_words.html", domain=domain, example=example)
     names = [
         name
         for name in project.pictures()
@@ -97,6 +101,16 @@ def make(
     )
     nothing = "Each rule that these pictures suggest is known already."
     return _offered(request, studio, made, nothing=nothing)
+
+
+@router.post("/rules/words")
+def make_of_words(request: Request, because: Annotated[str, Form(max_length=1000)]) -> Response:
+    """The rule about things that a reason in words states, with what it would change."""
+    studio = studio_of(request)
+    if not studio.project.has_things:
+        raise DomainError("the domain has no things; make a rule by example")
+    made = rules_in_words(studio.project, because)
+    return _offered(request, studio, made, nothing="No rule follows from it.")
 
 
 @router.get("/rules/learned")

@@ -27,13 +27,18 @@
 
   async function send(files) {
     const chosen = files.filter((file) => PICTURE.test(file.name));
-    if (!chosen.length) return say("None of these is a picture (.jpg, .png and others).");
+    const others = files.filter((file) => !PICTURE.test(file.name));
+    if (!files.length) return say("No picture was chosen; choose some, or drop them on the field.");
+    if (!chosen.length) return say(`None of these is a picture that is read (.jpg, .png and others). ${remedy(others)}`);
+    document.getElementById("problem").replaceChildren();
     const token = form.elements.csrf.value;
     const button = form.querySelector("button");
     button.disabled = true;
     bar.hidden = false;
     bar.max = chosen.length;
     bar.value = 0;
+    let came = 0;
+    const refused = others.length ? [`${named_some(others)}: no picture by the name. ${remedy(others)}`] : [];
     try {
       for (const parcel of parcels(chosen)) {
         const body = new FormData();
@@ -45,8 +50,11 @@
         });
         const text = await answer.text();
         if (!answer.ok) return show("problem", text);
-        show("arrived", text);
+        const part = show("arrived", text);
+        came += Number(part.dataset.came);
+        refused.push(...Array.from(part.querySelectorAll("li.refused"), (item) => item.textContent));
         bar.value += parcel.length;
+        tell(came, refused);
       }
       form.reset();
     } catch {
@@ -62,8 +70,47 @@
     const place = document.getElementById(id);
     const found = new DOMParser().parseFromString(text, "text/html").body;
     const part = found.querySelector("#" + id);
-    if (part) place.replaceWith(document.importNode(part, true));
-    else place.replaceChildren(...Array.from(found.childNodes, (node) => document.importNode(node, true)));
+    if (part) {
+      const shown = document.importNode(part, true);
+      place.replaceWith(shown);
+      return shown;
+    }
+    place.replaceChildren(...Array.from(found.childNodes, (node) => document.importNode(node, true)));
+    return place;
+  }
+
+  // What came of all parcels together, in the place of what is told of the last one.
+  function tell(came, refused) {
+    const arrived = document.getElementById("arrived");
+    for (const told of arrived.querySelectorAll(".came, .left-out")) told.remove();
+    if (refused.length) {
+      const list = document.createElement("ul");
+      for (const sentence of refused.slice(0, 20)) {
+        const item = document.createElement("li");
+        item.className = "refused";
+        item.textContent = sentence;
+        list.append(item);
+      }
+      const summary = document.createElement("summary");
+      summary.textContent = `${refused.length} left out`;
+      const details = document.createElement("details");
+      details.className = "problem left-out";
+      details.open = true;
+      details.append(summary, list);
+      arrived.prepend(details);
+    }
+    const note = document.createElement("p");
+    note.className = "note came";
+    note.textContent = came ? `${came} picture${came === 1 ? "" : "s"} came.` : "No new picture came: these are in the project already, or left out.";
+    arrived.prepend(note);
+  }
+
+  const named_some = (files) => files.slice(0, 3).map((file) => file.name).join(", ") + (files.length > 3 ? ` and ${files.length - 3} more` : "");
+
+  function remedy(files) {
+    if (files.some((file) => /\.(heic|heif|avif)$/i.test(file.name))) return "HEIC is not read: save these photographs as JPEG first.";
+    if (files.some((file) => /\.(zip|tar|t?gz|7z|rar)$/i.test(file.name))) return "Unpack an archive first; one of labelled pictures is imported below, by its path.";
+    return "";
   }
 
   function say(text) {

@@ -1,0 +1,1 @@
+"""Knowledge about several things in a picture, revised in dialogue."""
