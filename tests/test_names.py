@@ -108,7 +108,7 @@ def lamps(names: dict[str, str]) -> list[object]:
         {*suppositions(known, goal, plans[0].actions, start=start)},
         goal_holds(known, goal, plans[0].states[-1].holds),
         {(action, transitions.after(world, [action])) for action in transitions.actions},
-        [(action, probe.find(action=action) is None) for action in probe.actions],
+        [(action, not probe.is_possible(action=action)) for action in probe.actions],
         [
             [(one.axiom.head, one.holds, one.absent) for one in Instances(known).of(axiom, world)]
             for axiom in known.axioms[5:]
