@@ -6,10 +6,10 @@ import random
 
 import pytest
 
-from seewhy.check import transition_probe
-from seewhy.check.symmetry import first_of_each, interchangeable
-from seewhy.check.transition_probe import TransitionProbe
+from seewhy.knowledge import transition_probe
 from seewhy.knowledge.language import Knowledge, read_knowledge
+from seewhy.knowledge.symmetry import first_of_each, interchangeable
+from seewhy.knowledge.transition_probe import TransitionProbe
 from seewhy.planning.domain import load_planning_domain
 
 SIGNATURE = """

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import clingo
 
-from seewhy.check.transition_probe import Found, TransitionProbe
 from seewhy.errors import KnowledgeError, PlanningError
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Literal
 from seewhy.knowledge.dynamics import constraints, gives_way, of_kind
@@ -17,6 +16,7 @@ from seewhy.knowledge.history import Observation, Occurrence, read_history
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Location, PredicateKind, Signature
 from seewhy.knowledge.statements import statements
+from seewhy.knowledge.transition_probe import Found, TransitionProbe
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.diagnosis.diagnosis import diagnose, smallest_correction_set
 from seewhy.planning.domain import PlanningDomain

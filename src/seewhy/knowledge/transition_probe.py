@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import clingo
 
-from seewhy.check.symmetry import first_of_each, interchangeable
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Literal
 from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import (
@@ -19,10 +18,11 @@ from seewhy.knowledge.dynamics import (
     of_kind,
     rule,
 )
-from seewhy.knowledge.ground import complement_of
+from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import PredicateKind
+from seewhy.knowledge.symmetry import first_of_each, interchangeable
 
 # Every state is tried as the first one; each of the others is a state that may follow it.
 _PROGRAM = """
@@ -138,10 +138,21 @@ class TransitionProbe:
         action: str | None = None,
         applies: Axiom | None = None,
         without: Collection[Axiom] = (),
+        done: Literal | None = None,
+        holds: Literal | None = None,
     ) -> bool:
-        """Return whether there is some state with these properties; see :meth:`find`."""
-        assumed = self._assumed(action, applies, without)
-        return assumed is not None and self.control.satisfiable(assumed)
+        """Return whether there is some state with these properties; see :meth:`find`.
+
+        ``done`` is the one action that happens, with its arguments; ``holds`` is a fluent that is
+        so in the state.
+        """
+        name = action if done is None else done.predicate
+        assumed = self._assumed(name, applies, without)
+        atoms = [f"occurs({key_of(done)})"] if done is not None else []
+        atoms += [f"holds({key_of(holds)},0)"] if holds is not None else []
+        if assumed is None or any(atom not in self._literals for atom in atoms):
+            return False
+        return self.control.satisfiable([*assumed, *(self._literals[atom] for atom in atoms)])
 
     def _assumed(
         self,
@@ -167,14 +178,23 @@ class TransitionProbe:
         return assumed
 
     def smallest_conflict(
-        self, axioms: Sequence[Axiom], *, action: str | None = None, without: Sequence[Axiom] = ()
+        self,
+        axioms: Sequence[Axiom],
+        *,
+        action: str | None = None,
+        without: Sequence[Axiom] = (),
+        done: Literal | None = None,
+        holds: Literal | None = None,
     ) -> list[Axiom]:
-        """Return those of ``axioms`` that leave no state; without any of them there is one."""
+        """Return those of ``axioms`` that leave no state; without any of them there is one.
+
+        None are returned where there is no such state without all of them, either.
+        """
         needed = list(axioms)
         for axiom in axioms:
             fewer = [other for other in needed if other is not axiom]
             dropped = [*without, *(other for other in axioms if other not in fewer)]
-            if not self.is_possible(action=action, without=dropped):
+            if not self.is_possible(action=action, without=dropped, done=done, holds=holds):
                 needed = fewer
         return needed
 
