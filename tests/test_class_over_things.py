@@ -262,3 +262,43 @@ def test_a_source_may_leave_the_class_to_axioms(run: Run, tmp_path: Path) -> Non
     rows = (tmp_path / "scenes.csv").read_text(encoding="utf-8").splitlines()
     assert rows[0] == "image,class,split"
     assert [row.split(",")[1] for row in rows[1:]] == ["", "", ""]
+
+
+SYMMETRIC = {
+    "two alike": (
+        "species(X, S), species(Y, S), X != Y",
+        ["the red ripe sound apple is an apple", "the green ripe sound apple is an apple"],
+    ),
+    "three that differ": (
+        "colour(X, red), species(Y, pear), rotten(Z), X != Y, Y != Z, X != Z",
+        [
+            "the red ripe sound apple is red",
+            "the green unripe sound pear is a pear",
+            "the blue overripe rotten plum is rotten",
+        ],
+    ),
+    "that touch each other": (
+        "touches(X, Y), -rotten(X), -rotten(Y)",
+        ["the red ripe sound apple touches the green unripe sound pear"],
+    ),
+    "one that is told apart": (
+        "touches(X, Y), rotten(Y)",
+        ["the green unripe sound pear touches the blue overripe rotten plum"],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", SYMMETRIC)
+def test_a_reason_with_things_exchanged_is_told_once(case: str, run: Run, tmp_path: Path) -> None:
+    """As of an axiom that was learned over things, which asks for two that are alike."""
+    body, told = SYMMETRIC[case]
+    mine = write_fruits(tmp_path)
+    knowledge = mine / "knowledge.al"
+    before = knowledge.read_text(encoding="utf-8").split("%% a bowl in which something spoils")[0]
+    knowledge.write_text(f"{before}-fresh(B) if bowl(B), {body}.\n", encoding="utf-8")
+    found = run("decide", mine, "--scene", tmp_path / "scenes.json", "--image", "1")
+    assert found.code == 0, found.err
+    lines = found.out.split("what is there?")[0].splitlines()
+    assert sum("the bowl is spoiled" in line for line in lines) == 1
+    for text in told:
+        assert sum(line.endswith(text) for line in lines) == 1

@@ -83,11 +83,12 @@ def _leaves(node: Node) -> list[str]:
     """The reasons below something that is so; the axiom itself, where it tells more than they."""
     if node.basis is Basis.REASONS:
         return list(dict.fromkeys(text for child in node.children for text in _leaves(child)))
-    found = [_reason(child) for child in node.children if child.basis in _TOLD_OF_THINGS]
-    aggregated = any(child.basis is Basis.COMPARISON for child in node.children)
-    if node.axiom is not None and (aggregated or not found):
-        return [node.axiom.text]
-    return found
+    if node.axiom is None:
+        return [_reason(child) for child in node.children if child.basis in _TOLD_OF_THINGS]
+    # That things differ goes without saying; how many there are does not.
+    counted = any(child.basis is Basis.COMPARISON and child.children for child in node.children)
+    found = [] if counted else [_reason(c) for c in node.children if c.basis in _TOLD]
+    return found or [node.axiom.text]
 
 
 def _denied(node: Node) -> str:
