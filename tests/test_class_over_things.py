@@ -302,3 +302,24 @@ def test_a_reason_with_things_exchanged_is_told_once(case: str, run: Run, tmp_pa
     assert sum("the bowl is spoiled" in line for line in lines) == 1
     for text in told:
         assert sum(line.endswith(text) for line in lines) == 1
+
+
+def test_networks_that_grow_see_no_things(run: Run, tmp_path: Path) -> None:
+    """A folder that asks for them is told so, by what trains and by what checks."""
+    mine = write_fruits(tmp_path)
+    table = mine / "domain.toml"
+    text = table.read_text(encoding="utf-8").replace(
+        'scene = "bowl"', 'scene = "bowl"\neyes = "none"'
+    )
+    table.write_text(text, encoding="utf-8")
+    (tmp_path / "data").mkdir()
+    trained = run("train", mine, "--data", tmp_path / "data", "--out", tmp_path / "model")
+    assert trained.code == 2
+    assert trained.err == (
+        f"seewhy: {table}:6: eyes = 'none' sees no things: networks that grow see one thing in a "
+        "picture, and things are seen by a backbone; leave the line out, or name one such as "
+        "'efficientnet-lite0'\n"
+    )
+    assert not (tmp_path / "model").exists()
+    checked = run("check", mine)
+    assert f"{table}:6: eyes = 'none' sees no things" in checked.out + checked.err

@@ -17,6 +17,8 @@ from seewhy.data.picture_source import check_source
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.question import Questions
 from seewhy.domain.domain import Domain
+from seewhy.domain.key_place import KeyPlace
+from seewhy.domain.tables import NONE
 from seewhy.errors import DatasetError, KnowledgeError
 from seewhy.evaluation import AxiomRecord, axiom_records
 from seewhy.knowledge.axiom import Axiom
@@ -104,6 +106,12 @@ def _check_folder(domain: Domain, reasoner: Reasoner) -> DomainReport:
     if domain.source is not None and without_laboratory is None:
         check_source(domain)
     warnings = [without_laboratory] if without_laboratory else []
+    if domain.things is not None and domain.eyes == NONE:
+        place = KeyPlace(domain.folder / "domain.toml").at("domain", "eyes")
+        warnings.append(
+            f"{place}: eyes = 'none' sees no things, so that nothing can be trained; leave the "
+            "line out"
+        )
     warnings += [
         f"{_said_odd(loop)}, so that {len(without)} of {len(vectors)} feature vectors have no "
         "answer set"
