@@ -10,7 +10,6 @@ from itertools import product
 import numpy as np
 import pytest
 
-from seewhy.check.transition_probe import TransitionProbe
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.bounded_control import BoundedControl
@@ -22,6 +21,7 @@ from seewhy.knowledge.language import read_knowledge
 from seewhy.knowledge.odd_loop import OddLoops
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import SceneSchema
+from seewhy.knowledge.transition_probe import TransitionProbe
 from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.dialogue.instances import Instances
 from seewhy.planning.execution.plan_monitoring import suppositions
@@ -108,7 +108,7 @@ def lamps(names: dict[str, str]) -> list[object]:
         {*suppositions(known, goal, plans[0].actions, start=start)},
         goal_holds(known, goal, plans[0].states[-1].holds),
         {(action, transitions.after(world, [action])) for action in transitions.actions},
-        [(action, probe.find(action=action) is None) for action in probe.actions],
+        [(action, not probe.is_possible(action=action)) for action in probe.actions],
         [
             [(one.axiom.head, one.holds, one.absent) for one in Instances(known).of(axiom, world)]
             for axiom in known.axioms[5:]

@@ -113,6 +113,27 @@ SAID = {
     ),
     "pick up the leftmost cube": "holding(hand, thing1)",
     "nothing is on anything": "not stacked",
+    "put the red block and the small ball on the table": "on_table(thing1), on_table(thing5)",
+    "put the red block, the small ball and the cylinder on the table": (
+        "on_table(thing1), on_table(thing5), on_table(thing4)"
+    ),
+    "put the red block on the green one and the small ball on the red one": (
+        "on(thing1, thing3), on(thing5, thing1)"
+    ),
+    "put the red block on the green block, then the small ball on it": (
+        "on(thing1, thing3), on(thing5, thing1)"
+    ),
+    "take the small ball, then put it on the red cube": "on(thing5, thing1)",
+    "take the small ball and clear the red cube": "holding(hand, thing5), clear(thing1)",
+    "clear the red block and the green block": "clear(thing1), clear(thing3)",
+    "put the cylinder on the table, and then put it on the red block": "on(thing4, thing1)",
+    "put everything on the red block": (
+        "on(thing2, thing1), on(thing3, thing1), on(thing4, thing1), on(thing5, thing1), "
+        "on(thing6, thing1)"
+    ),
+    "put the small ball on something": "on(thing5, V20), thing(V20)",
+    "make a tower": "stacked",
+    "take the small ball off the green block": "-on(thing5, thing3)",
     "on(thing1, thing2), clear(thing1)": "on(thing1, thing2), clear(thing1)",
 }
 
@@ -127,7 +148,10 @@ UNCLEAR = {
     "and the large gray metal sphere.",
     "clear the brown cube": "There is no brown cube.",
     "make coffee quickly": "'make coffee quickly' is not understood; say one such as make a tower",
-    "make a tower of eleven": "is not understood",
+    "make a tower of eleven": (
+        "'eleven' is no number that 'make a tower of …' takes: it goes from 1 to 10; there are six "
+        "things"
+    ),
     "clear(thing9)": "'thing9'",
 }
 
@@ -146,6 +170,27 @@ def test_goals_are_said_in_any_domain_that_plans() -> None:
 
 
 # The command
+
+OUT_OF_REACH = {
+    "put the red block on the red block": "nothing is on itself",
+    "put the red block on the green one and the green one on the red one": (
+        "what is on a thing is above it and nothing is on what stands above it"
+    ),
+    "take the red block and the blue block": "the hand holds one thing",
+    "put the red block on the small ball": "a thing is not put on a ball, on which nothing stays",
+    "put a cube on the large ball": "a thing is not put on a ball, on which nothing stays",
+    "make a tower of seven": (
+        "there is no tower of 7 in any state that there can be; the most is 6"
+    ),
+}
+
+
+@pytest.mark.parametrize("goal", OUT_OF_REACH)
+def test_why_a_goal_cannot_be_reached_is_said(goal: str, run: Run) -> None:
+    found = run("plan", "tabletop", "--goal", goal)
+    assert (found.code, found.out) == (1, f"The goal cannot be reached: {OUT_OF_REACH[goal]}.\n")
+    told = json.loads(run("plan", "tabletop", "--goal", goal, "--json").out)
+    assert (told["status"], told["why_not"]) == ("unreachable", OUT_OF_REACH[goal])
 
 
 def two_scenes(folder: Path) -> Path:

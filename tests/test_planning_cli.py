@@ -57,8 +57,13 @@ def test_what_is_true_or_out_of_reach_is_said(run: Run) -> None:
         "The goal holds already; nothing is to be done.\n"
     )
     done = run("plan", "robot_assistant", "--goal", "loc(sally, library)")
-    assert done.out == "The goal cannot be reached: no sequence of actions leads to it.\n"
+    assert done.out == (
+        "The goal cannot be reached: nothing that can be done leads to it that Sally is in the "
+        "library.\n"
+    )
     assert done.code == 1
+    done = run("plan", "robot_assistant", "--goal", "loc(rob1, kitchen), loc(rob1, library)")
+    assert done.out == "The goal cannot be reached: nobody is at two places.\n"
     done = run("plan", "robot_assistant", "--goal", PAPER, "--horizon", "3")
     assert done.out == ("No plan of at most 3 actions reaches the goal; try a greater --horizon.\n")
 

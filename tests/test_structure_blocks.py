@@ -78,7 +78,9 @@ SAID = {
         "There is one block that would have to be moved: the teal narrow block."
     ),
     "which blocks would fall?": "There is one block that would fall: the teal narrow block.",
-    "what would happen if the top block were removed?": "The red narrow block would be clear.",
+    "what would happen if the top block were removed?": (
+        "The red narrow block would be clear and the structure would be stable."
+    ),
     "what would happen if the red block were removed?": (
         "The teal narrow block would fall and the green narrow block would be clear."
     ),
@@ -103,7 +105,7 @@ def test_what_would_set_it_right(domain: Domain, scene: ThingScene) -> None:
     )
     assert change.text == (
         "If it were not so that the middle of the teal narrow block lies beyond the edge of the "
-        "red narrow block, the answer would be no. Two other changes as small would do, too."
+        "red narrow block, the answer would be no. One other change as small would do, too."
     )
 
 

@@ -61,7 +61,7 @@ def test_the_answer_is_that_of_a_scene_which_is_so(shelf: Domain, reasoner: Reas
             [("holds.on.2.1", "no"), ("holds.on.3.1", "yes")],
             [
                 "it were not so that the blue small box is on the red small box",
-                "the blue small ball is on the red small box",
+                "the blue small ball were on the red small box",
             ],
             "There is one shape on the red small box: the blue small ball.",
         ),
@@ -83,7 +83,7 @@ def test_the_answer_is_that_of_a_scene_which_is_so(shelf: Domain, reasoner: Reas
             [
                 "there were a red small box right of the blue small ball on the red small box "
                 "as well",
-                "the blue small box is on the red small box (shape 4)",
+                "the blue small box were on the red small box (shape 4)",
             ],
             "Yes: there is one red box on a red box: the red small box (shape 4).",
         ),

@@ -245,3 +245,22 @@ def test_a_card_draws_what_the_answer_rests_on(
     assert "stroke-dasharray" in drawn.svg
     assert "thing1" in rests_on(reply)
     assert drawn.save(tmp_path / "card.svg").is_file()
+
+
+def test_how_sure_an_answer_is_can_be_asked(shelf: Domain, reasoner: Reasoner) -> None:
+    """Of what is seen with its probability; of the class that eyes see, with that of the eyes."""
+    assert shelf.things is not None
+    answerer = ThingAnswerer(shelf.things)
+    seen = sighting((0.99, 0.8, 0.99), (0.99, 0.01, 0.99))
+    read = ReadScene(shelf, SceneReader(shelf, reasoner).read(seen), reasoner)
+    red = answerer.answer("how many red boxes are there?", read.scene)
+    sure = answerer.answer("how sure are you?", read.scene, previous=red)
+    told = PictureReply(sure, read, *read.doubt(sure))
+    assert told.text == (
+        "I am not sure: it is right with a probability of 0.80; the least sure is that the red "
+        "small box is red (0.80)."
+    )
+    whole = ask(shelf, reasoner, seen, "is it tidy?")
+    assert (whole.text, round(whole.probability, 2)) == ("Probably yes, the picture is tidy.", 0.7)
+    assert whole.say_least_sure() == "the picture is tidy (0.70)"
+    assert "the picture looks tidy as a whole" in whole.justification.to_text()

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import clingo
 
-from seewhy.check.transition_probe import Found, TransitionProbe
 from seewhy.errors import KnowledgeError, PlanningError
 from seewhy.knowledge.axiom import Axiom, AxiomKind, Literal
 from seewhy.knowledge.dynamics import constraints, gives_way, of_kind
@@ -17,6 +16,7 @@ from seewhy.knowledge.history import Observation, Occurrence, read_history
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Location, PredicateKind, Signature
 from seewhy.knowledge.statements import statements
+from seewhy.knowledge.transition_probe import Found, TransitionProbe
 from seewhy.planning.diagnosis.belief_state import State
 from seewhy.planning.diagnosis.diagnosis import diagnose, smallest_correction_set
 from seewhy.planning.domain import PlanningDomain
@@ -115,9 +115,9 @@ class _Check:
 
     def states(self) -> None:
         """Refuse constraints that no state satisfies."""
-        if self.now.find(without=self.usual) is not None:
+        if self.now.is_possible(without=self.usual):
             return
-        if self.now.find(without=[*self.always, *self.usual]) is None:
+        if not self.now.is_possible(without=[*self.always, *self.usual]):
             raise KnowledgeError(
                 f"{self.knowledge.file}: the axioms about what never changes contradict each "
                 "other; look for a static that is concluded with and without '-'"
@@ -130,7 +130,7 @@ class _Check:
 
     def defaults(self) -> Iterator[str]:
         """Note what cannot all be as usual, whatever is observed."""
-        if self.now.find() is None:
+        if not self.now.is_possible():
             needed = self.now.smallest_conflict([*self.usual, *self.always])
             first = next(axiom for axiom in needed if axiom in self.usual)
             others = [axiom for axiom in needed if axiom is not first]
@@ -142,7 +142,7 @@ class _Check:
     def actions(self) -> None:
         """Refuse an action that is impossible in every state."""
         for action in self.now.actions:
-            if self.now.find(action=action, without=self.usual) is not None:
+            if self.now.is_possible(action=action, without=self.usual):
                 continue
             conditions = [
                 condition
@@ -161,9 +161,9 @@ class _Check:
         for law in self.laws:
             assert law.action is not None
             action = law.action.predicate
-            if self.now.find(action=action, applies=law, without=self.usual) is None:
+            if not self.now.is_possible(action=action, applies=law, without=self.usual):
                 self.needless.append(law)
-            elif self.next.find(action=action, applies=law, without=self.usual) is None:
+            elif not self.next.is_possible(action=action, applies=law, without=self.usual):
                 against = self._against(law)
                 raise KnowledgeError(
                     f"{law.location}: '{law}' defeats itself: {against}, so that "

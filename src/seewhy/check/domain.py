@@ -17,6 +17,8 @@ from seewhy.data.picture_source import check_source
 from seewhy.dialogue.answer import answer_templates
 from seewhy.dialogue.question import Questions
 from seewhy.domain.domain import Domain
+from seewhy.domain.key_place import KeyPlace
+from seewhy.domain.tables import NONE
 from seewhy.errors import DatasetError, KnowledgeError
 from seewhy.evaluation import AxiomRecord, axiom_records
 from seewhy.knowledge.axiom import Axiom
@@ -104,6 +106,12 @@ def _check_folder(domain: Domain, reasoner: Reasoner) -> DomainReport:
     if domain.source is not None and without_laboratory is None:
         check_source(domain)
     warnings = [without_laboratory] if without_laboratory else []
+    if domain.things is not None and domain.eyes == NONE:
+        place = KeyPlace(domain.folder / "domain.toml").at("domain", "eyes")
+        warnings.append(
+            f"{place}: eyes = 'none' sees no things, so that nothing can be trained; leave the "
+            "line out"
+        )
     warnings += [
         f"{_said_odd(loop)}, so that {len(without)} of {len(vectors)} feature vectors have no "
         "answer set"
@@ -159,17 +167,29 @@ def _scenes_of_things(schema: SceneSchema, count: int) -> list[FeatureVector]:
     """Scenes with things, whose features and relations are as chance has it."""
     generator = np.random.default_rng(0)
     things = list(schema.presence.values())
+    shown: dict[int, list[str]] = {}
     found: list[FeatureVector] = []
     for _ in range(count):
-        values: dict[str, str | None] = dict.fromkeys(
-            things[: int(generator.integers(len(things) + 1))], "yes"
-        )
-        for feature, literals in schema.features.items():
-            if feature not in things and all(p in values for p in schema.requires.get(feature, ())):
-                possible = list(literals)
-                values[feature] = possible[int(generator.integers(len(possible)))]
+        there = int(generator.integers(len(things) + 1))
+        if there not in shown:
+            shown[there] = _of_so_many(schema, things[:there])
+        sizes = [len(schema.features[feature]) for feature in shown[there]]
+        values: dict[str, str | None] = dict.fromkeys(things[:there], "yes")
+        for feature, number in zip(shown[there], generator.integers(sizes).tolist(), strict=True):
+            values[feature] = tuple(schema.features[feature])[number]
         found.append(schema.vector(values))
     return found
+
+
+def _of_so_many(schema: SceneSchema, there: Sequence[str]) -> list[str]:
+    """What is seen where these things are there, beside that they are."""
+    absent = set(schema.presence.values()) - set(there)
+    return [
+        feature
+        for feature in schema.features
+        if feature not in schema.presence.values()
+        and absent.isdisjoint(schema.requires.get(feature, ()))
+    ]
 
 
 def _odd_loops(reasoner: Reasoner, vectors: Sequence[FeatureVector]) -> list[tuple[Axiom, ...]]:

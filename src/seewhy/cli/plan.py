@@ -86,8 +86,10 @@ def plan(
     from seewhy.planning.execution.execution import Run
     from seewhy.planning.execution.plan_monitoring import suppositions
     from seewhy.planning.planner.pddl import to_pddl
+    from seewhy.planning.planner.planner import PlanStatus
     from seewhy.planning.planner.planner import plan as find_plan
     from seewhy.planning.spoken_goals import goal_of
+    from seewhy.planning.unreachable import why_unreachable
 
     begin = BeginningScene(scene, image, picture, model)
     robot_domain = with_knowledge_of_robot(
@@ -105,6 +107,11 @@ def plan(
     found = find_plan(
         knowledge, aim, start=known.now, horizon=most, answer_sets=robot_domain.answer_sets
     )
+    why = None
+    if found.status in (PlanStatus.UNREACHABLE, PlanStatus.NOT_WITHIN_HORIZON):
+        why = why_unreachable(robot_domain, aim, known.now)
+    if why is not None:  # no horizon would do
+        found = replace(found, status=PlanStatus.UNREACHABLE)
     supposed: tuple[Symbol, ...] = ()
     if found.settles(known.now):
         supposed = suppositions(knowledge, aim, found.actions, start=known.now)
@@ -114,11 +121,11 @@ def plan(
     asked = [] if answers is None else ask_all(answers, ask)
     if json:
         replies = {"replies": [reply.to_dict() for reply in asked]} if ask else {}
-        print_json({**_to_dict(found, aim, supposed), **replies}, lines=not chat)
+        print_json({**_to_dict(found, aim, supposed, why), **replies}, lines=not chat)
     else:
         for surprise in known.surprises:
             say(f"It must be that {robot_domain.words.surprise(surprise)}.")
-        _show(found, robot_domain.words, supposed)
+        _show(found, robot_domain.words, supposed, why)
         show_answers(asked)
     if chat and answers is not None:
         talk(answers, json=json)
@@ -136,7 +143,7 @@ def _write_pddl(problem: PddlProblem, folder: Path) -> None:
     remark(f"the problem for other planners is in {folder}")
 
 
-def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...]) -> None:
+def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...], why: str | None) -> None:
     from seewhy.planning.planner.planner import PlanStatus
 
     if found.status is PlanStatus.ALREADY_TRUE:
@@ -148,7 +155,7 @@ def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...]) -> No
         count = f"{len(found.actions)} action{'s' * (len(found.actions) != 1)}"
         say(f"{count}, found in {1000 * found.seconds:.0f} ms; no plan is shorter.")
     elif found.status is PlanStatus.UNREACHABLE:
-        say("The goal cannot be reached: no sequence of actions leads to it.")
+        say(f"The goal cannot be reached: {why or 'no sequence of actions leads to it'}.")
     elif found.status is PlanStatus.NOT_WITHIN_HORIZON:
         say(
             f"No plan of at most {found.horizon} actions reaches the goal; try a greater --horizon."
@@ -157,10 +164,13 @@ def _show(found: Plan, words: PlanningWords, supposed: tuple[Symbol, ...]) -> No
         say(f"This supposes that {words.say(supposition)}, which is not known.")
 
 
-def _to_dict(found: Plan, goal: Goal, supposed: tuple[Symbol, ...]) -> dict[str, Any]:
+def _to_dict(
+    found: Plan, goal: Goal, supposed: tuple[Symbol, ...], why: str | None
+) -> dict[str, Any]:
     return {
         "goal": goal.text,
         "status": found.status.value,
+        "why_not": why,
         "actions": [str(action) for action in found.actions],
         "supposed": [str(supposition) for supposition in supposed],
         "states": [[str(literal) for literal in state.positive()] for state in found.states],

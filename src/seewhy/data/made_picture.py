@@ -53,7 +53,9 @@ def annotation_of(
 def check_annotation(domain: Domain, made: Annotation) -> None:
     """Raise a DomainError if a source annotates in other words than its domain."""
     known = {key: feature.values for key, feature in domain.features.items()}
-    is_class = made.label in domain.classes if domain.classes else made.label is None
+    # Where there are things, axioms may conclude the class, and nobody has to say it.
+    unsaid = made.label is None and (not domain.classes or domain.things is not None)
+    is_class = unsaid or made.label in domain.classes
     if is_class and made.features.keys() == known.keys():
         wrong = [
             f"{key} = {value}" for key, value in made.features.items() if value not in known[key]
@@ -62,6 +64,7 @@ def check_annotation(domain: Domain, made: Annotation) -> None:
         wrong = [f"class {made.label}, features {', '.join(made.features)}"]
     if wrong:
         among = f"a class among {', '.join(domain.classes)}" if domain.classes else "no class"
+        among += ", or None" if domain.classes and domain.things is not None else ""
         raise DomainError(
             f"{domain.folder / 'domain.toml'}: the source '{domain.source}' must give values of "
             f"{', '.join(known) or 'no feature'} and {among}, got {wrong[0]}"

@@ -48,7 +48,7 @@ def write_made_tables(
         lines.append(
             [
                 _picture(index),
-                *([one.label] if domain.classes else []),
+                *([one.label or ""] if domain.classes else []),
                 *(one.features[key] for key in domain.features),
                 "test" if is_test else "train",
             ]
@@ -73,7 +73,7 @@ def made_annotations(folder: Path, domain: Domain) -> dict[int, Annotation]:
         found = {
             _index(row): Annotation(
                 {key: row[key] for key in domain.features},
-                row["class"] if domain.classes else None,
+                row["class"] or None if domain.classes else None,
                 [],
                 [],
             )

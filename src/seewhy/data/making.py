@@ -34,11 +34,11 @@ class MadeDataset:
     folder : Path
     count : int
     classes : dict of str to float
-        Class → its share of the pictures.
+        Class → its share of the pictures; empty where the source says none.
     determined : float or None
         The share of pictures whose class is the most frequent one of their feature vector: the
-        best that any classifier over the features can do on these pictures. None where the domain
-        has no classes.
+        best that any classifier over the features can do on these pictures. None where the source
+        says no class.
     """
 
     folder: Path
@@ -94,10 +94,10 @@ def make_dataset(
         images = folder / "images"
         for leftover in (*images.glob("*.json"), *images.glob(".??????-new.*")):
             leftover.unlink()
-    if not domain.classes:
+    labels = [row.label for row in rows if row.label is not None]
+    if len(labels) < len(rows):
         return MadeDataset(folder, count, {}, None)
     vectors = [domain.vector(dict(row.features)) for row in rows]
-    labels = [str(row.label) for row in rows]
     shares = {name: labels.count(name) / count for name in domain.classes}
     return MadeDataset(folder, count, shares, determined_share(vectors, labels))
 

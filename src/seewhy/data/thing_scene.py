@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Protocol
@@ -41,8 +41,22 @@ class Conclusions(Protocol):
     ) -> Node:
         """Return why something is concluded of things, which are called by names, or is not."""
 
+    def why_class(
+        self, scene: ThingScene, label: str, names: Sequence[str], *, without: int = 0
+    ) -> Node:
+        """Return why the picture as a whole is of a class, or why it is not."""
+
     def rests_on(self, key: str) -> frozenset[str]:
-        """Return the features and relations that are seen, and on which a conclusion rests."""
+        """Return the features and relations that are seen, and on which a predicate rests."""
+
+    def rest_on(self, keys: Iterable[str], predicate: str) -> bool:
+        """Whether one of some predicates is a predicate, or rests on it."""
+
+    def when_taken_away(self, scene: ThingScene, without: int) -> ThingScene:
+        """Return a scene from which things are taken away, with what then follows.
+
+        Other than where they never were, what would fall without them falls.
+        """
 
 
 @dataclass(frozen=True)
@@ -71,6 +85,15 @@ class ThingScene:
     groups : mapping of str to tuple
         What axioms conclude of several things together → those of which it is so, each as the
         numbers of its things.
+    unsettled : int
+        The set of things that come to be elsewhere, since what they need is taken away: nothing
+        but that is known of them.
+    label : str or None
+        The class of the picture as a whole; None where none is concluded or seen.
+    label_seen : bool
+        Whether eyes saw the class, where axioms leave it open.
+    consistent : bool
+        Whether what is seen, and what follows from it, contradicts nothing.
     conclusions : Conclusions or None
         What concluded that, and would conclude it of a scene that is otherwise.
 
@@ -92,6 +115,10 @@ class ThingScene:
     positions: tuple[Position, ...] = ()
     concluded: Mapping[str, int] = field(default_factory=dict)
     groups: Mapping[str, tuple[tuple[int, ...], ...]] = field(default_factory=dict)
+    unsettled: int = 0
+    label: str | None = None
+    label_seen: bool = False
+    consistent: bool = True
     conclusions: Conclusions | None = field(default=None, compare=False, repr=False)
 
 

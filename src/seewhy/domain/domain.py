@@ -18,6 +18,7 @@ from seewhy.domain.reading_rule import ReadingRule
 from seewhy.domain.scene_class import SceneClass, check_literals, class_of_table
 from seewhy.domain.tables import EMBEDDED, NONE, DomainFile, NetworkTable, PictureTable
 from seewhy.domain.things import Things, read_things
+from seewhy.domain.whole_picture import WholePicture
 from seewhy.errors import DomainError
 from seewhy.files.toml_file import read_toml
 from seewhy.knowledge.consistency import check_consistency
@@ -194,6 +195,8 @@ def load_domain(name: str | Path) -> Domain:
         key: class_of_table(key, class_table, table, knowledge, place)
         for key, class_table in table.classes.items()
     }
+    if things is not None:
+        things = replace(things, whole=_whole(table, classes, questions))
     check_literals(classes, place)
     _check_shared_words(classes, features, place)
     of_classes = {scene_class.literal.predicate for scene_class in classes.values()}
@@ -218,6 +221,17 @@ def load_domain(name: str | Path) -> Domain:
     )
     check_consistency(knowledge, domain.schema)
     return domain
+
+
+def _whole(
+    table: DomainFile, classes: Mapping[str, SceneClass], questions: QuestionsFile
+) -> WholePicture:
+    """The picture as questions about its things may speak of it."""
+    subject = table.domain.subject
+    nouns = dict.fromkeys((subject.removeprefix("the "), table.domain.scene.replace("_", " ")))
+    for noun in tuple(nouns):
+        nouns |= dict.fromkeys(questions.synonyms.get(noun, ()))
+    return WholePicture(subject, tuple(nouns), MappingProxyType(dict(classes)))
 
 
 def _with_origins(knowledge: Knowledge) -> Knowledge:

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from seewhy.domain.conclusions import Conclusion, Group, read_conclusion, read_group
 from seewhy.domain.key_place import KeyPlace
 from seewhy.domain.thing_tables import Measure, RelationTable, ThingFeatureTable, ThingsTable
+from seewhy.domain.whole_picture import WholePicture
 from seewhy.errors import DomainError
 from seewhy.knowledge.language import Knowledge
 from seewhy.knowledge.signature import Predicate, PredicateKind
@@ -126,6 +127,8 @@ class Things:
         What axioms conclude of several things together.
     detector : str or None
         A file of the domain's folder that finds them.
+    whole : WholePicture
+        What the picture that shows them is called, and of which classes it may be.
 
     Examples
     --------
@@ -148,6 +151,7 @@ class Things:
     conclusions: Mapping[str, Conclusion] = field(default_factory=dict)
     groups: Mapping[str, Group] = field(default_factory=dict)
     detector: str | None = None
+    whole: WholePicture = field(default_factory=WholePicture)
 
     @property
     def seen(self) -> tuple[str, ...]:

@@ -236,6 +236,17 @@ def say_values(domain: Domain, feature: str, values: Sequence[str]) -> str:
     return say_one_of([described.say[value] for value in values])
 
 
+def as_clause(text: str) -> str:
+    """Return a sentence as it goes on behind others: what is no "I" begins small.
+
+    Examples
+    --------
+    >>> as_clause("There is one."), as_clause("I don't know.")
+    ('there is one.', "I don't know.")
+    """
+    return text if text.startswith(("I ", "I'")) else f"{text[:1].lower()}{text[1:]}"
+
+
 def sentence(text: str) -> str:
     """Return text with a capital at the beginning and a full stop at the end.
 

@@ -22,6 +22,7 @@ from seewhy.knowledge.condition_nodes import (
 )
 from seewhy.knowledge.counterfactual import Counterfactual
 from seewhy.knowledge.evidence import Evidence
+from seewhy.knowledge.exchanged import without_exchanged
 from seewhy.knowledge.failing import MOST_AXIOMS, Failing, by_axiom, fewest, told_ways
 from seewhy.knowledge.foundation import Foundation, Need, opposite
 from seewhy.knowledge.ground import literal_of
@@ -110,12 +111,16 @@ class _Explanation:
         seen = evidence.seen(literal)
         nodes: list[Node] = [] if seen is None else [seen]
         founded = self.foundation.stages(without)
-        nodes += [
-            self._support(instance, _Place(without))
+        supporting = [
+            instance
             for instance in evidence.firing(key)
             if all(
                 self.foundation.is_founded(need, founded) for _, need, _ in evidence.needs(instance)
             )
+        ]
+        nodes += [
+            self._support(instance, _Place(without))
+            for instance in without_exchanged(supporting, evidence.holds)
         ]
         nodes += [
             self._exception(instance, literal, _Place(without))

@@ -16,6 +16,7 @@ from seewhy.agent.things.thing_reply import PictureReply, ReadScene
 from seewhy.agent.things.thing_seeing import ThingSeeing
 from seewhy.dialogue.things.answering import ThingAnswerer
 from seewhy.domain.domain import Domain
+from seewhy.domain.key_place import KeyPlace
 from seewhy.domain.things import Things
 from seewhy.errors import DatasetError, DomainError, NotFittedError
 from seewhy.knowledge.reasoner import Reasoner
@@ -73,17 +74,12 @@ class ThingAgent:
                 f"the domain '{domain.name}' has no things; load it with seewhy.Agent, or add "
                 "[things] to its domain.toml"
             )
-        if eyes == NONE:
-            raise DomainError(
-                "eyes 'none': networks that grow see one thing in a picture; things are seen by a "
-                f"backbone, such as '{EMBEDDED}'"
-            )
         said = domain.eyes_after(0) if eyes is None else eyes
+        if said == NONE:
+            raise DomainError(_none_sees(domain, given=eyes is not None))
         self.domain = domain
         self.things = domain.things
-        self.settings = settings_for(
-            domain, eyes=EMBEDDED if said == NONE else said, device=device, seed=seed
-        )
+        self.settings = settings_for(domain, eyes=said, device=device, seed=seed)
         self.seeing: ThingSeeing | None = None
         self.trained_on: frozenset[str] = frozenset()
 
@@ -301,6 +297,18 @@ class ThingAgent:
         )
         agent.seeing, agent.trained_on = seeing, model.trained_on
         return agent
+
+
+def _none_sees(domain: Domain, *, given: bool) -> str:
+    """That networks that grow see no things, with the place where they are asked for."""
+    why = "networks that grow see one thing in a picture, and things are seen by a backbone"
+    if given:
+        return f"eyes 'none': {why}, such as '{EMBEDDED}'"
+    place = KeyPlace(domain.folder / "domain.toml").at("domain", "eyes")
+    return (
+        f"{place}: eyes = 'none' sees no things: {why}; leave the line out, or name one such as "
+        f"'{EMBEDDED}'"
+    )
 
 
 def _check_said(said: Sequence[Mapping[str, str]], boxes: int, things: Things) -> None:

@@ -14,8 +14,12 @@ from seewhy.dialogue.scene_beliefs import SceneBeliefs
 from seewhy.dialogue.things.answering import ThingReply
 from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.outcome import Outcome, outcome_of
+from seewhy.dialogue.things.query import ClassIs, WhichClass
+from seewhy.dialogue.things.supposing import NoOneWayError
 from seewhy.dialogue.things.wording import ThingWords
 from seewhy.domain.domain import Domain
+from seewhy.domain.tables import CLASS
+from seewhy.domain.wording import as_clause, sentence
 from seewhy.knowledge.justification import Node
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.things import of_things, things_of
@@ -66,7 +70,13 @@ class ReadScene:
     @cached_property
     def scene(self) -> ThingScene:
         """The scene that questions are asked about."""
-        return replace(self.beliefs.scene, positions=self._positions(len(self.reading.things)))
+        reading = self.reading
+        return replace(
+            self.beliefs.scene,
+            positions=self._positions(len(reading.things)),
+            label=reading.label,
+            label_seen=reading.method == "seen",
+        )
 
     @cached_property
     def words(self) -> ThingWords:
@@ -80,6 +90,8 @@ class ReadScene:
 
     def say(self, feature: str, value: str) -> str:
         """Return a value as a clause, with the things' names: "the red cube is a cube"."""
+        if feature == CLASS:
+            return self.things.whole.say(value)
         terms = list(self.domain.schema.presence)
         called = dict(zip(terms, self._called, strict=False))
         name, things = things_of(feature)
@@ -169,6 +181,9 @@ class ReadScene:
         """
         if reply.failed is not None or reply.words.evaluation.scene is not self.scene:
             return 1.0, None
+        probability = self.reading.class_probability
+        if self.scene.label_seen and isinstance(reply.query, ClassIs | WhichClass) and probability:
+            return probability, Ground(CLASS, str(self.scene.label), probability)
         doubtful = ((1 << len(self.reading.doubtful)) - 1) << len(self.reading.things)
         base = self._asked(reply, *self._concluded(self._with_doubtful, doubtful))
         changing: dict[str, float] = {}
@@ -227,7 +242,7 @@ class ReadScene:
             found: Outcome = outcome_of(
                 reply.query, Evaluation(scene, self.things, without=without)
             )
-        except UnclearReferenceError:
+        except (UnclearReferenceError, NoOneWayError):
             return None
         return found.value
 
@@ -272,8 +287,22 @@ class PictureReply:
     @property
     def text(self) -> str:
         """The answer; what is not sure is not said as sure."""
+        if self.reply.asks_how_sure:
+            return self._how_sure()
         said, adverb = self.reply.text, self.certainty.adverb
-        return f"{adverb.capitalize()} {said[:1].lower()}{said[1:]}" if adverb else said
+        return f"{adverb.capitalize()} {as_clause(said)}" if adverb else said
+
+    def _how_sure(self) -> str:
+        if self.reply.value is None:
+            return self.reply.text
+        if self.least_sure is None:
+            return "I am sure: nothing that it rests on is uncertain."
+        sure = "I am sure" if self.certainty is Certainty.SURE else "I am not sure"
+        least = self.read.say(self.least_sure.feature, self.least_sure.value)
+        return sentence(
+            f"{sure}: it is right with a probability of {self.probability:.2f}; the least sure is "
+            f"that {least} ({self.least_sure.probability:.2f})"
+        )
 
     @cached_property
     def justification(self) -> Node:

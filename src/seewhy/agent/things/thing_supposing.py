@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from seewhy.agent.things.thing_reply import PictureReply, ReadScene
 from seewhy.dialogue.scene_beliefs import SceneBeliefs
 from seewhy.dialogue.scene_conclusions import SceneConclusions
-from seewhy.dialogue.things.changing import say_edit
 from seewhy.dialogue.things.edits import Add, Edit, edited
 from seewhy.dialogue.things.evaluating import Evaluation
 from seewhy.dialogue.things.said_once import said_once
+from seewhy.dialogue.things.saying_edits import say_edit
 from seewhy.dialogue.things.wording import ThingWords
 from seewhy.knowledge.reasoner import Verdict
 
@@ -88,9 +88,11 @@ def suppose_things(
     before = SceneBeliefs(read.domain, read.reading.vector, called, reasoner=read.reasoner)
     then = before
     if isinstance(scene.conclusions, SceneConclusions) and edits:
-        vector = scene.conclusions.vector(scene, without)
+        # Those of a domain in which things lose what they need, where that is taken away.
+        conclusions = scene.conclusions
+        vector = conclusions.vector(scene, without)
         names = [words.name(number) for number in range(scene.count)]
-        then = SceneBeliefs(read.domain, vector, names, reasoner=read.reasoner)
+        then = SceneBeliefs(conclusions.domain, vector, names, reasoner=conclusions.reasoner)
     was, now = _concluded(before), _concluded(then)
     return SupposedThings(
         PictureReply(supposed, read, 1.0, None),

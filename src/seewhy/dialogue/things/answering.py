@@ -8,12 +8,14 @@ from functools import cached_property
 from typing import Any
 
 from seewhy.data.thing_scene import ThingScene
-from seewhy.dialogue.things.contrast import tell_change, tell_why, tell_why_not
-from seewhy.dialogue.things.edits import Edit, edited, supposed_edits
+from seewhy.dialogue.things.contrast import tell_change, tell_contrast, tell_why, tell_why_not
+from seewhy.dialogue.things.edits import Edit, scene_after
 from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
+from seewhy.dialogue.things.fixing import fixed
 from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
     AnyOf,
+    ClassIs,
     Completing,
     Consequence,
     Count,
@@ -33,13 +35,17 @@ from seewhy.dialogue.things.query import (
     Together,
     ValueOf,
     Which,
+    WhichClass,
 )
 from seewhy.dialogue.things.question_forms import FollowUp
 from seewhy.dialogue.things.reading import QuestionReader, Reading
 from seewhy.dialogue.things.reasons import Reasons
+from seewhy.dialogue.things.saying_edits import say_edit
+from seewhy.dialogue.things.supposing import NoOneWayError, supposed_edits
 from seewhy.dialogue.things.telling import tell, tell_failure
 from seewhy.dialogue.things.wording import ThingWords
 from seewhy.domain.things import Things
+from seewhy.domain.wording import as_clause, join_words
 from seewhy.errors import QuestionError
 from seewhy.knowledge.justification import Basis, Node
 
@@ -63,6 +69,8 @@ class ThingReply:
         Why the question has no answer.
     spoken_of : Reference or None
         What "it" is in the next question.
+    asks_how_sure : bool
+        Whether it was asked how sure the answer is.
     """
 
     question: str
@@ -72,6 +80,7 @@ class ThingReply:
     words: ThingWords
     failed: UnclearReferenceError | None = None
     spoken_of: Reference | None = None
+    asks_how_sure: bool = False
 
     @cached_property
     def justification(self) -> Node:
@@ -132,6 +141,9 @@ class ThingAnswerer:
         """
         try:
             return self._answer(question, scene, previous)
+        except NoOneWayError as problem:
+            words = ThingWords(Evaluation(scene, self.things))
+            raise QuestionError(_no_one_way(problem, words)) from None
         except RecursionError:
             raise QuestionError(
                 "the question speaks of things by things by things, too many times over; ask in "
@@ -161,9 +173,7 @@ class ThingAnswerer:
 
     def _supposing(self, scene: ThingScene, edits: Sequence[Edit]) -> ThingWords:
         """The words of a scene with changes made, and with what then follows in it."""
-        changed, without = edited(scene, self.things, edits)
-        if changed.conclusions is not None:
-            changed = changed.conclusions.conclude(changed, without)
+        changed, without = scene_after(scene, self.things, edits)
         return ThingWords(Evaluation(changed, self.things, without=without))
 
     def _answer(self, question: str, scene: ThingScene, previous: ThingReply | None) -> ThingReply:
@@ -190,14 +200,10 @@ class ThingAnswerer:
     ) -> ThingReply | None:
         query = reading.query
         if isinstance(query, FollowUp):
-            if query.query is not None:
-                return self._why(question, query.query, reading, words)
-            if previous is None:
-                return None
-            if query.asks == "what_if":
-                return self._supposed(question, query, previous, words)
-            if query.asks != "instead":
-                return _about_answer(question, query, previous)
+            followed = self._followed(question, query, reading, words, previous)
+            if not isinstance(followed, FollowUp):
+                return followed
+            assert previous is not None, "what is asked instead follows an answer"
             replaced = _instead(previous.query, query.instead)
             if replaced is None:
                 return None
@@ -205,6 +211,8 @@ class ThingAnswerer:
         if isinstance(query, Completing) and not self.things.groups:
             return None
         spoken_of = _spoken_of(query) or reading.spoken_of
+        if isinstance(query, ClassIs | WhichClass):
+            spoken_of = None  # "it" is the picture as a whole
         try:
             outcome = outcome_of(query, words.evaluation)
         except UnclearReferenceError as failed:
@@ -213,45 +221,103 @@ class ThingAnswerer:
         text = tell(query, outcome, words)
         return ThingReply(question, text, query, outcome.value, words, None, spoken_of)
 
+    def _followed(
+        self,
+        question: str,
+        asked: FollowUp,
+        reading: Reading,
+        words: ThingWords,
+        previous: ThingReply | None,
+    ) -> ThingReply | FollowUp | None:
+        """What is asked about an answer; itself where the same is asked of something else."""
+        if asked.asks == "what_if":
+            return self._supposed(question, asked, previous, words)
+        if asked.asks == "how_sure":
+            return self._how_sure(question, previous, words)
+        if asked.query is not None:
+            about = Reading(asked.query, reading.spoken_of)
+            if asked.asks == "why":
+                return self._why(question, about, words)
+            named = self._answered(question, about, words, None)
+            return _about_answer(question, asked, named) if named and not named.failed else named
+        if previous is None:
+            return None
+        return asked if asked.asks == "instead" else _about_answer(question, asked, previous)
+
     def _supposed(
-        self, question: str, asked: FollowUp, previous: ThingReply, words: ThingWords
+        self, question: str, asked: FollowUp, previous: ThingReply | None, words: ThingWords
     ) -> ThingReply | None:
-        """The question before, asked of the scene as it would be."""
+        """A question, or the one before, asked of the scene as it would be."""
         evaluation = words.evaluation
         if not isinstance(asked.instead, Reference):
             return None
+        query = asked.query
+        if query is None and previous is not None:
+            query = previous.query
+        if query is None or isinstance(query, Consequence):
+            query = Consequence(asked.instead, asked.supposed)
+            return self._answered(question, Reading(query), words, None)
         try:
             number = evaluation.the(asked.instead)
+            edits = supposed_edits(number, asked.supposed, evaluation)
         except UnclearReferenceError as failed:
             text = tell_failure(failed, words)
-            return ThingReply(question, text, previous.query, None, words, failed)
-        edits = supposed_edits(number, asked.supposed)
-        if edits is None:
-            return None
+            return ThingReply(question, text, query, None, words, failed)
         supposed = self._supposing(evaluation.scene, edits)
-        reply = self._answered(question, Reading(previous.query), supposed, None)
-        return reply and replace(reply, text=f"Then: {reply.text[:1].lower()}{reply.text[1:]}")
+        reply = self._answered(question, Reading(fixed(query, evaluation)), supposed, None)
+        return reply and replace(reply, text=f"Then: {as_clause(reply.text)}")
 
-    def _why(
-        self, question: str, query: Query, reading: Reading, words: ThingWords
-    ) -> ThingReply | None:
+    def _why(self, question: str, about: Reading, words: ThingWords) -> ThingReply | None:
         """Why something is so that a question names, and that it is not so where it is not."""
-        reply = self._answered(question, Reading(query, reading.spoken_of), words, None)
+        reply = self._answered(question, about, words, None)
         if reply is None or reply.failed is not None:
             return reply
         why = tell_why(reply.justification)
-        said = f"But it is not so: {why}" if reply.value is False else why
-        return replace(reply, text=said)
+        if reply.value is False:
+            of_class = isinstance(reply.query, ClassIs)
+            why = f"But {as_clause(why)}" if of_class else f"But it is not so: {why}"
+        return replace(reply, text=why)
+
+    def _how_sure(
+        self, question: str, previous: ThingReply | None, words: ThingWords
+    ) -> ThingReply | None:
+        """How sure an answer is: as sure as what was said of the scene."""
+        reply = previous
+        if reply is None and self.things.whole.classes:
+            reply = self._answered(question, Reading(WhichClass()), words, None)
+        if reply is None:
+            return None
+        text = "I am as sure as of what I was told."
+        if reply.value is None:
+            text = "I gave no answer that I could be sure of."
+        return replace(reply, question=question, text=text, asks_how_sure=True)
 
 
-def _about_answer(question: str, asked: FollowUp, previous: ThingReply) -> ThingReply:
-    """What is asked about an answer; the answer stays what is spoken of."""
+def _no_one_way(problem: NoOneWayError, words: ThingWords) -> str:
+    """That what is supposed is not one change."""
+    if not problem.ways:
+        return "I know of no change of one or two things by which that would be so"
+    said = [f"if {join_words([say_edit(e, words) for e in way])}" for way in problem.ways[:3]]
+    more = ", or otherwise" if len(problem.ways) > len(said) else ""
+    return f"that could come about in several ways: {'; '.join(said)}{more}; say which"
+
+
+def _about_answer(question: str, asked: FollowUp, previous: ThingReply) -> ThingReply | None:
+    """What is asked about an answer; the answer stays what is spoken of.
+
+    None where what is asked does not go with it.
+    """
+    text: str | None
     if asked.asks == "change":
         text = tell_change(previous.query, previous.value, asked.wanted, previous.words)
+    elif asked.asks == "contrast":
+        text = tell_contrast(previous.query, asked.instead, previous.words)
     elif asked.asks == "why_not":
         text = tell_why_not(previous.query, previous.value, asked.wanted, previous.words)
     else:
         text = tell_why(previous.justification)
+    if text is None:
+        return None
     return ThingReply(
         question,
         text,

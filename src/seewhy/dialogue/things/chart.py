@@ -96,6 +96,10 @@ class Forms:
             return []
         return [ending.bindings for ending in self._matchers[name](chart, 0) if ending.end == end]
 
+    def beginnings(self, chart: Chart, name: str) -> Sequence[Ending]:
+        """Return where a phrase that begins with the first word may end, and what it means."""
+        return self._matchers[name](chart, 0) if self.may_begin(chart, 0, name) else ()
+
     def may_begin(self, chart: Chart, at: int, name: str) -> bool:
         """Whether a phrase may begin with the word at a place."""
         first = self._first(Form("phrase", name))

@@ -6,35 +6,46 @@ import re
 from collections.abc import Iterator
 
 from seewhy.dialogue.things.changing import smallest_change
-from seewhy.dialogue.things.evaluating import members
+from seewhy.dialogue.things.evaluating import UnclearReferenceError, members
+from seewhy.dialogue.things.following import consequences
 from seewhy.dialogue.things.outcome import Value
 from seewhy.dialogue.things.query import (
+    ClassIs,
     CompareCounts,
     CompareNumber,
+    Concluded,
+    Condition,
+    Consequence,
     Count,
     CountDifference,
+    Describe,
     Description,
     Exists,
+    Groups,
     HasValue,
     Holds,
+    Most,
+    PartOf,
     Query,
+    Reference,
     Together,
     Which,
 )
 from seewhy.dialogue.things.question_forms import Wanted
 from seewhy.dialogue.things.reasons import Reasons
-from seewhy.dialogue.things.reasons_following import of_together
+from seewhy.dialogue.things.reasons_following import of_together, why_concluded
+from seewhy.dialogue.things.telling import tell_failure
 from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.wording import join_words, sentence
 from seewhy.knowledge.justification import Basis, Node
 
-__all__ = ["tell_change", "tell_why", "tell_why_not"]
+__all__ = ["tell_change", "tell_contrast", "tell_why", "tell_why_not"]
 
 _MOST_TOLD = 3
 _NO_OTHERS = "There are no other things."
 _PRESENCE = re.compile(r"(\w+)\(\1\d+\)")
 """A literal that says that a thing is there."""
-_TOLD = (Basis.FEATURE, Basis.AXIOM)
+_TOLD = (Basis.FEATURE, Basis.AXIOM, Basis.REASONS)
 _TOLD_OF_THINGS = (*_TOLD, Basis.COMPARISON)
 
 
@@ -53,10 +64,31 @@ def tell_why(justification: Node) -> str:
 
 def _reason(node: Node) -> str:
     """A clause; of what was concluded, with what it was concluded from, where that is not much."""
-    grounds = [child.text for child in node.children if child.holds and child.basis in _TOLD]
-    if node.basis is not Basis.AXIOM or not 0 < len(grounds) < _MOST_TOLD:
+    grounds = _grounds(node)
+    if not 0 < len(grounds) < _MOST_TOLD:
         return node.text
     return f"{node.text}, since {join_words(grounds)}"
+
+
+def _grounds(node: Node) -> list[str]:
+    """What something was concluded from; of several reasons for it, each."""
+    if node.basis is Basis.REASONS:
+        return list(dict.fromkeys(text for child in node.children for text in _grounds(child)))
+    if node.basis is not Basis.AXIOM:
+        return []
+    return [child.text for child in node.children if child.holds and child.basis in _TOLD]
+
+
+def _leaves(node: Node) -> list[str]:
+    """The reasons below something that is so; the axiom itself, where it tells more than they."""
+    if node.basis is Basis.REASONS:
+        return list(dict.fromkeys(text for child in node.children for text in _leaves(child)))
+    if node.axiom is None:
+        return [_reason(child) for child in node.children if child.basis in _TOLD_OF_THINGS]
+    # That things differ goes without saying; how many there are does not.
+    counted = any(child.basis is Basis.COMPARISON and child.children for child in node.children)
+    found = [] if counted else [_reason(c) for c in node.children if c.basis in _TOLD]
+    return found or [node.axiom.text]
 
 
 def _denied(node: Node) -> str:
@@ -87,8 +119,10 @@ def _said(justification: Node) -> Iterator[str]:
         if not node.holds:
             yield _denied(node)
             continue
-        leaves = [_reason(child) for child in node.children if child.basis in _TOLD_OF_THINGS]
-        yield f"{node.text}: {join_words(leaves)}" if leaves else node.text
+        leaves = _leaves(node)
+        apart = any(", since " in leaf for leaf in leaves)
+        told = "; ".join(leaves) if apart else join_words(leaves)
+        yield f"{node.text}: {told}" if leaves else node.text
     if not there or justification.text.startswith("No"):
         for node in justification.children:
             if node.basis is Basis.ABSENCE and node.children:
@@ -130,6 +164,84 @@ def tell_why_not(query: Query, value: Value, wanted: Wanted, words: ThingWords) 
             told = of_together(query, words)
             return " ".join(sentence(_denied(leaf)) for leaf in told)
     return tell_why(Reasons(words.evaluation, words).tree(query, ""))
+
+
+def tell_contrast(
+    query: Query, instead: Description | Reference | None, words: ThingWords
+) -> str | None:
+    """Return why an answer is not about a thing that was expected; None where it could not be."""
+    if not isinstance(instead, Reference):
+        return None
+    try:
+        numbers = Reasons(words.evaluation, words).numbers(instead)
+    except UnclearReferenceError as failed:
+        return tell_failure(failed, words)
+    told = [_contrasted(query, number, words) for number in numbers]
+    return " ".join(filter(None, told)) or None
+
+
+def _contrasted(query: Query, number: int, words: ThingWords) -> str | None:
+    """Why what was asked is not so of a thing; that it is, where it is."""
+    reasons, name = Reasons(words.evaluation, words), words.name(number)
+    match query:
+        case Holds(condition=condition):
+            return _of_condition(condition, number, words)
+        case Consequence():
+            return _not_following(query, number, words)
+        case Most(described=described, condition=condition):
+            described = described.also(condition)
+        case Groups(group=group):
+            return _of_condition(PartOf(group), number, words)
+        case (
+            Count(described=described)
+            | Which(described=described)
+            | Exists(described=described)
+            | CompareNumber(described=described)
+        ):
+            pass
+        case Describe(one=one) if one.description.selection is not None:
+            described = one.description
+        case _:
+            return None
+    if words.evaluation.fits(described).surely >> number & 1:
+        so = join_words(reasons.so(number, described))
+        return sentence(f"but {name} is one{f': {so}' if so else ''}")
+    failing = [
+        condition
+        for condition in described.conditions
+        if not words.evaluation.holds(condition).surely >> number & 1
+    ]
+    if failing:
+        return " ".join(sentence(_denied(reasons.judged(number, part))) for part in failing)
+    left_out = reasons.excluded(number, described)
+    grounds = join_words([child.text for child in left_out.children])
+    return sentence(f"{left_out.text}: {grounds}" if grounds else left_out.text)
+
+
+def _of_condition(condition: Condition, number: int, words: ThingWords) -> str:
+    judged = Reasons(words.evaluation, words).judged(number, condition)
+    if words.evaluation.holds(condition).surely >> number & 1:
+        return sentence(f"but it is so: {judged.text}")
+    return sentence(_denied(judged))
+
+
+def _not_following(query: Consequence, number: int, words: ThingWords) -> str | None:
+    """Why what follows of others does not follow of a thing."""
+    follows = consequences(query, words.evaluation)
+    if follows is None:
+        return None
+    things = words.things
+    true = [one.conclusion for one in follows if one.number == number]
+    if true:
+        clauses = [things.conclusions[key].say.replace("{it}", words.name(number)) for key in true]
+        return sentence(f"but it is so: {join_words(clauses)}")
+    taken = words.evaluation.the(query.one)
+    if number == taken and query.supposed is None:
+        return sentence(f"{words.name(number)} is what would be taken away")
+    for key, relation in things.relations.items():
+        if relation.removed is not None and query.supposed is None:
+            return sentence(_denied(why_concluded(key, (number, taken), words)))
+    return None
 
 
 def _short(query: Query, words: ThingWords) -> str:
@@ -218,8 +330,22 @@ def tell_change(query: Query, value: Value, wanted: Wanted, words: ThingWords) -
         return f"{sentence(f'no change of {several} {_makes(said_aim)}')}{untried}"
     others = f" {number_word(found.others).capitalize()} other" if found.others else ""
     ways = f"{others} change{'s' * (found.others > 1)} as small would do, too." if others else ""
-    told = sentence(f"if {join_words(found.changes)}, the answer would be {said_aim}")
+    would = _then(query, words) if aim is True else None
+    would = would or f"the answer would be {said_aim}"
+    told = sentence(f"if {join_words(found.changes)}, {would}")
     return f"{told}{ways}{untried}"
+
+
+def _then(query: Query, words: ThingWords) -> str | None:
+    """What would be so, in the clause that the domain has for it; None where it has none."""
+    match query:
+        case ClassIs(label=label, denied=False):
+            return words.things.whole.say(label, be="would be")
+        case Holds(ones=(one,), condition=Concluded(conclusion=conclusion)):
+            said = words.things.conclusions[conclusion].say
+            said = re.sub(r"\bis\b", "would be", said, count=1)
+            return said.replace("{it}", words.reference(one))
+    return None
 
 
 def _makes(aim: str) -> str:

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from seewhy.data.thing_scene import ThingScene
-from seewhy.dialogue.things.query import All, Condition, HasValue
 from seewhy.domain.things import Things
 
 __all__ = [
@@ -18,7 +17,7 @@ __all__ = [
     "Remove",
     "edited",
     "is_in_order",
-    "supposed_edits",
+    "scene_after",
     "values_to_try",
 ]
 
@@ -73,22 +72,6 @@ class Add:
 Edit = Recolour | Move | Relate | Remove | Add
 
 
-def supposed_edits(number: int, condition: Condition | None) -> tuple[Edit, ...] | None:
-    """Return what has to change for a condition to hold of a thing; None: that it is not there.
-
-    Returns None for what could come about in several ways: to be left of something, not to be red.
-    """
-    if condition is None:
-        return (Remove(number),)
-    conditions = condition.conditions if isinstance(condition, All) else (condition,)
-    edits: list[Edit] = []
-    for part in conditions:
-        if not isinstance(part, HasValue):
-            return None
-        edits.append(Recolour(number, part.feature, part.value))
-    return tuple(edits)
-
-
 def is_in_order(scene: ThingScene, relation: str) -> bool:
     """Whether a relation puts all things in one order: one is the first, one the second, …"""
     rows = scene.related[relation]
@@ -120,6 +103,20 @@ def edited(scene: ThingScene, things: Things, edits: Sequence[Edit]) -> tuple[Th
             case Add():
                 scene = _added(scene, things, edit)
     return scene, without
+
+
+def scene_after(
+    scene: ThingScene, things: Things, edits: Sequence[Edit], *, without: int = 0
+) -> tuple[ThingScene, int]:
+    """Return a scene with changes made and what then follows, and the things that are not there.
+
+    ``without`` are those that were taken away before.
+    """
+    changed, gone = edited(scene, things, edits)
+    gone |= without
+    if scene.conclusions is None:
+        return changed, gone
+    return scene.conclusions.when_taken_away(changed, gone), gone
 
 
 def _order(scene: ThingScene, relation: str) -> list[int]:

@@ -174,7 +174,9 @@ class Evaluation:
             case query.Concluded(conclusion=conclusion):
                 so = self.scene.concluded.get(conclusion, 0) & self.everything
                 # Of a scene of which nothing was concluded, nothing is known.
-                return Fits(so, self.everything if self.scene.conclusions is None else so)
+                nothing = self.scene.conclusions is None
+                unsettled = self.scene.unsettled & self.everything
+                return Fits(so, self.everything if nothing else so | unsettled)
             case query.PartOf(group=group):
                 so = 0
                 for numbers in self.scene.groups.get(group, ()):
@@ -303,6 +305,8 @@ class Evaluation:
                 chosen = self._ranked(fits.surely, feature, most=most)
             case query.Nearest(to=to, farthest=farthest):
                 chosen = self._nearest(fits.surely, self.the(to), farthest=farthest)
+            case query.Fixed(number=number):
+                chosen = fits.surely & 1 << number
             case query.Numbered(number=number):
                 listed = list(members(fits.surely))
                 at = number - 1 if number > 0 else number

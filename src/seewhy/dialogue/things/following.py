@@ -8,14 +8,23 @@ from itertools import product
 from math import prod
 
 from seewhy.data.thing_scene import ThingScene
-from seewhy.dialogue.things.edits import Add, edited, supposed_edits
+from seewhy.dialogue.things.edits import Add, edited, scene_after
 from seewhy.dialogue.things.evaluating import Evaluation, members
-from seewhy.dialogue.things.query import Completing, Consequence, Reference, References
+from seewhy.dialogue.things.query import (
+    Completing,
+    Concluded,
+    Condition,
+    Consequence,
+    Reference,
+    References,
+)
+from seewhy.dialogue.things.supposing import supposed_edits
 from seewhy.domain.conclusions import Group
 
 __all__ = [
     "Completion",
     "Follows",
+    "class_that_follows",
     "completions",
     "consequences",
     "group_of",
@@ -51,26 +60,42 @@ def consequences(query: Consequence, evaluation: Evaluation) -> tuple[Follows, .
     ------
     UnclearReferenceError
         If the question refers to a thing that is not there or not one.
+    NoOneWayError
+        If what is supposed could come about in several ways.
     """
     scene, things = evaluation.scene, evaluation.things
     number = evaluation.the(query.one)
-    edits = supposed_edits(number, query.supposed)
-    if scene.conclusions is None or edits is None:
+    if scene.conclusions is None:
         return None
+    edits = supposed_edits(number, query.supposed, evaluation)
     found: list[Follows] = []
     if query.supposed is None:
         for key, relation in things.relations.items():
             if relation.removed is not None:
                 left = scene.related[key][number] & evaluation.everything
                 found += [Follows(one, relation.removed, key) for one in members(left)]
-    changed, without = edited(scene, things, edits)
-    without |= evaluation.without
-    then = scene.conclusions.conclude(changed, without)
+    then, without = scene_after(scene, things, edits, without=evaluation.without)
     touched = sum(1 << follows.number for follows in found) | without
+    said = _concluded_in(query.supposed)
     for key in things.conclusions:
         new = then.concluded[key] & ~scene.concluded[key] & evaluation.everything & ~touched
-        found += [Follows(one, key) for one in members(new)]
+        found += [Follows(one, key) for one in members(new) if (one, key) != (number, said)]
     return tuple(found)
+
+
+def _concluded_in(supposed: Condition | None) -> str | None:
+    """What is supposed, where axioms conclude it: that follows from itself."""
+    return supposed.conclusion if isinstance(supposed, Concluded) else None
+
+
+def class_that_follows(query: Consequence, evaluation: Evaluation) -> str | None:
+    """Return the class that the picture then comes to be of; None where it stays, or is open."""
+    scene, things = evaluation.scene, evaluation.things
+    if scene.conclusions is None or not things.whole.classes:
+        return None
+    edits = supposed_edits(evaluation.the(query.one), query.supposed, evaluation)
+    then, _ = scene_after(scene, things, edits, without=evaluation.without)
+    return then.label if then.label != scene.label else None
 
 
 def numbers_of(ones: Sequence[Reference], evaluation: Evaluation) -> tuple[int, ...]:

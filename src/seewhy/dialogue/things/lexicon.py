@@ -22,6 +22,7 @@ from seewhy.dialogue.things.query import (
 )
 from seewhy.domain.conclusions import Conclusion
 from seewhy.domain.things import ThingFeature, Things
+from seewhy.domain.whole_picture import WholePicture
 from seewhy.text.comparison import comparative, superlative
 from seewhy.text.nouns import plural
 from seewhy.text.predicate_words import past_form
@@ -76,7 +77,7 @@ class Entries:
 _CATEGORIES = (
     "adjective", "noun", "value", "feature", "how", "participle", "preposition", "verb", "verbing",
     "comparative", "superlative", "extreme", "side", "rank", "number", "occurs", "falling", "group",
-    "behind", "corner",
+    "behind", "corner", "class", "class_verb", "whole_noun",
 )  # fmt: skip
 
 
@@ -119,6 +120,7 @@ def lexicon_of(things: Things) -> dict[str, Category]:
         for word in group.words:
             entries["group"].add(word, meant)
             entries["group"].add(group.many if word == group.one else plural(word), meant)
+    _add_classes(entries, things.whole)
     for number, rank in enumerate(RANKS, start=1):
         entries["rank"].add(rank, Binding("rank", number))
     entries["rank"].add("last", Binding("rank", -1))
@@ -192,6 +194,21 @@ def _add_conclusion(entries: Mapping[str, Entries], conclusion: Conclusion) -> N
         entries["occurs"].add(form, meant)
 
 
+def _add_classes(entries: Mapping[str, Entries], whole: WholePicture) -> None:
+    """Words for the picture as a whole, of a domain with classes."""
+    for label, known in whole.classes.items():
+        meant = Binding("class", label)
+        for word in dict.fromkeys((known.say, *known.words)):
+            entries["class"].add(word, meant)
+        for form in _forms(known.verbs):
+            entries["class_verb"].add(form, meant)
+    if whole.classes:
+        for noun in dict.fromkeys((*whole.nouns, *_PICTURES)):
+            entries["whole_noun"].add(noun)
+        for pronoun in ("it", "this", "that"):
+            entries["whole_noun"].add(pronoun)
+
+
 def _forms(verbs: Iterable[str]) -> Iterator[str]:
     """The forms of verbs behind a subject."""
     for verb in verbs:
@@ -213,6 +230,8 @@ def _gerund(verb: str) -> str:
     return f"{first.removesuffix('e')}ing {rest}".strip()
 
 
+_PICTURES = ("picture", "image", "photo", "photograph", "scene")
+"""What any picture may be called as a whole."""
 _PRONOUNS = frozenset({"it", "this", "that", "they", "them", "these", "those"})
 _OWNERS = frozenset({"its", "their"})
 

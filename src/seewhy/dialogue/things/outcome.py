@@ -9,6 +9,7 @@ from operator import eq, ge, gt, le, lt
 from seewhy.dialogue.things.evaluating import Evaluation, Fits, members
 from seewhy.dialogue.things.following import completions, consequences, numbers_of
 from seewhy.dialogue.things.query import (
+    ClassIs,
     CompareCounts,
     CompareNumber,
     Completing,
@@ -32,6 +33,7 @@ from seewhy.dialogue.things.query import (
     Together,
     ValueOf,
     Which,
+    WhichClass,
 )
 from seewhy.dialogue.things.tallies import most_are, most_common, occurring, shared_by_most
 
@@ -113,6 +115,11 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
             return Outcome(None if so is None else (numbers in so) is not denied)
         case Completing():
             return Outcome(_completing(query, evaluation))
+        case ClassIs(label=label, denied=denied):
+            told = evaluation.scene.label
+            return Outcome(None if told is None else (told == label) is not denied)
+        case WhichClass():
+            return Outcome(evaluation.scene.label)
     raise TypeError(f"must be a query, got {query!r}")
 
 

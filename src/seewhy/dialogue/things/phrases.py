@@ -239,6 +239,8 @@ PHRASES: dict[str, Fold] = {
     "stood_to": _stood_to,
     "carried": _stood_to,
     "borne": _stood_to,
+    "some_one": _described,
+    "every_one": _described,
     "either_kind": _either_kind,
     "best": _picked,
     "verb_and_one": _standing,

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 __all__ = [
-    "All", "AnyOf", "Apart", "Between", "CompareCounts", "CompareNumber", "Compares",
+    "All", "AnyOf", "Apart", "Between", "ClassIs", "CompareCounts", "CompareNumber", "Compares",
     "Completing", "Concluded", "Condition", "Consequence", "Corner", "Count", "CountDifference",
-    "Describe", "Description", "Difference", "Exists", "Extreme", "Groups", "HasValue", "Holds",
-    "Is", "Most", "MostCommon", "Nearest", "Not", "Numbered", "Occurring", "PartOf", "Query",
-    "Ranked", "Reference", "References", "Related", "SameValue", "SharedByMost", "Shares",
-    "Together", "ValueOf", "Which", "references_in",
+    "Describe", "Description", "Difference", "Exists", "Extreme", "Fixed", "Groups", "HasValue",
+    "Holds", "Is", "Most", "MostCommon", "Nearest", "Not", "Numbered", "Occurring", "PartOf",
+    "Query", "Ranked", "Reference", "References", "Related", "SameValue", "SharedByMost", "Shares",
+    "Together", "ValueOf", "Which", "WhichClass", "references_in",
 ]  # fmt: skip
 
 
@@ -188,7 +188,14 @@ class Numbered:
     number: int
 
 
-Selection = Extreme | Corner | Ranked | Nearest | Numbered
+@dataclass(frozen=True)
+class Fixed:
+    """The thing that has a number in the scene, from 0, whatever comes to be so of it."""
+
+    number: int
+
+
+Selection = Extreme | Corner | Ranked | Nearest | Numbered | Fixed
 
 
 @dataclass(frozen=True)
@@ -367,10 +374,23 @@ class Completing:
     """Empty where the question does not name it: the only one that the domain has."""
 
 
+@dataclass(frozen=True)
+class ClassIs:
+    """Whether the picture as a whole is of a class; with ``denied``, whether it is not."""
+
+    label: str
+    denied: bool = False
+
+
+@dataclass(frozen=True)
+class WhichClass:
+    """Of which class the picture as a whole is."""
+
+
 Query = (
     Count | Exists | Which | CompareCounts | CompareNumber | ValueOf | SameValue | Holds | Describe
     | Difference | Consequence | Groups | Together | Completing | CountDifference | Most
-    | SharedByMost | MostCommon | Occurring
+    | SharedByMost | MostCommon | Occurring | ClassIs | WhichClass
 )  # fmt: skip
 
 

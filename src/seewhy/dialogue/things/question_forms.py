@@ -10,6 +10,7 @@ from seewhy.dialogue.things.chart import Fold
 from seewhy.dialogue.things.phrases import Bindings, all_of, meanings, settled
 from seewhy.dialogue.things.query import (
     AnyOf,
+    ClassIs,
     CompareCounts,
     CompareNumber,
     Completing,
@@ -35,6 +36,7 @@ from seewhy.dialogue.things.query import (
     Together,
     ValueOf,
     Which,
+    WhichClass,
 )
 
 __all__ = ["QUESTIONS", "FollowUp", "Wanted"]
@@ -251,6 +253,43 @@ def _supposing(bindings: Bindings) -> Bindings:
     return (Binding("follow_up", follow_up),)
 
 
+def _class_is(bindings: Bindings) -> Bindings | None:
+    if meanings(bindings, "query"):
+        return bindings
+    return _of_class(bindings, denied=False)
+
+
+def _of_class(bindings: Bindings, *, denied: bool) -> Bindings | None:
+    labels = meanings(bindings, "class")
+    return _query(ClassIs(str(labels[0]), denied)) if labels else None
+
+
+def _why_no_class(bindings: Bindings) -> Bindings:
+    label = str(meanings(bindings, "class")[-1])
+    return (Binding("follow_up", FollowUp("why", query=ClassIs(label, denied=True))),)
+
+
+def _change_to(bindings: Bindings) -> Bindings | None:
+    """What would make something so that the question names."""
+    query = meanings(bindings, "query")
+    if query:
+        wanted: Query = query[0]  # type: ignore[assignment]
+    else:
+        held = _holds(bindings)
+        if held is None:
+            return None
+        wanted = held[0].meaning  # type: ignore[assignment]
+    return (Binding("follow_up", FollowUp("change", wanted=True, query=wanted)),)
+
+
+def _supposed(bindings: Bindings) -> Bindings | None:
+    """What is supposed, of which it is asked later what would be."""
+    if meanings(bindings, "follow_up"):
+        return bindings
+    ones = _references(bindings)
+    return _supposing(bindings) if len(ones) == 1 else None
+
+
 def _wanted(bindings: Bindings) -> Bindings | None:
     for role in ("wanted", "number", "condition"):
         if found := meanings(bindings, role):
@@ -299,6 +338,19 @@ QUESTIONS: dict[str, Fold] = {
     "describe": _single(Describe),
     "place": _single(lambda one: Describe(one, place=True)),
     "which": _about(Which),
+    "class_is": _class_is,
+    "class_denied": lambda bindings: _of_class(bindings, denied=True),
+    "class_asked": lambda _: _query(WhichClass()),
+    "class_made": lambda bindings: _of_class(bindings, denied=False),
+    "class_instead": lambda _: (),
+    "one_instead": lambda _: (),
+    "why_no_class": _why_no_class,
+    "how_sure": _follow("how_sure"),
+    "change_to": _change_to,
+    "to_exist": _about(Exists),
+    "supposition": _supposed,
+    "supposed_gone": _supposing,
+    "contrast": _follow("contrast"),
     "why": _follow("why"),
     "why_not": _follow("why_not"),
     "change": _follow("change"),

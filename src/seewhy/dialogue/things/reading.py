@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib import resources
 from itertools import islice
 from typing import Any
 
-from seewhy.dialogue.grammar import Form, parse_form, words_of_form
+from seewhy.dialogue.grammar import Binding, Form, parse_form, words_of_form
 from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.spelling import Spelling
 from seewhy.dialogue.things.chart import Chart, Forms
@@ -32,6 +32,8 @@ _SENTENCES = re.compile(r"[.;:!?\n]+")
 _POSSESSIVE = re.compile(
     r"(?<!\bwhat)(?<!\bit)(?<!\bthat)(?<!\bthere)(?<!\bwho)(?<!\bwhere)['’]s\b", re.I
 )
+_SUPPOSE = frozenset({"if", "when", "once", "without", "supposing", "suppose", "assuming"})
+"""Words with which it begins what is supposed."""
 _PRONOUNS = frozenset({"it", "its", "they", "them", "their"})
 
 
@@ -161,10 +163,36 @@ class QuestionReader:
             if said[0] == "why" and len(said) > 1:
                 for query in self._queries(Chart(said[1:], antecedent)):
                     yield Reading(FollowUp("why", query=query), antecedent)
-            for name in _tables()["follow_ups"] if answered else ():
+            yield from self._supposing(said, antecedent)
+            tables = _tables()
+            names = (*tables["openings"], *(tables["follow_ups"] if answered else ()))
+            for name in names:
                 for bindings in self._forms.readings(chart, name):
                     for asked in meanings(bindings, "follow_up"):
                         yield Reading(asked, antecedent)  # type: ignore[arg-type]
+
+    def _supposing(self, words: list[str], antecedent: Reference | None) -> Iterator[Reading]:
+        """Read what is supposed and what is asked of it: "if it were red, would it fall?"."""
+        if words[0] in _SUPPOSE or words[1:2] == ["if"]:
+            for ending in self._forms.beginnings(Chart(words, antecedent), "supposition"):
+                yield from self._supposed(ending.bindings, words[ending.end :], antecedent)
+        for at in range(2, len(words)):
+            if words[at] in _SUPPOSE:
+                for bindings in self._forms.readings(Chart(words[at:], antecedent), "supposition"):
+                    yield from self._supposed(bindings, words[:at], antecedent)
+
+    def _supposed(
+        self, bindings: tuple[Binding, ...], words: list[str], antecedent: Reference | None
+    ) -> Iterator[Reading]:
+        for supposed in meanings(bindings, "follow_up"):
+            if not words or not isinstance(supposed, FollowUp):
+                continue
+            # "It" is what was spoken of before, or the picture; else the thing that is supposed.
+            for meant in (antecedent, supposed.instead):
+                for said in _without_asides(words):
+                    one = meant if isinstance(meant, Reference) else None
+                    for query in self._queries(Chart(said, one)):
+                        yield Reading(replace(supposed, query=query), antecedent)
 
     def _queries(self, chart: Chart) -> Iterator[Query]:
         for name in _tables()["questions"]:

@@ -8,6 +8,7 @@ from seewhy.dialogue.things.evaluating import Evaluation, members
 from seewhy.dialogue.things.query import (
     All,
     AnyOf,
+    ClassIs,
     CompareCounts,
     CompareNumber,
     Compares,
@@ -23,6 +24,7 @@ from seewhy.dialogue.things.query import (
     Difference,
     Exists,
     Extreme,
+    Fixed,
     Groups,
     HasValue,
     Holds,
@@ -33,6 +35,7 @@ from seewhy.dialogue.things.query import (
     Occurring,
     PartOf,
     Query,
+    Ranked,
     Reference,
     References,
     Related,
@@ -42,9 +45,11 @@ from seewhy.dialogue.things.query import (
     Together,
     ValueOf,
     Which,
+    WhichClass,
     references_in,
 )
 from seewhy.dialogue.things.reasons_following import (
+    of_class,
     of_completing,
     of_consequence,
     of_groups,
@@ -109,6 +114,8 @@ class Reasons:
         if id(one) in told:
             return
         told[id(one)] = one
+        if isinstance(one.description.selection, Fixed):
+            return  # it was found out before what was meant
         self._add_referred(one.description.conditions, nodes, told)
         if isinstance(one.description.selection, Nearest):
             self._add_reference(one.description.selection.to, nodes, told)
@@ -159,11 +166,11 @@ class Reasons:
         text = f"no other {self.evaluation.things.one} is"
         if not fits.surely:
             text = f"there is no {self.words.phrase(description, many=False)}"
-        excluded = tuple(self._excluded(number, description) for number in members(others))
+        excluded = tuple(self.excluded(number, description) for number in members(others))
         yield Node("not", text, Basis.ABSENCE, children=excluded)
 
-    def _excluded(self, number: int, description: Description) -> Node:
-        """The first condition that a thing does not meet."""
+    def excluded(self, number: int, description: Description) -> Node:
+        """Return the first condition of a description that a thing does not meet."""
         for condition in description.conditions:
             if not self.evaluation.holds(condition).maybe >> number & 1:
                 return shortened(self._so(number, condition, self.words.name(number)))
@@ -173,8 +180,11 @@ class Reasons:
         return Node(self.words.term(number), text, Basis.COMPARISON, children=ordered)
 
     def _ordered(self, number: int, description: Description, subject: str) -> Iterator[Node]:
-        """How many others come before a thing, by each order by which one is chosen."""
+        """How many others come before a thing, or what it has, by what one is chosen."""
         match description.selection:
+            case Ranked(feature=feature):
+                yield self._seen(number, feature, None, subject)
+                return
             case Extreme(relation=relation):
                 relations: tuple[str, ...] = (relation,)
             case Corner(relations=relations):
@@ -327,6 +337,8 @@ class Reasons:
                 yield from of_together(query, self.words)
             case Completing():
                 yield from of_completing(query, self.words)
+            case ClassIs() | WhichClass():
+                yield from of_class(query, self.words)
             case _:
                 return
 

@@ -6,15 +6,24 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations
 
-from seewhy.dialogue.things.edits import edited, supposed_edits
+from seewhy.dialogue.things.edits import scene_after
 from seewhy.dialogue.things.following import (
+    class_that_follows,
     completions,
     consequences,
     group_of,
     numbers_of,
     with_one_more,
 )
-from seewhy.dialogue.things.query import Completing, Consequence, Groups, Together
+from seewhy.dialogue.things.query import (
+    ClassIs,
+    Completing,
+    Consequence,
+    Groups,
+    Together,
+    WhichClass,
+)
+from seewhy.dialogue.things.supposing import supposed_edits
 from seewhy.dialogue.things.telling_following import no_group
 from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.wording import join_words
@@ -22,12 +31,14 @@ from seewhy.knowledge.justification import Basis, Node
 from seewhy.text.nouns import with_article
 
 __all__ = [
+    "of_class",
     "of_completing",
     "of_consequence",
     "of_groups",
     "of_part",
     "of_together",
     "shortened",
+    "why_class",
     "why_concluded",
 ]
 
@@ -55,6 +66,27 @@ def why_concluded(
     if subject is None or subject == names[numbers[0]]:
         return node
     return replace(node, text=node.text.replace(names[numbers[0]], subject, 1))
+
+
+def why_class(label: str, words: ThingWords) -> Node:
+    """Return why the picture as a whole is of a class, or why it is not."""
+    evaluation = words.evaluation
+    scene, whole = evaluation.scene, words.things.whole
+    if scene.conclusions is None:
+        return Node("class", "nothing was concluded of the things", Basis.ABSENCE)
+    if scene.label_seen and scene.label == label:
+        text = f"{whole.say(label, be='looks')} as a whole"
+        return Node("class", text, Basis.FEATURE, feature="class", value=label)
+    return scene.conclusions.why_class(scene, label, _names(words), without=evaluation.without)
+
+
+def of_class(query: ClassIs | WhichClass, words: ThingWords) -> Iterator[Node]:
+    """Yield why the picture is of the class that it is; where that is open, why of none."""
+    label = words.evaluation.scene.label
+    if label is None and isinstance(query, ClassIs):
+        label = query.label
+    for one in words.things.whole.classes if label is None else (label,):
+        yield why_class(one, words)
 
 
 def _named_once(node: Node, names: Sequence[str]) -> Node:
@@ -87,20 +119,22 @@ def of_consequence(query: Consequence, words: ThingWords) -> Iterator[Node]:
     evaluation = words.evaluation
     scene = evaluation.scene
     number = evaluation.the(query.one)
-    edits = supposed_edits(number, query.supposed)
     found = consequences(query, evaluation)
-    if found is None or edits is None or scene.conclusions is None:
+    if found is None or scene.conclusions is None:
         return
-    changed, without = edited(scene, evaluation.things, edits)
-    without |= evaluation.without
-    then = scene.conclusions.conclude(changed, without)
+    edits = supposed_edits(number, query.supposed, evaluation)
+    then, without = scene_after(scene, evaluation.things, edits, without=evaluation.without)
+    assert then.conclusions is not None, "nothing was concluded of the scene"
     for follows in found:
         if follows.relation is not None:
             yield why_concluded(follows.relation, (follows.number, number), words)
         else:
-            yield scene.conclusions.why(
+            yield then.conclusions.why(
                 then, follows.conclusion, (follows.number,), _names(words), without=without
             )
+    label = class_that_follows(query, evaluation)
+    if label is not None:
+        yield then.conclusions.why_class(then, label, _names(words), without=without)
     if not found and query.supposed is None:
         for key, relation in evaluation.things.relations.items():
             if relation.removed is not None:

@@ -6,6 +6,7 @@ from seewhy.dialogue.things.evaluating import Fits, Obstacle, UnclearReferenceEr
 from seewhy.dialogue.things.outcome import Outcome
 from seewhy.dialogue.things.query import (
     AnyOf,
+    ClassIs,
     CompareCounts,
     CompareNumber,
     Completing,
@@ -34,6 +35,7 @@ from seewhy.dialogue.things.query import (
     Together,
     ValueOf,
     Which,
+    WhichClass,
 )
 from seewhy.dialogue.things.telling_following import (
     say_completing,
@@ -105,6 +107,11 @@ def tell(query: Query, outcome: Outcome, words: ThingWords) -> str:
             return sentence(say_consequence(query, words))
         case Groups():
             return sentence(say_groups(query, words))
+        case ClassIs():
+            label = str(words.evaluation.scene.label)
+            return sentence(f"{_yes(outcome.value)}, {words.things.whole.say(label)}")
+        case WhichClass():
+            return sentence(words.things.whole.say(str(outcome.value)))
     raise TypeError(f"must be a query, got {query!r}")
 
 
@@ -268,6 +275,8 @@ def _differing(query: Difference, outcome: Outcome, words: ThingWords) -> str:
 
 def _open(query: Query, outcome: Outcome, words: ThingWords) -> str:
     """What is not known."""
+    if isinstance(query, ClassIs | WhichClass):
+        return f"it is not decided of which class {words.things.whole.subject} is"
     unsure = 0
     for fits in outcome.fits:
         unsure |= fits.maybe & ~fits.surely

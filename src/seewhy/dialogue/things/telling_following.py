@@ -7,6 +7,7 @@ from math import comb
 
 from seewhy.dialogue.things.following import (
     Follows,
+    class_that_follows,
     completions,
     consequences,
     group_of,
@@ -26,12 +27,14 @@ _MOST_LISTED = 12
 def say_consequence(query: Consequence, words: ThingWords) -> str:
     """Return what comes true where something is otherwise."""
     found = consequences(query, words.evaluation) or ()
-    if not found:
+    label = class_that_follows(query, words.evaluation)
+    then = [] if label is None else [words.things.whole.say(label, be="would be")]
+    if not found and not then:
         removed = [r.removed for r in words.things.relations.values() if r.removed is not None]
         if query.supposed is None and removed:
             return words.things.conclusions[removed[0]].say.replace("{it}", "nothing")
         return "nothing else would follow"
-    return join_words([_come_true(key, found, words) for key in _keys(found)])
+    return join_words([*(_come_true(key, found, words) for key in _keys(found)), *then])
 
 
 def _keys(found: tuple[Follows, ...]) -> list[str]:

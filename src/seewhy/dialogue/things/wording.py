@@ -126,6 +126,8 @@ class ThingWords:
 
     def phrase(self, description: query.Description, *, many: bool | None = None) -> str:
         """Return a description without an article: "red cubes left of the blue ball"."""
+        if isinstance(description.selection, query.Fixed):
+            return self.name(description.selection.number).removeprefix("the ")
         several = description.many if many is None else many
         adjectives, noun, behind = [], "", []
         for condition in description.conditions:

@@ -20,6 +20,7 @@
 #static falls(block).
 #static stays(block).
 #static falls_without(block, block).
+#static stable(structure).
 
 %% what lies beyond the edge of a block lies on that block, if on any
 -on(X, Z) if beyond(X, Y), block(Z), Z != Y.
@@ -59,3 +60,8 @@ stays(X) if block(X), not lies_on_something(X).
 stays(X) if on(X, Y), stays(Y), not displaced(X).
 %% what is above a block falls when that is taken away
 falls_without(X, Y) if above(X, Y).
+
+%% a structure in which a block falls is unstable
+-stable(S) if structure(S), falls(X).
+%% a structure in which every block stays is stable
+stable(S) if structure(S), #count { X : block(X), not stays(X) } = 0.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import clingo
 
-from seewhy.knowledge.axiom import Axiom, AxiomKind
+from seewhy.knowledge.axiom import Axiom, AxiomKind, Literal
 from seewhy.knowledge.bounded_control import BoundedControl
 from seewhy.knowledge.dynamics import (
     STEP,
@@ -18,9 +18,11 @@ from seewhy.knowledge.dynamics import (
     of_kind,
     rule,
 )
-from seewhy.knowledge.ground import complement_of
+from seewhy.knowledge.ground import complement_of, key_of
 from seewhy.knowledge.grounding_size import grounding_size
 from seewhy.knowledge.language import Knowledge
+from seewhy.knowledge.signature import PredicateKind
+from seewhy.knowledge.symmetry import first_of_each, interchangeable
 
 # Every state is tried as the first one; each of the others is a state that may follow it.
 _PROGRAM = """
@@ -39,6 +41,13 @@ holds(-F, T) :- fluent(basic, F), holds(-F, 0), not holds(F, T), step(T), T > 0.
 _TWO_FOLLOW = """
 differs(F) :- fluent(basic, F), holds(F, 1), holds(-F, 2).
 :- not differs(_).
+"""
+# Where objects change places, what differs is that of others: one of each such choice is enough.
+_ONE_OF_EACH = """
+done(A) :- occurs(A).
+done(nothing__) :- not occurs(_).
+witnessed :- done(A), differs(F), first(A, F).
+:- not witnessed.
 """
 
 
@@ -77,10 +86,10 @@ class TransitionProbe:
     ... -lit.
     ... ''')
     >>> law, = of_kind(known, AxiomKind.CAUSAL_LAW)
-    >>> TransitionProbe(known, following=0).find(action="press", applies=law) is None
-    False
-    >>> TransitionProbe(known, following=1).find(action="press", applies=law) is None
+    >>> TransitionProbe(known, following=0).is_possible(action="press", applies=law)
     True
+    >>> TransitionProbe(known, following=1).is_possible(action="press", applies=law)
+    False
     """
 
     def __init__(self, knowledge: Knowledge, *, following: int) -> None:
@@ -117,6 +126,43 @@ class TransitionProbe:
         contradictions : bool
             Whether what follows may contradict itself.
         """
+        assumed = self._assumed(action, applies, without, contradictions=contradictions)
+        if assumed is None:
+            return None
+        found = self.control.solve(assumed, on_model=_shown, last_only=True)
+        return _read(found[-1]) if found else None
+
+    def is_possible(
+        self,
+        *,
+        action: str | None = None,
+        applies: Axiom | None = None,
+        without: Collection[Axiom] = (),
+        done: Literal | None = None,
+        holds: Literal | None = None,
+    ) -> bool:
+        """Return whether there is some state with these properties; see :meth:`find`.
+
+        ``done`` is the one action that happens, with its arguments; ``holds`` is a fluent that is
+        so in the state.
+        """
+        name = action if done is None else done.predicate
+        assumed = self._assumed(name, applies, without)
+        atoms = [f"occurs({key_of(done)})"] if done is not None else []
+        atoms += [f"holds({key_of(holds)},0)"] if holds is not None else []
+        if assumed is None or any(atom not in self._literals for atom in atoms):
+            return False
+        return self.control.satisfiable([*assumed, *(self._literals[atom] for atom in atoms)])
+
+    def _assumed(
+        self,
+        action: str | None,
+        applies: Axiom | None,
+        without: Collection[Axiom],
+        *,
+        contradictions: bool = False,
+    ) -> list[int] | None:
+        """What is asked for; None where an atom that is wanted can never be true."""
         dropped = {axiom.identifier for axiom in without}
         wanted = [] if contradictions else ["consistent"]
         wanted += [f"applies({applies.identifier})"] if applies else []
@@ -129,18 +175,26 @@ class TransitionProbe:
         for axiom in self.guarded:
             literal = self._literals[f"used({axiom.identifier})"]
             assumed.append(-literal if axiom.identifier in dropped else literal)
-        found = self.control.solve(assumed, on_model=lambda model: list(model.symbols(atoms=True)))
-        return _read(found[-1]) if found else None
+        return assumed
 
     def smallest_conflict(
-        self, axioms: Sequence[Axiom], *, action: str | None = None, without: Sequence[Axiom] = ()
+        self,
+        axioms: Sequence[Axiom],
+        *,
+        action: str | None = None,
+        without: Sequence[Axiom] = (),
+        done: Literal | None = None,
+        holds: Literal | None = None,
     ) -> list[Axiom]:
-        """Return those of ``axioms`` that leave no state; without any of them there is one."""
+        """Return those of ``axioms`` that leave no state; without any of them there is one.
+
+        None are returned where there is no such state without all of them, either.
+        """
         needed = list(axioms)
         for axiom in axioms:
             fewer = [other for other in needed if other is not axiom]
             dropped = [*without, *(other for other in axioms if other not in fewer)]
-            if self.find(action=action, without=dropped) is None:
+            if not self.is_possible(action=action, without=dropped, done=done, holds=holds):
                 needed = fewer
         return needed
 
@@ -187,6 +241,38 @@ def _rules(knowledge: Knowledge, following: int) -> Iterator[str]:
     yield _PROGRAM
     if following == 2:
         yield _TWO_FOLLOW
+        yield from _first_of_each(knowledge)
+
+
+def _first_of_each(knowledge: Knowledge) -> Iterator[str]:
+    """Rules by which two states differ in one of each choice of objects that are alike."""
+    signature = knowledge.signature
+    groups = interchangeable(knowledge)
+    if not groups:
+        return
+    predicates = signature.predicates.values()
+    done = [(p.name, p.sorts) for p in predicates if p.kind.is_action]
+    facts: list[str] = []
+    for action, sorts in (("nothing__", ()), *done):
+        for fluent in predicates:
+            if fluent.kind is not PredicateKind.FLUENT_BASIC:
+                continue
+            places = [signature.members(sort) for sort in (*sorts, *fluent.sorts)]
+            chosen = first_of_each(groups, places)
+            if chosen is None:
+                return
+            for members in chosen:
+                atoms = (
+                    Literal(action, members[: len(sorts)]),
+                    Literal(fluent.name, members[len(sorts) :]),
+                )
+                facts.append(f"first({atoms[0]}, {atoms[1]}).")
+    yield _ONE_OF_EACH
+    yield " ".join(facts)
+
+
+def _shown(model: clingo.Model) -> list[clingo.Symbol]:
+    return list(model.symbols(atoms=True))
 
 
 def _read(model: list[clingo.Symbol]) -> Found:
