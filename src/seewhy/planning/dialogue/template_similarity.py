@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 from rapidfuzz import fuzz
 
-from seewhy.dialogue.spelling import DENYING
+from seewhy.dialogue.inflection import lemma
+from seewhy.dialogue.spelling import english_words, prefixed_otherwise
 from seewhy.planning.dialogue.query import Asks
 from seewhy.planning.dialogue.question_templates import HOLE
 
@@ -102,7 +104,15 @@ def _lacking(words: Sequence[str], others: Sequence[str]) -> Iterator[tuple[str,
             yield word, others
 
 
+@lru_cache(maxsize=16_384)
 def _same_word(word: str, other: str) -> bool:
-    """Whether two words are forms of one; "unusual" says the opposite of "usual"."""
-    opposite = word.removesuffix(other) in DENYING or other.removesuffix(word) in DENYING
-    return not opposite and fuzz.ratio(word, other) >= _ALIKE
+    """Whether two words are forms of one, or one is mistyped.
+
+    "Unusual" says the opposite of "usual", and whoever asks what was painted asks not what was
+    printed.
+    """
+    if lemma(word) == lemma(other):
+        return True
+    if prefixed_otherwise(word, other) or {word, other} <= english_words():
+        return False
+    return fuzz.ratio(word, other) >= _ALIKE
