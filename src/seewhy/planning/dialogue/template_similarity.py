@@ -57,7 +57,10 @@ def likeness(asks: Asks, read: Sequence[str], skeleton: Sequence[str]) -> float 
     >>> likeness(Asks.WHY_DID, asked, ["why", "did", "you", "not", "go", "to", "§"]) is None
     True
     """
-    if telling_words(read) != telling_words(skeleton) or _is_ahead(read) > _is_ahead(skeleton):
+    if telling_words(read) != telling_words(skeleton):
+        return None
+    # "What do you do if …?" asks what you would do.
+    if _is_ahead(read) != _is_ahead(skeleton) and (asks is not Asks.WHAT_IF or _is_ahead(read)):
         return None
     if not _same_prepositions(read, skeleton):
         return None
