@@ -39,7 +39,7 @@ _STATEMENTS = (
     "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class", "supposed_object",
     "no_object", "half", "inverted", "footing", "existing_absent", "absent_named", "avoided_form",
     "goal_verb", "cause", "concluded", "matter_of", "matter_clause", "because_so", "left_claimed",
-    "because_claimed", "because_told",
+    "because_claimed", "because_told", "gone_too",
 )  # fmt: skip
 
 _BESIDE = ("equipment", "unequipped", "possessed", "dispossessed")
@@ -67,6 +67,7 @@ def folds() -> dict[str, Fold]:
         "taken_away": _folded_neither,
         "unequipped_both": _folded_neither,
         "both_gone": _folded_neither,
+        "either_gone": _folded_neither,
         "supposed_class": _folded_class,
         "parts_alike": _folded_parts,
         "replaced": _folded_replaced,
