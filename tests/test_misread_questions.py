@@ -142,6 +142,7 @@ UNDERSTOOD = {
     (SIGNS, "what is the name of this sign?"): "what class",
     (ROOMS, "is Bob gone and Sally too?"): "and bob=no;sally=no",
     (ROOMS, "is Bob gone but not Sally?"): "and bob=no;sally=yes",
+    (ROOMS, "what if not Bob but Sally left?"): "what-if bob=yes;sally=no",
     (ROOMS, "is the desk missing or the chair?"): "or chair=no;desk=no",
     (ROOMS, "are Bob and Sally not there?"): "and bob=no;sally=no",
     (ROOMS, "is Bob there and Sally not?"): "and bob=yes;sally=no",
