@@ -366,6 +366,13 @@ OPPOSITE = (
     "what is unusual in the kitchen?",
     "who will be in the kitchen?",
     "what will you see in the kitchen?",
+    "did you paint the first message?",
+    "did you reprint the first message?",
+    "why did you redeliver the first message to Sally?",
+    "what if Sally talked to the kitchen?",
+    "is the kitchen closer?",
+    "what is your plant?",
+    "why did your plan charge?",
 )
 
 

@@ -120,6 +120,23 @@ def test_why_goes_with_the_answer_about_things_before(answers: RunAnswers) -> No
         answers.answer("why?")
 
 
+@pytest.mark.parametrize(
+    "question",
+    [
+        "did the red cube fall?",
+        "why did the red cube fall?",
+        "what will be on the red cube?",
+        "where was the red cube?",
+        "how many cubes were on the cylinder?",
+    ],
+)
+def test_the_scene_as_it_is_now_tells_nothing_of_another_time(
+    answers: RunAnswers, question: str
+) -> None:
+    with pytest.raises(QuestionError):
+        answers.answer(question)
+
+
 def test_it_is_asked_which_of_several(answers: RunAnswers) -> None:
     with pytest.raises(QuestionError) as problem:
         answers.answer("why did you put the cube on the table?")

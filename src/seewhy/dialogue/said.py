@@ -37,9 +37,9 @@ _STATEMENTS = (
     "goal", "avoided", "one_value", "first_existing", "existing_too", "deny_one", "deny_other",
     "pair_rest", "lacking", "pair_two", "fragment_named",
     "supposed_kind", "first_doing", "other_doing", "denied_too", "other_class", "supposed_object",
-    "no_object", "half", "inverted", "footing", "existing_absent", "absent_named", "avoided_form",
+    "no_object", "half", "inverted", "footing", "avoided_form",
     "goal_verb", "cause", "concluded", "matter_of", "matter_clause", "because_so", "left_claimed",
-    "because_claimed", "because_told",
+    "because_claimed", "because_told", "gone_too",
 )  # fmt: skip
 
 _BESIDE = ("equipment", "unequipped", "possessed", "dispossessed")
@@ -62,11 +62,14 @@ def folds() -> dict[str, Fold]:
         **dict.fromkeys(_BESIDE, _folded_beside),
         "existing_named": _folded_named,
         "named_only": _folded_verbless,
+        "existing_absent": _folded_verbless,
+        "absent_named": _folded_verbless,
         "not_named": _folded_verbless,
         "neither_of": _folded_neither,
         "taken_away": _folded_neither,
         "unequipped_both": _folded_neither,
         "both_gone": _folded_neither,
+        "either_gone": _folded_neither,
         "supposed_class": _folded_class,
         "parts_alike": _folded_parts,
         "replaced": _folded_replaced,

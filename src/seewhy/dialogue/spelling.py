@@ -8,11 +8,11 @@ from importlib import resources
 from itertools import islice, product
 
 from rapidfuzz import process
-from rapidfuzz.distance import DamerauLevenshtein
+from rapidfuzz.distance import DamerauLevenshtein, Postfix
 
 from seewhy.dialogue.inflection import lemma
 
-__all__ = ["DENYING", "Spelling", "english_words", "first_names"]
+__all__ = ["Spelling", "english_words", "first_names", "prefixed_otherwise"]
 
 _MOST_READINGS = 64
 
@@ -47,8 +47,23 @@ def _listed(file: str) -> frozenset[str]:
     return frozenset(text.read_text(encoding="utf-8").split())
 
 
-DENYING = frozenset({"un", "in", "im", "ir", "non", "dis"})
-"""What stands before a word to say the opposite."""
+PREFIXES = frozenset({"un", "in", "im", "ir", "non", "dis", "mis", "re", "pre", "over", "under"})
+"""What stands before a word to make another of it, often its opposite."""
+
+
+def prefixed_otherwise(word: str, other: str) -> bool:
+    """Whether two words differ only by what stands before them.
+
+    Examples
+    --------
+    >>> prefixed_otherwise("unsteady", "steady"), prefixed_otherwise("redeliver", "undeliver")
+    (True, True)
+    >>> prefixed_otherwise("stady", "steady")
+    False
+    """
+    same = Postfix.similarity(word, other)
+    before = {word[: len(word) - same], other[: len(other) - same]} - {""}
+    return bool(before) and before <= PREFIXES
 
 
 class Spelling:
@@ -101,7 +116,7 @@ class Spelling:
         close = process.extract(
             word,
             # "Unsteady" is no misspelling of "steady": it says the opposite.
-            [known for known in near if word.removesuffix(known) not in DENYING],
+            [known for known in near if not prefixed_otherwise(word, known)],
             scorer=DamerauLevenshtein.distance,
             score_cutoff=allowed,
             limit=None,

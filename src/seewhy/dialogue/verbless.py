@@ -27,11 +27,14 @@ def verbs_shared(bindings: Sequence[Binding], said: Sequence[Said]) -> list[Said
     >>> [str(statement) for statement in understand("is Bob gone but not Sally?").statements]
     ['bob=no', 'sally=yes']
     """
+    opposed = any(binding.role == "but" for binding in bindings)
+    if opposed and len(said) == 2 and _is_one_thing(said[0]) and said[0].denied:
+        # "Not Bob but Sally left" leaves him there.
+        return [replace(said[0], denied=not _is_away(said[1])), said[1]]
     if not said or not any(map(_is_one_thing, said[1:])):
         return list(said)
     first = said[0]
-    opposed = any(binding.role == "but" for binding in bindings)
-    away = first.denied_by in _AWAY or (first.statement.value == "no" and not first.denied)
+    away = _is_away(first)
     if not away and not first.denied:
         return list(said)
     shared = [first]
@@ -45,6 +48,11 @@ def verbs_shared(bindings: Sequence[Binding], said: Sequence[Said]) -> list[Said
         else:
             return None
     return shared
+
+
+def _is_away(spoken: Said) -> bool:
+    """Whether it is said of something that it is away now, and was there."""
+    return spoken.denied_by in _AWAY or (spoken.statement.value == "no" and not spoken.denied)
 
 
 def _is_one_thing(spoken: Said) -> bool:

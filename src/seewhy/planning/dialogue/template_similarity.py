@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 from rapidfuzz import fuzz
 
-from seewhy.dialogue.spelling import DENYING
+from seewhy.dialogue.inflection import lemma
+from seewhy.dialogue.spelling import english_words, prefixed_otherwise
 from seewhy.planning.dialogue.query import Asks
 from seewhy.planning.dialogue.question_templates import HOLE
 
@@ -55,7 +57,10 @@ def likeness(asks: Asks, read: Sequence[str], skeleton: Sequence[str]) -> float 
     >>> likeness(Asks.WHY_DID, asked, ["why", "did", "you", "not", "go", "to", "§"]) is None
     True
     """
-    if telling_words(read) != telling_words(skeleton) or _is_ahead(read) > _is_ahead(skeleton):
+    if telling_words(read) != telling_words(skeleton):
+        return None
+    # "What do you do if …?" asks what you would do.
+    if _is_ahead(read) != _is_ahead(skeleton) and (asks is not Asks.WHAT_IF or _is_ahead(read)):
         return None
     if not _same_prepositions(read, skeleton):
         return None
@@ -102,7 +107,15 @@ def _lacking(words: Sequence[str], others: Sequence[str]) -> Iterator[tuple[str,
             yield word, others
 
 
+@lru_cache(maxsize=16_384)
 def _same_word(word: str, other: str) -> bool:
-    """Whether two words are forms of one; "unusual" says the opposite of "usual"."""
-    opposite = word.removesuffix(other) in DENYING or other.removesuffix(word) in DENYING
-    return not opposite and fuzz.ratio(word, other) >= _ALIKE
+    """Whether two words are forms of one, or one is mistyped.
+
+    "Unusual" says the opposite of "usual", and whoever asks what was painted asks not what was
+    printed.
+    """
+    if lemma(word) == lemma(other):
+        return True
+    if prefixed_otherwise(word, other) or {word, other} <= english_words():
+        return False
+    return fuzz.ratio(word, other) >= _ALIKE

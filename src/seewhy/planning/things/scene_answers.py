@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import clingo
 
 from seewhy.data.thing_scene import ThingScene, thing_scene
+from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.things.answering import ThingAnswerer, ThingReply
 from seewhy.domain.things import CONCLUDED
 from seewhy.errors import QuestionError
@@ -29,6 +30,7 @@ class SceneAnswer:
     reasons: dict[str, Any] = field(default_factory=dict)
 
 
+_OF_ANOTHER_TIME = frozenset({"was", "were", "had", "did", "been", "will", "shall"})
 _Atom = tuple[str, ...]
 """A predicate with its arguments."""
 
@@ -161,6 +163,9 @@ class SceneAnswers:
         QuestionError
             ``instead_of``, if it is not understood as one either.
         """
+        words = set(words_of(question))
+        if words & _OF_ANOTHER_TIME and "if" not in words:
+            raise instead_of  # the scene is as it is now
         try:
             reply = self._answerer.answer(question, self.scene, previous=self._before)
         except QuestionError:
