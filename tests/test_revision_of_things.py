@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,11 +10,12 @@ import pytest
 from seewhy.data.dataset import Dataset
 from seewhy.domain.domain import Domain, load_domain
 from seewhy.errors import QuestionError, RevisionError
+from seewhy.knowledge.justification import Basis, Node
 from seewhy.revision.consequences import annotated_scenes
 from seewhy.revision.edit import FileName, edited
 from seewhy.revision.proposal import Cause, Doubted
 from seewhy.revision.things.doubted_scene import axioms_behind, doubted_scene
-from seewhy.revision.things.narrowed_rules import thing_rule_revisions
+from seewhy.revision.things.narrowed_rules import applies, thing_rule_revisions
 from seewhy.revision.things.new_rule import new_thing_rule
 from seewhy.revision.things.reasons import class_named, gives_reason, rule_of_reason
 from things_builder import write_domain, write_shelf
@@ -33,11 +35,13 @@ def dataset(domain: Domain, tmp_path_factory: pytest.TempPathFactory) -> Dataset
     return Dataset.load(folder, domain)
 
 
-def doubted(domain: Domain, dataset: Dataset, *, wanted: str | None = None) -> Doubted:
+def doubted(
+    domain: Domain, dataset: Dataset, *, wanted: str | None = None, picture: str = PICTURE
+) -> Doubted:
     scenes = annotated_scenes(dataset, {})
     text = (domain.folder / "knowledge.al").read_text()
     texts: dict[FileName, str] = {"knowledge.al": text, "learned.al": ""}
-    vector = scenes.vectors[scenes.pictures.index(PICTURE)]
+    vector = scenes.vectors[scenes.pictures.index(picture)]
     return doubted_scene(domain, texts, vector, scenes, wanted=wanted)
 
 
@@ -76,6 +80,29 @@ def test_exceptions_are_those_by_which_it_is_of_the_class_that_is_wanted(
         assert {proposal.decision.label for proposal in found} == {"tidy"}
     finally:
         file.write_text(before)
+
+
+def test_of_what_is_no_class_it_is_told_where_the_rule_applies(
+    domain: Domain, dataset: Dataset
+) -> None:
+    """Without classes, too: "nothing lies on a ball"."""
+    apart = replace(domain, classes={})
+    one_ball = next(
+        dataset.name_of(scene)
+        for scene in dataset.scenes
+        if [thing.values["form"] for thing in scene.things].count("ball") == 1
+    )
+    about = doubted(apart, dataset, picture=one_ball)
+    box_on_ball = next(axiom for axiom in domain.knowledge.axioms if axiom.head.predicate == "on")
+    reasons = Node("-on(thing1, thing2)", "", Basis.AXIOM, axiom=box_on_ball)
+    found = thing_rule_revisions(about, reasons)
+    assert {proposal.about for proposal in found} == {"nothing lies on a ball"}
+    told = applies(about, found[0])
+    assert told is not None
+    assert told.scenes == 48
+    assert 0 < told.after < told.before
+    of_class = doubted(domain, dataset)
+    assert applies(of_class, thing_rule_revisions(of_class)[0]) is None
 
 
 @pytest.mark.parametrize(

@@ -211,6 +211,16 @@ def test_a_misread_feature_becomes_a_label_and_is_taken_back(
     assert "images/000.png,train,good,red" in (folder / "scenes.csv").read_text()
 
 
+def test_without_rules_the_least_sure_feature_is_offered(client: TestClient, folder: Path) -> None:
+    """Where no rule says what another reading would make of the picture."""
+    file = folder / "tiles" / "knowledge.al"
+    lines = file.read_text().splitlines()
+    file.write_text("\n".join(line for line in lines if " if " not in line) + "\n")
+    shown = client.get("/ask/doubt?picture=images/000.png", headers=HTMX).text
+    assert keys_of(shown)
+    assert "No single feature" not in shown
+
+
 def test_an_exception_is_shown_with_its_consequences_and_holds_at_once(
     client: TestClient, folder: Path
 ) -> None:

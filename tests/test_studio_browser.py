@@ -100,7 +100,7 @@ def test_a_key_that_comes_while_news_are_exchanged_is_not_lost(
         const asked = event.detail.pathInfo.requestPath;
         if (document.body.dataset.pressed || !asked.startsWith("/label/news")) return;
         document.body.dataset.pressed = "yes";
-        document.body.dispatchEvent(new KeyboardEvent("keydown", {key: "2", bubbles: true}));
+        document.body.dispatchEvent(new KeyboardEvent("keydown", {key: "1", bubbles: true}));
       });
     }""")
     for name, colour in (("a.png", "red"), ("b.png", "green")):

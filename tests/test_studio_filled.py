@@ -14,6 +14,7 @@ from seewhy.studio.pages.evaluate import TASK as EVALUATE
 from seewhy.studio.pages.robot import TASK as ROBOT
 from seewhy.studio.pages.train import TASK as TRAIN
 from seewhy.studio.project import Project
+from seewhy.studio.robot_beginnings import Beginning
 from seewhy.studio.robot_process import run_robot
 from studio_browsing import NEEDS_CHROMIUM, hindrances, served
 from studio_builder import ended_job
@@ -47,7 +48,8 @@ def filled(
     lamps = write_lamps(tmp_path / "lamps")
     asked = {"domain": str(lamps), "goal": "lit(desk)", "seed": 0, "steps": 9, "at_first": []}
     robot = ended_job(project, ROBOT, asked=asked)
-    run_robot(str(lamps), "lit(desk)", seed=0, most_steps=9, folder=robot, at_first=[])
+    begun = Beginning(str(lamps))
+    run_robot(begun, "lit(desk)", seed=0, most_steps=9, folder=robot, at_first=[])
     (robot / "output").write_text(capsys.readouterr().out)
     return project
 

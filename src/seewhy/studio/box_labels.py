@@ -29,22 +29,31 @@ def box_labels(
     --------
     >>> boxes = [BoundingBox(0, 0, 40, 40), BoundingBox(30, 2, 60, 40)]
     >>> box_labels(boxes, ["red cube", "blue ball"], (400, 300))
-    ['1: red cube', '2']
+    ['1', '2: blue ball']
     """
-    high = letter_size(size)
-    taken: list[tuple[float, float, float, float]] = []
-    labels = []
-    for number, (box, name) in enumerate(zip(boxes, names, strict=True), start=1):
-        for label in (f"{number}: {name}", f"{number}"):
-            wide = _LETTER * high * len(label)
-            left = box.right - wide if box.left > _LATE * size[0] else box.left
-            place = (left, box.top, left + wide, box.top + 1.2 * high)
-            outside = place[0] < 0 or place[2] > size[0]
-            if not outside and not any(_overlap(place, other) for other in taken):
-                break
-        taken.append(place)
-        labels.append(label)
+    labels = [str(number) for number in range(1, len(boxes) + 1)]
+    places = [_place(box, label, size) for box, label in zip(boxes, labels, strict=True)]
+    for number, (box, name) in enumerate(zip(boxes, names, strict=True)):
+        whole = f"{labels[number]}: {name}"
+        place = _place(box, whole, size)
+        others = (other for at, other in enumerate(places) if at != number)
+        if (
+            place[0] >= 0
+            and place[2] <= size[0]
+            and not any(_overlap(place, other) for other in others)
+        ):
+            labels[number], places[number] = whole, place
     return labels
+
+
+def _place(
+    box: BoundingBox, label: str, size: tuple[int, int]
+) -> tuple[float, float, float, float]:
+    """Where a label lies: left, top, right and bottom."""
+    high = letter_size(size)
+    wide = _LETTER * high * len(label)
+    left = box.right - wide if box.left > _LATE * size[0] else box.left
+    return left, box.top, left + wide, box.top + 1.2 * high
 
 
 def _overlap(

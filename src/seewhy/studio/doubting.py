@@ -37,12 +37,19 @@ _OF_EACH_KIND = 2
 def misread(
     model: ProjectModel, talk: Talk, about: Sequence[tuple[str, str | None]] = ()
 ) -> dict[str, Proposal]:
-    """What the picture may show instead of what was read, by the keys to take it with."""
+    """What the picture may show instead of what was read, by the keys to take it with.
+
+    Where no rule makes anything of another reading, what the least sure feature may be is offered.
+    """
     with model.at_work():
         scene = model.look(talk.picture)
         certainty = {key: reading.certainty for key, reading in scene.features.items()}
         doubted = _doubted(model, talk)
         found = misreadings(doubted, certainty=certainty, about=about, most=_READINGS)
+        if not found and not about:
+            least_sure = min(certainty, key=lambda key: certainty[key])
+            about = ((least_sure, None),)
+            found = misreadings(doubted, certainty=certainty, about=about, most=_READINGS)
     return talk.propose(found)
 
 

@@ -6,7 +6,7 @@ from seewhy.agent.learning_from_pictures import AnnotatedScenes
 from seewhy.domain.tables import CLASS
 from seewhy.studio.project import Project
 
-__all__ = ["labelled_scenes"]
+__all__ = ["drawn_scenes", "labelled_scenes"]
 
 
 def labelled_scenes(project: Project) -> AnnotatedScenes:
@@ -34,6 +34,17 @@ def labelled_scenes(project: Project) -> AnnotatedScenes:
         for picture in said
     ]
     return AnnotatedScenes(tuple(vectors), tuple(said.values()), tuple(said))
+
+
+def drawn_scenes(project: Project) -> AnnotatedScenes:
+    """The pictures of a project whose things are drawn, without their classes."""
+    labels = project.labels()
+    drawn = {
+        picture: ""
+        for picture in project.pictures()
+        if (here := labels.drawn_in(picture)).none or here.things
+    }
+    return _scenes_of_things(project, drawn)
 
 
 def _scenes_of_things(project: Project, said: dict[str, str]) -> AnnotatedScenes:

@@ -5,13 +5,23 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from seewhy.errors import SeeWhyError
 from seewhy.revision.proposal import Proposal
 
-__all__ = ["Offers"]
+__all__ = ["Offers", "Remedy"]
 
 _PROPOSED = 400
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """A proposal as it is shown: the key to take it by, and what it would change, in words."""
+
+    key: str
+    proposal: Proposal
+    said: str
 
 
 class Offers:

@@ -11,7 +11,7 @@ from typing import IO, Any
 
 from seewhy.data.importers.clevr import read_scenes
 from seewhy.domain.domain import load_domain
-from seewhy.errors import PlanningError, SeeWhyError
+from seewhy.errors import SeeWhyError
 from seewhy.files.whole_files import write_whole
 from seewhy.knowledge.history import History
 from seewhy.planning.domain import PlanningDomain, load_planning_domain, planning_folder
@@ -93,7 +93,7 @@ def keep_file(project: Project, name: str, content: IO[bytes]) -> Path:
         raise SeeWhyError(f"'{name[:80]}' has more than {LARGEST:,} bytes; send fewer scenes")
     stem = re.sub(r"[^\w-]+", "_", Path(name.replace("\\", "/")).stem)[:60] or "file"
     digest = hashlib.sha256(text).hexdigest()[:10]
-    folder = project.folder / _FOLDER
+    folder = _folder(project)
     folder.mkdir(exist_ok=True)
     file = folder / f"{stem}-{digest}{ending}"
     write_whole(file, text)
@@ -107,11 +107,16 @@ def scenes_kept(project: Project, domain: str) -> dict[str, str]:
     if things is None:
         return {}
     found: dict[str, str] = {}
-    for file in sorted((project.folder / _FOLDER).glob("*.json")):
+    for file in sorted(_folder(project).glob("*.json")):
         try:
             numbers = read_scenes(file, things)
-        except (SeeWhyError, PlanningError):
+        except SeeWhyError:
             continue  # of another domain
         name = file.stem.rpartition("-")[0]
         found |= {f"{file}#{number}": f"{name}, scene {number}" for number in numbers}
     return dict(list(found.items())[:_MOST_LISTED])
+
+
+def _folder(project: Project) -> Path:
+    """Where files are kept; whole, because a run's process works in another folder."""
+    return project.folder.resolve() / _FOLDER

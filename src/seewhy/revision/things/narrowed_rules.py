@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from seewhy.agent.things.concluded import where_axioms_speak
 from seewhy.domain.domain import Domain
 from seewhy.domain.thing_wording import described
 from seewhy.domain.things import SEEN, Things
@@ -19,10 +20,10 @@ from seewhy.knowledge.things import literals_about, of_things
 from seewhy.revision.consequences import Consequences, consequences
 from seewhy.revision.edit import KNOWLEDGE, Edit
 from seewhy.revision.knowledge_text import condition_added, narrowed_statement
-from seewhy.revision.proposal import Cause, Doubted, Proposal
+from seewhy.revision.proposal import Cause, Doubted, Proposal, revised
 from seewhy.revision.things.doubted_scene import axioms_behind
 
-__all__ = ["giving_way", "thing_rule_revisions"]
+__all__ = ["Applies", "applies", "edit_of", "giving_way", "thing_rule_revisions"]
 
 _MOST_TRIED = 48
 """So many narrowings are judged: each decides all annotated scenes again."""
@@ -60,6 +61,15 @@ class Asked:
     def sentence(self) -> str:
         """Its sentence as it would be."""
         return f"{self.axiom.text.removesuffix('.')}, {self.said}"
+
+
+@dataclass(frozen=True)
+class Applies:
+    """In how many of some scenes an axiom applies as it is, and as it would read."""
+
+    scenes: int
+    before: int
+    after: int
 
 
 @dataclass(frozen=True)
@@ -121,6 +131,23 @@ def giving_way(doubted: Doubted, label: str) -> tuple[Asked, ...]:
         said = f"unless it is {concluded.say}"
         found.append(Asked(axiom, Cause.EXCEPTION, f"not {wanted}", said))
     return tuple(found)
+
+
+def applies(doubted: Doubted, proposal: Proposal) -> Applies | None:
+    """Return where an axiom applies that concludes no class; None of others, or without scenes."""
+    before = doubted.known.domain
+    classes = {scene_class.literal.predicate for scene_class in before.classes.values()}
+    old = next((each for each in before.knowledge.axioms if each.text == proposal.about), None)
+    if old is None or old.head.predicate in classes or not doubted.scenes.vectors:
+        return None
+    after = revised(doubted.known, doubted.texts, proposal.edits).domain
+    new = next(each for each in after.knowledge.axioms if each.text == proposal.sentence)
+    vectors = doubted.scenes.vectors
+    (was,), (is_then,) = (
+        where_axioms_speak(domain, [axiom], vectors)
+        for domain, axiom in ((before, old), (after, new))
+    )
+    return Applies(len(vectors), int(was.sum()), int(is_then.sum()))
 
 
 def edit_of(asked: Asked, doubted: Doubted) -> tuple[Edit, ...]:

@@ -12,6 +12,7 @@ from seewhy.errors import SeeWhyError
 from seewhy.revision.proposal import Proposal
 from seewhy.revision.remarks import Remark, Says, remark_of
 from seewhy.studio import doubting
+from seewhy.studio.offered import Remedy
 from seewhy.studio.pages.ask_things_doubt import (
     doubt_about_things,
     reason_about_things,
@@ -19,7 +20,7 @@ from seewhy.studio.pages.ask_things_doubt import (
 )
 from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.pages.done import Done
-from seewhy.studio.pages.remedies import Remedy, shown_remedies
+from seewhy.studio.pages.remedies import shown_remedies
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.state import Studio, studio_of
 from seewhy.studio.talk import Talk

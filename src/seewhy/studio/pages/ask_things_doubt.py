@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Annotated
 from urllib.parse import urlencode
 
@@ -11,7 +10,6 @@ from fastapi.responses import RedirectResponse
 
 from seewhy.domain.domain import Domain
 from seewhy.errors import SeeWhyError
-from seewhy.revision.proposal import Proposal
 from seewhy.revision.remarks import says_wrong
 from seewhy.revision.things.reasons import class_named, example_of_a_reason, gives_reason
 from seewhy.studio import doubting_things
@@ -20,7 +18,7 @@ from seewhy.studio.doubting import take
 from seewhy.studio.pages.ask_things import begin, shown_anew
 from seewhy.studio.pages.chosen_picture import chosen
 from seewhy.studio.pages.done import Done
-from seewhy.studio.pages.remedies import Remedy, shown_remedies
+from seewhy.studio.pages.remedies import shown_remedies
 from seewhy.studio.record import Entry
 from seewhy.studio.rendering import from_script, render
 from seewhy.studio.session import who_of
@@ -108,7 +106,7 @@ def rules_about_things(request: Request, picture: str) -> Response:
     studio, talk = _about(request, picture)
     begin(studio, talk)
     found = doubting_things.for_the_rules(studio.things, talk)
-    return _remedies(request, studio, talk, found, nothing=_NO_RULE)
+    return shown_remedies(request, found, picture=talk.picture, nothing=_NO_RULE)
 
 
 def reason_about_things(request: Request, picture: str, because: str) -> Response:
@@ -116,7 +114,7 @@ def reason_about_things(request: Request, picture: str, because: str) -> Respons
     studio, talk = _about(request, picture)
     begin(studio, talk)
     found = doubting_things.for_a_reason(studio.things, talk, because)
-    return _remedies(request, studio, talk, found, nothing="No rule follows from it.")
+    return shown_remedies(request, found, picture=talk.picture, nothing="No rule follows from it.")
 
 
 def remarked_about_things(request: Request, picture: str, remark: str) -> Response | None:
@@ -142,22 +140,6 @@ def take_about_things(request: Request, picture: str, key: str) -> Response:
     talk.wanted = None
     done = Done(f"Kept as entry {entry.number}: {proposal.sentence}.", entry.number)
     return shown_anew(request, studio, talk, done)
-
-
-def _remedies(
-    request: Request,
-    studio: Studio,
-    talk: ThingTalk,
-    found: Mapping[str, Proposal],
-    *,
-    nothing: str,
-) -> Response:
-    domain = studio.project.domain()
-    remedies = [
-        Remedy(key, proposal, doubting_things.said_of(domain, proposal))
-        for key, proposal in found.items()
-    ]
-    return shown_remedies(request, remedies, picture=talk.picture, nothing=nothing)
 
 
 def take_back_about_things(request: Request, picture: str, number: int) -> Response:

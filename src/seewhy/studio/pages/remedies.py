@@ -3,23 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from fastapi import Request, Response
 
-from seewhy.revision.proposal import Proposal
+from seewhy.studio.offered import Remedy
 from seewhy.studio.rendering import from_script, render
 
-__all__ = ["Remedy", "shown_remedies"]
-
-
-@dataclass(frozen=True)
-class Remedy:
-    """A proposal as it is shown, with the key to take it by."""
-
-    key: str
-    proposal: Proposal
-    said: str
+__all__ = ["shown_remedies"]
 
 
 def shown_remedies(
