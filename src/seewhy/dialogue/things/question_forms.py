@@ -31,6 +31,8 @@ from seewhy.dialogue.things.query import (
     Occurring,
     Query,
     Reference,
+    References,
+    Related,
     SameValue,
     SharedByMost,
     Together,
@@ -87,7 +89,25 @@ def _feature(bindings: Bindings) -> str | None:
 
 def _described(bindings: Bindings) -> Description:
     found = _descriptions(bindings)
+    them = meanings(bindings, "them")
+    if them and isinstance(them[0], Description):
+        return _of_them(them[0], _conditions(bindings))
     return (found[0] if found else Description(many=True)).also(*_conditions(bindings))
+
+
+def _of_them(them: Description, conditions: tuple[Condition, ...]) -> Description:
+    """Those of some things that are so; what was asked of them before is asked no more.
+
+    "How many cubes are there?", "how many are red?", "how many are green?" asks of the cubes.
+    """
+    asked = {condition.feature for condition in conditions if isinstance(condition, HasValue)}
+    kept = tuple(
+        condition
+        for condition in them.conditions
+        if not (isinstance(condition, HasValue) and condition.feature in asked)
+        and condition not in conditions
+    )
+    return Description((*kept, *conditions), them.selection, them.many)
 
 
 def _about(make: Callable[[Description], Query]) -> Fold:
@@ -105,8 +125,28 @@ def _value(bindings: Bindings) -> Bindings | None:
     return None if feature is None or len(ones) != 1 else _query(ValueOf(feature, ones[0]))
 
 
-def _compared(bindings: Bindings, sign: str | None = None) -> Bindings:
-    first, second = map(settled, _descriptions(bindings))
+def _two_kinds(bindings: Bindings) -> list[Description]:
+    """What is counted beside each other; "more red than green cubes" leaves a noun out."""
+    found, short = _descriptions(bindings), meanings(bindings, "short")
+    if not short:
+        return found
+    (other,) = found
+    said: HasValue = short[0]  # type: ignore[assignment]
+    adjectives = [c for c in other.conditions if isinstance(c, HasValue) and not c.noun]
+    kept = (c for c in other.conditions if c is not adjectives[0]) if adjectives else ()
+    return [Description((said, *kept), many=other.many), other] if adjectives else [other]
+
+
+def _in_few(bindings: Bindings) -> Bindings | None:
+    (condition,) = _conditions(bindings)
+    return (Binding("short", condition),) if isinstance(condition, HasValue) else None
+
+
+def _compared(bindings: Bindings, sign: str | None = None) -> Bindings | None:
+    kinds = _two_kinds(bindings)
+    if len(kinds) != 2:
+        return None
+    first, second = map(settled, kinds)
     signs = meanings(bindings, "sign")
     return _query(CompareCounts(sign or str(signs[0]), first, second))
 
@@ -161,12 +201,16 @@ def _same_value(bindings: Bindings) -> Bindings | None:
 
 def _alike(bindings: Bindings, *, denied: bool) -> Bindings | None:
     feature, ones = _feature(bindings), _references(bindings)
+    if len(ones) == 1 and ones[0].which is References.EVERY:
+        ones = (ones[0], ones[0])
     if feature is None or len(ones) != 2:
         return None
     return _query(SameValue(feature, ones[0], ones[1], denied))
 
 
 def _holds(bindings: Bindings) -> Bindings | None:
+    if meanings(bindings, "query"):
+        return bindings
     conditions, ones = _conditions(bindings), _references(bindings)
     features = set(meanings(bindings, "feature"))
     of_another = any(isinstance(c, HasValue) and features - {c.feature} for c in conditions)
@@ -175,9 +219,30 @@ def _holds(bindings: Bindings) -> Bindings | None:
     return _query(Holds(ones, all_of(conditions)))
 
 
+def _each_other(bindings: Bindings) -> Bindings | None:
+    """Whether several things stand to each other in some way: each of them to every other."""
+    ones, relations = _references(bindings), meanings(bindings, "relation")
+    if len(ones) == 2 and all(one.which is References.THE for one in ones):
+        return _query(Holds(ones[:1], Related(str(relations[0]), ones[1])))
+    if len(ones) != 1 or ones[0].which is not References.EVERY:
+        return None
+    return _query(Holds(ones, Related(str(relations[0]), ones[0])))
+
+
+def _choice(bindings: Bindings) -> Bindings | None:
+    """Which of two values a thing has: "is the ball red or blue?"."""
+    ones, conditions = _references(bindings), _conditions(bindings)
+    features = {c.feature for c in conditions if isinstance(c, HasValue)}
+    if len(ones) != 1 or len(features) != 1 or ones[0].which is not References.THE:
+        return None
+    return _query(ValueOf(features.pop(), ones[0]))
+
+
 def _pair(make: Callable[[Reference, Reference], Query]) -> Fold:
     def fold(bindings: Bindings) -> Bindings | None:
         ones = _each(_references(bindings))
+        if len(ones) == 1 and ones[0].which is References.EVERY:
+            ones = (ones[0], ones[0])  # all of them beside each other
         return _query(make(*ones)) if len(ones) == 2 else None
 
     return fold
@@ -199,9 +264,15 @@ def _single(make: Callable[[Reference], Query]) -> Fold:
 
 def _consequence(bindings: Bindings) -> Bindings | None:
     ones, conditions = _references(bindings), _conditions(bindings)
+    about = meanings(bindings, "about")
     if len(ones) != 1:
         return None
-    return _query(Consequence(ones[0], all_of(conditions) if conditions else None))
+    to = about[0] if about and isinstance(about[0], Reference) else None
+    return _query(Consequence(ones[0], all_of(conditions) if conditions else None, to))
+
+
+def _with_it(bindings: Bindings) -> Bindings:
+    return (Binding("about", _references(bindings)[0]),)
 
 
 def _completing(bindings: Bindings) -> Bindings | None:
@@ -328,6 +399,12 @@ QUESTIONS: dict[str, Fold] = {
     "difference": _pair(Difference),
     "alike": _pair(lambda first, second: Difference(first, second, alike=True)),
     "consequence": _consequence,
+    "with_it": _with_it,
+    "each_other": _each_other,
+    "choice": _choice,
+    "in_few": _in_few,
+    "together_made": _together,
+    "shown_on": _single(Describe),
     "completing": _completing,
     "together": _together,
     "no_group": _no_group,
@@ -345,6 +422,7 @@ QUESTIONS: dict[str, Fold] = {
     "class_instead": lambda _: (),
     "one_instead": lambda _: (),
     "why_no_class": _why_no_class,
+    "why_class": lambda _: (Binding("follow_up", FollowUp("why", query=WhichClass())),),
     "how_sure": _follow("how_sure"),
     "change_to": _change_to,
     "to_exist": _about(Exists),
