@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 import pytest
 
 from fruit_builder import write_fruits
@@ -281,3 +280,9 @@ def test_cards_are_named_by_their_places() -> None:
 def test_two_questions_at_once_are_asked_for_one_by_one(table: Asked) -> None:
     with pytest.raises(QuestionError, match="ask one question at a time"):
         told(table, "how many cubes are there and how many balls?")
+
+
+def test_a_statement_of_any_length_is_read_in_no_time(table: Asked) -> None:
+    """What follows it is looked for only where a question may begin."""
+    with pytest.raises(QuestionError, match="do not understand"):
+        told(table, "there is " + "a cube left of " * 29 + "it it")

@@ -35,6 +35,10 @@ _POSSESSIVE = re.compile(
 _SUPPOSE = frozenset({"if", "when", "once", "without", "supposing", "suppose", "assuming"})
 """Words with which it begins what is supposed."""
 _QUESTION_WORDS = frozenset({"how", "which", "what", "where", "why"})
+_BEGIN_QUESTIONS = _QUESTION_WORDS | {
+    "is", "are", "was", "were", "do", "does", "did", "has", "have", "would", "will", "could",
+    "can", "might", "may", "describe",
+}  # fmt: skip
 _PRONOUNS = frozenset({"it", "its", "they", "them", "their"})
 
 
@@ -159,11 +163,13 @@ class QuestionReader:
         yield from self._asked(words, antecedent, answered)
         if words[:2] == ["there", "is"]:  # "there is a cube, what colour is it"
             for cut in range(len(words) - 1, 3, -1):
+                if words[cut] not in _BEGIN_QUESTIONS:
+                    continue
                 for stated in self._statements(words[:cut], antecedent):
                     yield from self._asked(words[cut:], stated, answered)
         if words[0] == "the":  # "the second cube from the left, what colour is it"
             for cut in range(len(words) - 2, 1, -1):
-                if _PRONOUNS.isdisjoint(words[cut:]):
+                if words[cut] not in _BEGIN_QUESTIONS or _PRONOUNS.isdisjoint(words[cut:]):
                     continue
                 for named in self._named(words[:cut], antecedent):
                     yield from self._asked(words[cut:], named, answered)
