@@ -12,6 +12,7 @@ from seewhy.dialogue.things.contrast import tell_change, tell_contrast, tell_why
 from seewhy.dialogue.things.edits import Edit, scene_after
 from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.fixing import fixed
+from seewhy.dialogue.things.follow_up_forms import FollowUp
 from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
     AnyOf,
@@ -37,7 +38,6 @@ from seewhy.dialogue.things.query import (
     Which,
     WhichClass,
 )
-from seewhy.dialogue.things.question_forms import FollowUp
 from seewhy.dialogue.things.reading import QuestionReader, Reading
 from seewhy.dialogue.things.reasons import Reasons
 from seewhy.dialogue.things.saying_edits import say_edit

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from seewhy.dialogue.things.changing import smallest_change
 from seewhy.dialogue.things.evaluating import UnclearReferenceError, members
+from seewhy.dialogue.things.follow_up_forms import Wanted
 from seewhy.dialogue.things.following import consequences
 from seewhy.dialogue.things.outcome import Value
 from seewhy.dialogue.things.query import (
@@ -32,7 +33,6 @@ from seewhy.dialogue.things.query import (
     Together,
     Which,
 )
-from seewhy.dialogue.things.question_forms import Wanted
 from seewhy.dialogue.things.reasons import Reasons
 from seewhy.dialogue.things.reasons_following import of_together, why_concluded
 from seewhy.dialogue.things.saying_edits import would

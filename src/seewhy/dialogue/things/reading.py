@@ -15,10 +15,11 @@ from seewhy.dialogue.grammar import Binding, Form, parse_form, words_of_form
 from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.spelling import Spelling
 from seewhy.dialogue.things.chart import Chart, Forms
+from seewhy.dialogue.things.follow_up_forms import FOLLOW_UPS, FollowUp
 from seewhy.dialogue.things.lexicon import lexicon_of, vocabulary_of
 from seewhy.dialogue.things.phrases import PHRASES, meanings, settled
 from seewhy.dialogue.things.query import Description, Query, Reference
-from seewhy.dialogue.things.question_forms import QUESTIONS, FollowUp
+from seewhy.dialogue.things.question_forms import QUESTIONS
 from seewhy.domain.things import Things
 from seewhy.errors import QuestionError
 
@@ -66,7 +67,7 @@ class QuestionReader:
 
     def __init__(self, things: Things) -> None:
         lexicon = lexicon_of(things)
-        self._forms = Forms(_phrases(), lexicon, {**PHRASES, **QUESTIONS})
+        self._forms = Forms(_phrases(), lexicon, {**PHRASES, **QUESTIONS, **FOLLOW_UPS})
         self._spelling = Spelling(vocabulary_of(lexicon) | _words_of_grammar())
         self._one = things.one
 
