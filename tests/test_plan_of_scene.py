@@ -193,6 +193,12 @@ def test_why_a_goal_cannot_be_reached_is_said(goal: str, run: Run) -> None:
     assert (told["status"], told["why_not"]) == ("unreachable", OUT_OF_REACH[goal])
 
 
+def test_a_robot_that_gives_up_says_why(run: Run) -> None:
+    found = run("simulate", "tabletop", "--goal", "put the red block on the red block")
+    assert found.code == 1
+    assert "The goal cannot be reached: nothing is on itself.\n" in found.out
+
+
 def two_scenes(folder: Path) -> Path:
     (first,) = SCENES["scenes"]
     second = {

@@ -69,10 +69,12 @@ def simulate(
     knowledge.al, whatever the robot knows of it.
     """
     from seewhy.planning.dialogue.run_answers import RunAnswers
+    from seewhy.planning.execution.execution import Outcome
     from seewhy.planning.execution.run_narration import narrate_end, narrate_step
     from seewhy.planning.execution.simulation import ground_fluents
     from seewhy.planning.execution.simulation import simulate as run_simulation
     from seewhy.planning.spoken_goals import goal_of
+    from seewhy.planning.unreachable import why_unreachable
 
     _check_endings(out, record)
     world = BeginningScene(scene, image).planning_domain(domain)
@@ -108,6 +110,10 @@ def simulate(
         print_json(told, lines=not chat)
     else:
         say(narrate_end(run))
+        if run.outcome is Outcome.IMPOSSIBLE:
+            why = why_unreachable(robot_domain, aim, run.steps[-1].believed)
+            if why is not None:
+                say(f"The goal cannot be reached: {why}.")
         say(f"In truth it {'is' if last.achieved else 'is not'} reached.")
         show_answers(asked)
     command = f'seewhy simulate {domain} --goal "{goal}" --seed {seed}'

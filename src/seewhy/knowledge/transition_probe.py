@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import clingo
 
@@ -38,6 +39,8 @@ holds(-F, T) :- fluent(basic, F), holds(-F, 0), not holds(F, T), step(T), T > 0.
 #minimize { 1, F : holds(F, 1), holds(-F, 1) }.
 #defined used/1. #defined doing/1. #defined named/2. #defined action/1. #defined exogenous/1.
 """
+_ASKED_FOR = frozenset({"applies", "consistent", "doing", "occurs", "used"})
+"""The atoms that are assumed, beside what holds."""
 _TWO_FOLLOW = """
 differs(F) :- fluent(basic, F), holds(F, 1), holds(-F, 2).
 :- not differs(_).
@@ -97,7 +100,12 @@ class TransitionProbe:
             "\n".join(_rules(knowledge, following)),
             size=grounding_size(knowledge).times(following + 1),
         )
-        self._literals = {str(atom.symbol): atom.literal for atom in self.control.atoms}
+        # To read an atom as text takes longer than to find it: of most nobody asks.
+        self._literals = {
+            str(atom.symbol): atom.literal
+            for atom in self.control.atoms
+            if atom.symbol.name in _ASKED_FOR
+        }
         self.actions = [
             n for n, predicate in knowledge.signature.predicates.items() if predicate.kind.is_action
         ]
@@ -149,10 +157,22 @@ class TransitionProbe:
         name = action if done is None else done.predicate
         assumed = self._assumed(name, applies, without)
         atoms = [f"occurs({key_of(done)})"] if done is not None else []
-        atoms += [f"holds({key_of(holds)},0)"] if holds is not None else []
         if assumed is None or any(atom not in self._literals for atom in atoms):
             return False
+        if holds is not None:
+            if key_of(holds) not in self._at_first:
+                return False
+            assumed.append(self._at_first[key_of(holds)])
         return self.control.satisfiable([*assumed, *(self._literals[atom] for atom in atoms)])
+
+    @cached_property
+    def _at_first(self) -> dict[str, int]:
+        """What holds in the state that is asked about."""
+        return {
+            str(atom.symbol.arguments[0]): atom.literal
+            for atom in self.control.atoms
+            if atom.match("holds", 2) and atom.symbol.arguments[1] == clingo.Number(0)
+        }
 
     def _assumed(
         self,

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import itertools
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from seewhy.dialogue.lexicon import NUMBERS
 from seewhy.dialogue.question_words import words_of
 from seewhy.domain.things import Things
 from seewhy.errors import PlanningError
-from seewhy.knowledge.axiom import Axiom, AxiomKind, substitute, variables_in
-from seewhy.knowledge.signature import PredicateKind
+from seewhy.knowledge.axiom import substitute, variables_in
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.goal import Goal, read_goal
+from seewhy.planning.goal_forms import ARTICLES, SLOT, GoalForm, goal_forms, slots_filled
 from seewhy.planning.things.referring import Referent, ThingReferences
 from seewhy.planning.unreachable import excluded_by
 from seewhy.text.nouns import plural
@@ -22,12 +21,10 @@ from seewhy.text.number_words import number_word
 
 __all__ = ["SpokenGoals", "goal_of"]
 
-_ARTICLES = frozenset({"a", "an", "the"})
 _ASIDES = (
     "please", "can you", "could you", "i want you to", "i want that", "make sure that", "now",
     "then", "so that", "try to", "i would like you to", "see to it that", "first",
 )  # fmt: skip
-_SLOT = re.compile(r"\{(\w+)\}")
 _JOINED = ("and then", "and", "then")
 _PRONOUNS = (("it",), ("them",), ("that",), ("this",))
 _MOST_WORDS = 80
@@ -75,15 +72,6 @@ def in_words(text: str, domain: PlanningDomain) -> bool:
 
 
 @dataclass(frozen=True)
-class _Form:
-    """Words with slots, the conditions that they ask for, and the sort of each slot."""
-
-    words: tuple[str, ...]
-    conditions: tuple[str, ...]
-    sorts: Mapping[str, str]
-
-
-@dataclass(frozen=True)
 class _Said:
     """What was said before of a goal: how many parts of it, and the things of the last."""
 
@@ -127,9 +115,9 @@ class SpokenGoals:
 
     def __init__(self, domain: PlanningDomain) -> None:
         self.domain = domain
-        written = [*_of_table(domain), *_of_actions(domain), *_of_fluents(domain)]
+        written = goal_forms(domain)
         # What names nothing is meant as a whole: "put everything on the table".
-        self.forms = sorted(written, key=lambda form: any(map(_SLOT.fullmatch, form.words)))
+        self.forms = sorted(written, key=lambda form: any(map(SLOT.fullmatch, form.words)))
         self._first_words: dict[tuple[str, ...], tuple[str, ...]] = {}
         for form in written:
             self._first_words.setdefault(form.conditions, form.words)
@@ -168,7 +156,7 @@ class SpokenGoals:
 
     def examples(self) -> list[str]:
         """Return a few goals as they can be said, with dots for what is named."""
-        said = (_SLOT.sub("…", " ".join(words)) for words in self._first_words.values())
+        said = (SLOT.sub("…", " ".join(words)) for words in self._first_words.values())
         return list(itertools.islice(dict.fromkeys(said), 6))
 
     def _several(
@@ -213,7 +201,7 @@ class SpokenGoals:
         several: bool = False,
     ) -> _Single | None:
         for form in self.forms:
-            for filled in _matches(form.words, tuple(words)):
+            for filled in slots_filled(form.words, tuple(words)):
                 try:
                     found = self._conditions(form, filled, said, several=several)
                 except PlanningError as problem:
@@ -225,7 +213,7 @@ class SpokenGoals:
 
     def _conditions(
         self,
-        form: _Form,
+        form: GoalForm,
         filled: Mapping[str, tuple[str, ...]],
         said: _Said,
         *,
@@ -264,11 +252,11 @@ class SpokenGoals:
             for binding in bindings
             for text in form.conditions
         ]
-        lead = tuple(itertools.takewhile(lambda word: not _SLOT.fullmatch(word), form.words))
+        lead = tuple(itertools.takewhile(lambda word: not SLOT.fullmatch(word), form.words))
         return _Single((*told, *asked), lead, about)
 
     def _meant(
-        self, form: _Form, slot: str, words: tuple[str, ...], said: _Said
+        self, form: GoalForm, slot: str, words: tuple[str, ...], said: _Said
     ) -> Referent | None:
         """What words mean of a sort."""
         sort, at_first = form.sorts[slot], self.domain.at_first
@@ -287,12 +275,12 @@ class SpokenGoals:
             self._refuse_number(form, sort, words[0])
         return None if member is None else Referent((member,))
 
-    def _refuse_number(self, form: _Form, sort: str, said: str) -> None:
+    def _refuse_number(self, form: GoalForm, sort: str, said: str) -> None:
         """Raise a PlanningError if a sort is one of numbers, of which this is none."""
         numbers = [int(m) for m in self.domain.knowledge.signature.members(sort) if m.isdigit()]
         if not numbers:
             return
-        goal = _SLOT.sub("…", " ".join(form.words))
+        goal = SLOT.sub("…", " ".join(form.words))
         at_first = self.domain.at_first
         there = ""
         if at_first is not None:
@@ -304,11 +292,11 @@ class SpokenGoals:
             f"{max(numbers)}{there}"
         )
 
-    def _each_of(self, form: _Form, slot: str, words: tuple[str, ...]) -> Referent | None:
+    def _each_of(self, form: GoalForm, slot: str, words: tuple[str, ...]) -> Referent | None:
         """What several phrases mean together: "the red block, the ball and the green block"."""
         for at in range(1, len(words)):
             joint = words[at]
-            if joint != "and" and joint not in _ARTICLES:
+            if joint != "and" and joint not in ARTICLES:
                 continue
             first = self._meant(form, slot, words[:at], _NOTHING)
             if first is None or not first.terms:
@@ -325,95 +313,6 @@ def _nouns(things: Things) -> frozenset[str]:
     return frozenset({things.many, *map(plural, things.words)})
 
 
-def _of_table(domain: PlanningDomain) -> Iterator[_Form]:
-    for table in domain.goals:
-        goal = read_goal(table.goal, domain.knowledge)
-        sorts = _sorts_of_variables(goal.axiom, domain)
-        texts = tuple(condition.text for condition in goal.axiom.body)
-        for text in table.say:
-            yield _Form(_words_with_slots(text), texts, sorts)
-
-
-def _sorts_of_variables(axiom: Axiom, domain: PlanningDomain) -> dict[str, str]:
-    signature = domain.knowledge.signature
-    return {
-        argument: sort
-        for condition in axiom.body
-        if condition.literal is not None
-        for argument, sort in zip(
-            condition.literal.arguments,
-            signature.argument_sorts(condition.literal.predicate),
-            strict=True,
-        )
-    }
-
-
-def _of_actions(domain: PlanningDomain) -> Iterator[_Form]:
-    """What actions bring about whatever else is so, as their instructions say it."""
-    for name, table in domain.words.actions.items():
-        predicate = domain.knowledge.signature.predicates[name]
-        if predicate.kind is not PredicateKind.ACTION or table.do is None:
-            continue
-        effects = tuple(_effects(name, domain))
-        sorts = {f"V{place}": sort for place, sort in enumerate(predicate.sorts)}
-        for text in (table.do, *table.also) if effects else ():
-            yield _Form(_words_with_slots(_SLOT.sub(r"{V\1}", text)), effects, sorts)
-
-
-def _effects(action: str, domain: PlanningDomain) -> Iterator[str]:
-    actor = domain.words.actors.get(action)
-    for axiom in domain.knowledge.axioms:
-        if axiom.kind is not AxiomKind.CAUSAL_LAW or axiom.action is None or axiom.body:
-            continue
-        if axiom.action.predicate != action or not axiom.head.positive:
-            continue
-        arguments = axiom.action.arguments
-        names = {name: f"V{place}" for place, name in enumerate(arguments)}
-        if actor is not None and domain.robot is not None:
-            names[arguments[actor]] = domain.robot
-        if {name for text in axiom.head.arguments for name in variables_in(text)} <= names.keys():
-            yield substitute(str(axiom.head), names)
-
-
-def _of_fluents(domain: PlanningDomain) -> Iterator[_Form]:
-    for name, predicate in domain.knowledge.signature.predicates.items():
-        if not predicate.kind.is_fluent:
-            continue
-        variables = [f"V{place}" for place in range(len(predicate.sorts))]
-        atom = f"{name}({', '.join(variables)})" if variables else name
-        sorts = dict(zip(variables, predicate.sorts, strict=True))
-        denied = "not " if predicate.kind is PredicateKind.FLUENT_DEFINED else "-"
-        for text, condition in zip(
-            domain.words.clauses(name, len(variables)), (atom, f"{denied}{atom}"), strict=True
-        ):
-            yield _Form(_words_with_slots(_SLOT.sub(r"{V\1}", text)), (condition,), sorts)
-
-
-def _words_with_slots(text: str) -> tuple[str, ...]:
-    parts = re.split(r"(\{\w+\})", text)
-    return tuple(
-        word for part in parts for word in ([part] if _SLOT.fullmatch(part) else words_of(part))
-    )
-
-
-def _matches(form: tuple[str, ...], words: tuple[str, ...]) -> Iterator[dict[str, tuple[str, ...]]]:
-    """The ways in which words fill the slots of a form; its articles may be left out."""
-    if not form:
-        if not words:
-            yield {}
-        return
-    slot = _SLOT.fullmatch(form[0])
-    if slot is None:
-        if words and words[0] == form[0]:
-            yield from _matches(form[1:], words[1:])
-        if form[0] in _ARTICLES:
-            yield from _matches(form[1:], words)
-        return
-    for size in range(1, len(words) + 1):
-        for filled in _matches(form[1:], words[size:]):
-            yield {slot.group(1): words[:size], **filled}
-
-
 def _without_asides(words: Sequence[str]) -> list[str]:
     for aside in map(str.split, _ASIDES):
         if list(words[: len(aside)]) == aside:
@@ -425,4 +324,4 @@ def _without_asides(words: Sequence[str]) -> list[str]:
 
 
 def _plain(words: Sequence[str]) -> tuple[str, ...]:
-    return tuple(word for word in words if word not in _ARTICLES)
+    return tuple(word for word in words if word not in ARTICLES)

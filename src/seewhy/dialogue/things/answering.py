@@ -12,6 +12,7 @@ from seewhy.dialogue.things.contrast import tell_change, tell_contrast, tell_why
 from seewhy.dialogue.things.edits import Edit, scene_after
 from seewhy.dialogue.things.evaluating import Evaluation, UnclearReferenceError
 from seewhy.dialogue.things.fixing import fixed
+from seewhy.dialogue.things.follow_up_forms import FollowUp
 from seewhy.dialogue.things.outcome import Value, outcome_of
 from seewhy.dialogue.things.query import (
     AnyOf,
@@ -37,7 +38,6 @@ from seewhy.dialogue.things.query import (
     Which,
     WhichClass,
 )
-from seewhy.dialogue.things.question_forms import FollowUp
 from seewhy.dialogue.things.reading import QuestionReader, Reading
 from seewhy.dialogue.things.reasons import Reasons
 from seewhy.dialogue.things.saying_edits import say_edit
@@ -237,7 +237,7 @@ class ThingAnswerer:
         if asked.query is not None:
             about = Reading(asked.query, reading.spoken_of)
             if asked.asks == "why":
-                return self._why(question, about, words)
+                return self._why(question, about, words, so=asked.wanted is not False)
             named = self._answered(question, about, words, None)
             return _about_answer(question, asked, named) if named and not named.failed else named
         if previous is None:
@@ -267,15 +267,18 @@ class ThingAnswerer:
         reply = self._answered(question, Reading(fixed(query, evaluation)), supposed, None)
         return reply and replace(reply, text=f"Then: {as_clause(reply.text)}")
 
-    def _why(self, question: str, about: Reading, words: ThingWords) -> ThingReply | None:
-        """Why something is so that a question names, and that it is not so where it is not."""
+    def _why(
+        self, question: str, about: Reading, words: ThingWords, *, so: bool
+    ) -> ThingReply | None:
+        """Why something is so, or is not, that a question names; where it is otherwise, that."""
         reply = self._answered(question, about, words, None)
         if reply is None or reply.failed is not None:
             return reply
         why = tell_why(reply.justification)
-        if reply.value is False:
+        if isinstance(reply.value, bool) and reply.value is not so:
             of_class = isinstance(reply.query, ClassIs)
-            why = f"But {as_clause(why)}" if of_class else f"But it is not so: {why}"
+            denied = "not " if so else ""
+            why = f"But {as_clause(why)}" if of_class else f"But it is {denied}so: {why}"
         return replace(reply, text=why)
 
     def _how_sure(

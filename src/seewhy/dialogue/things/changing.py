@@ -33,7 +33,7 @@ __all__ = ["Found", "smallest_change"]
 
 MOST_LOOKED_AT = 30_000
 """Changed scenes that are looked at."""
-MOST_CONCLUDED = 250
+MOST_CONCLUDED = 1_000
 """Changed scenes of which it is concluded anew what follows."""
 MOST_CHANGES = 3
 
@@ -75,7 +75,10 @@ def smallest_change(query: Query, aim: Value, words: ThingWords) -> Found:
     left_out = possible.additions is None
     looked_at = 0
     for size in range(1, MOST_CHANGES + 1):
-        looked_at += comb(len(plain), size) + comb(len(plain), size - 1) * len(additions)
+        more = comb(len(plain), size - 1) * len(additions)
+        if more and looked_at + comb(len(plain), size) + more > most:
+            more, additions, left_out = 0, (), True
+        looked_at += comb(len(plain), size) + more
         if looked_at > most:
             return Found(None, looked_at=size - 1, without_additions=left_out)
         reaching: list[tuple[Edit, ...]] = []

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from seewhy.dialogue.things.changing import smallest_change
 from seewhy.dialogue.things.evaluating import UnclearReferenceError, members
+from seewhy.dialogue.things.follow_up_forms import Wanted
 from seewhy.dialogue.things.following import consequences
 from seewhy.dialogue.things.outcome import Value
 from seewhy.dialogue.things.query import (
@@ -25,15 +26,16 @@ from seewhy.dialogue.things.query import (
     HasValue,
     Holds,
     Most,
+    Not,
     PartOf,
     Query,
     Reference,
     Together,
     Which,
 )
-from seewhy.dialogue.things.question_forms import Wanted
 from seewhy.dialogue.things.reasons import Reasons
 from seewhy.dialogue.things.reasons_following import of_together, why_concluded
+from seewhy.dialogue.things.saying_edits import would
 from seewhy.dialogue.things.telling import tell_failure
 from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.wording import join_words, sentence
@@ -343,8 +345,10 @@ def _then(query: Query, words: ThingWords) -> str | None:
             return words.things.whole.say(label, be="would be")
         case Holds(ones=(one,), condition=Concluded(conclusion=conclusion)):
             said = words.things.conclusions[conclusion].say
-            said = re.sub(r"\bis\b", "would be", said, count=1)
-            return said.replace("{it}", words.reference(one))
+            return would(said).replace("{it}", words.reference(one))
+        case Holds(ones=(one,), condition=Not(condition=Concluded(conclusion=conclusion))):
+            denied = words.things.conclusions[conclusion].deny
+            return would(denied).replace("{it}", words.reference(one))
     return None
 
 

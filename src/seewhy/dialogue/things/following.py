@@ -15,8 +15,10 @@ from seewhy.dialogue.things.query import (
     Concluded,
     Condition,
     Consequence,
+    Difference,
     Reference,
     References,
+    SameValue,
 )
 from seewhy.dialogue.things.supposing import supposed_edits
 from seewhy.domain.conclusions import Group
@@ -25,6 +27,7 @@ __all__ = [
     "Completion",
     "Follows",
     "class_that_follows",
+    "compared_numbers",
     "completions",
     "consequences",
     "group_of",
@@ -38,11 +41,15 @@ _MOST_TRIED = 2_000
 
 @dataclass(frozen=True)
 class Follows:
-    """Something that comes true of a thing; ``relation`` is what it follows from, if from one."""
+    """Something that comes true of a thing, or with ``ends`` is true no more.
+
+    ``relation`` is what it follows from, if from one.
+    """
 
     number: int
     conclusion: str
     relation: str | None = None
+    ends: bool = False
 
 
 @dataclass(frozen=True)
@@ -75,12 +82,18 @@ def consequences(query: Consequence, evaluation: Evaluation) -> tuple[Follows, .
                 left = scene.related[key][number] & evaluation.everything
                 found += [Follows(one, relation.removed, key) for one in members(left)]
     then, without = scene_after(scene, things, edits, without=evaluation.without)
+    about = None if query.to is None else evaluation.the(query.to)
     touched = sum(1 << follows.number for follows in found) | without
     said = _concluded_in(query.supposed)
     for key in things.conclusions:
         new = then.concluded[key] & ~scene.concluded[key] & evaluation.everything & ~touched
         found += [Follows(one, key) for one in members(new) if (one, key) != (number, said)]
-    return tuple(found)
+    # Of what something new is true of, it goes without saying what is true no more.
+    touched |= sum(1 << number for number in {follows.number for follows in found})
+    for key in things.conclusions:
+        gone = scene.concluded[key] & ~then.concluded[key] & evaluation.everything & ~touched
+        found += [Follows(one, key, ends=True) for one in members(gone & ~then.unsettled)]
+    return tuple(one for one in found if about is None or one.number == about)
 
 
 def _concluded_in(supposed: Condition | None) -> str | None:
@@ -91,7 +104,7 @@ def _concluded_in(supposed: Condition | None) -> str | None:
 def class_that_follows(query: Consequence, evaluation: Evaluation) -> str | None:
     """Return the class that the picture then comes to be of; None where it stays, or is open."""
     scene, things = evaluation.scene, evaluation.things
-    if scene.conclusions is None or not things.whole.classes:
+    if scene.conclusions is None or not things.whole.classes or query.to is not None:
         return None
     edits = supposed_edits(evaluation.the(query.one), query.supposed, evaluation)
     then, _ = scene_after(scene, things, edits, without=evaluation.without)
@@ -113,6 +126,19 @@ def numbers_of(ones: Sequence[Reference], evaluation: Evaluation) -> tuple[int, 
         else:
             found |= evaluation.fits(one.description).surely
     return tuple(members(found))
+
+
+def compared_numbers(query: SameValue | Difference, evaluation: Evaluation) -> tuple[int, ...]:
+    """Return the things that are compared: two, or all of a description.
+
+    Raises
+    ------
+    UnclearReferenceError
+        If one refers to a thing that is not there or not one.
+    """
+    if query.first.which is References.EVERY:
+        return numbers_of((query.first,), evaluation)
+    return evaluation.the(query.first), evaluation.the(query.second)
 
 
 def group_of(query: Completing, groups: Mapping[str, Group]) -> Group:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations, product
@@ -16,6 +17,7 @@ from seewhy.dialogue.things.query import (
     Description,
     Extreme,
     HasValue,
+    Not,
     Ranked,
     Reference,
     References,
@@ -78,6 +80,7 @@ _CATEGORIES = (
     "adjective", "noun", "value", "feature", "how", "participle", "preposition", "verb", "verbing",
     "comparative", "superlative", "extreme", "side", "rank", "number", "occurs", "falling", "group",
     "behind", "corner", "class", "class_verb", "whole_noun",
+    "whole_place", "how_more",
 )  # fmt: skip
 
 
@@ -95,6 +98,12 @@ def lexicon_of(things: Things) -> dict[str, Category]:
     for word in things.words:
         _add_noun(entries["noun"], word, things.many if word == things.one else plural(word), ())
     _add_noun(entries["noun"], "one", "ones", ())
+    named = {
+        word for feature in things.features.values() for n in feature.nouns.values() for word in n
+    }
+    for word in ("thing", "object"):
+        if word not in named:
+            _add_noun(entries["noun"], word, plural(word), ())
     for feature in things.features.values():
         _add_feature(entries, feature)
     for key, relation in things.relations.items():
@@ -131,6 +140,7 @@ def lexicon_of(things: Things) -> dict[str, Category]:
         **entries,
         "pronoun": _Antecedent(_PRONOUNS),
         "its": _Antecedent(_OWNERS),
+        "them": _Antecedents(frozenset({"them", "these", "those"})),
         "these": _These(frozenset({"these", "those", "they", "them", "the", "all"})),
     }
 
@@ -165,6 +175,12 @@ def _add_feature(entries: Mapping[str, Entries], feature: ThingFeature) -> None:
                 entries["value"].add(form, meant)
     if not feature.ordered:
         return
+    for word in feature.how:
+        more = word not in feature.words[feature.values[0]]
+        compared = Binding("compared", (feature.key, more))
+        entries["how_more"].add(word, compared)
+        entries["comparative"].add(comparative(word), compared)
+        entries["superlative"].add(superlative(word), Binding("ranked", Ranked(feature.key, more)))
     for value, more in ((feature.values[0], False), (feature.values[-1], True)):
         for word in feature.words[value]:
             compared = Binding("compared", (feature.key, more))
@@ -192,6 +208,11 @@ def _add_conclusion(entries: Mapping[str, Entries], conclusion: Conclusion) -> N
         entries["adjective"].add(_gerund(verb), meant)
     for form in _forms(conclusion.verbs):
         entries["occurs"].add(form, meant)
+    # What denies it in words of its own says it, too: "it will keep", where else it spoils.
+    denied = _OF_IT.fullmatch(conclusion.deny)
+    if denied is not None and "not" not in words_of(conclusion.deny):
+        for form in _forms((denied["verb"],)):
+            entries["occurs"].add(form, Binding("condition", Not(Concluded(conclusion.key))))
 
 
 def _add_classes(entries: Mapping[str, Entries], whole: WholePicture) -> None:
@@ -202,9 +223,11 @@ def _add_classes(entries: Mapping[str, Entries], whole: WholePicture) -> None:
             entries["class"].add(word, meant)
         for form in _forms(known.verbs):
             entries["class_verb"].add(form, meant)
-    if whole.classes:
-        for noun in dict.fromkeys((*whole.nouns, *_PICTURES)):
+    for noun in dict.fromkeys((*whole.nouns, *_PICTURES)):
+        entries["whole_place"].add(noun)
+        if whole.classes:
             entries["whole_noun"].add(noun)
+    if whole.classes:
         for pronoun in ("it", "this", "that"):
             entries["whole_noun"].add(pronoun)
 
@@ -230,6 +253,7 @@ def _gerund(verb: str) -> str:
     return f"{first.removesuffix('e')}ing {rest}".strip()
 
 
+_OF_IT = re.compile(r"\{it\} (?:will|would|can|could) (?P<verb>[\w ]+)")
 _PICTURES = ("picture", "image", "photo", "photograph", "scene")
 """What any picture may be called as a whole."""
 _PRONOUNS = frozenset({"it", "this", "that", "they", "them", "these", "those"})
@@ -248,6 +272,20 @@ class _Antecedent:
         if chart.words[at] not in self.first_words:
             return ()
         return (Ending(at + 1, (Binding("one", chart.antecedent),)),)
+
+
+@dataclass(frozen=True)
+class _Antecedents:
+    """Words for the things that were spoken of before, or else for all of them."""
+
+    first_words: frozenset[str]
+
+    def __call__(self, chart: Chart, at: int) -> Sequence[Ending]:
+        if at >= len(chart.words) or chart.words[at] not in self.first_words:
+            return ()
+        meant = chart.antecedent
+        described = meant.description if isinstance(meant, Reference) else Description(many=True)
+        return (Ending(at + 1, (Binding("them", described),)),)
 
 
 @dataclass(frozen=True)

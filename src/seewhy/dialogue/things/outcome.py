@@ -7,7 +7,12 @@ from dataclasses import dataclass
 from operator import eq, ge, gt, le, lt
 
 from seewhy.dialogue.things.evaluating import Evaluation, Fits, members
-from seewhy.dialogue.things.following import completions, consequences, numbers_of
+from seewhy.dialogue.things.following import (
+    compared_numbers,
+    completions,
+    consequences,
+    numbers_of,
+)
 from seewhy.dialogue.things.query import (
     ClassIs,
     CompareCounts,
@@ -90,11 +95,8 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
             return Outcome(_compared(sign, _span(fits), (number, number)), (fits,))
         case ValueOf(feature=feature, one=one):
             return _value_of(feature, one, evaluation)
-        case SameValue(feature=feature, first=first, second=second, denied=denied):
-            values = evaluation.scene.values[feature]
-            this, that = values[evaluation.the(first)], values[evaluation.the(second)]
-            same = None if this is None or that is None else this == that
-            return Outcome(_denied(same) if denied else same)
+        case SameValue():
+            return Outcome(_same_value(query, evaluation))
         case Holds(ones=ones, condition=condition):
             fits = evaluation.fits(Description((condition,)))
             return Outcome(_all([_holds_of(one, fits, evaluation) for one in ones]), (fits,))
@@ -176,15 +178,23 @@ def _value_of(feature: str, one: Reference, evaluation: Evaluation) -> Outcome:
     return Outcome(found.pop() if single else None, (fits,))
 
 
+def _same_value(query: SameValue, evaluation: Evaluation) -> bool | None:
+    """Whether things have one value of a feature; denied, whether no two have the same."""
+    column = evaluation.scene.values[query.feature]
+    values = [column[number] for number in compared_numbers(query, evaluation)]
+    if not values or None in values:
+        return None
+    return len(set(values)) == (len(values) if query.denied else 1)
+
+
 def _difference(query: Difference, evaluation: Evaluation) -> Outcome:
-    one, other = evaluation.the(query.first), evaluation.the(query.second)
-    known = [
-        (key, values[one] == values[other])
-        for key, values in evaluation.scene.values.items()
-        if values[one] is not None and values[other] is not None
-    ]
-    if len(known) < len(evaluation.scene.values):
-        return Outcome(None)
+    numbers = compared_numbers(query, evaluation)
+    known: list[tuple[str, bool]] = []
+    for key, column in evaluation.scene.values.items():
+        values = {column[number] for number in numbers}
+        if None in values or len(numbers) < 2:
+            return Outcome(None)
+        known.append((key, len(values) == 1))
     return Outcome(tuple(key for key, same in known if same is query.alike))
 
 

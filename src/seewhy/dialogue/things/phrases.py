@@ -67,6 +67,54 @@ def _any_of(bindings: Bindings) -> Bindings:
     return _condition(query.AnyOf(_conditions(bindings)))
 
 
+def _two_kinds(bindings: Bindings) -> Bindings | None:
+    """Two adjectives before things: red and green ones are of either, small red ones are both."""
+    found = _conditions(bindings)
+    features = {c.feature for c in found if isinstance(c, query.HasValue)}
+    return _any_of(bindings) if len(features) == 1 else None
+
+
+def _noun_of(bindings: Bindings) -> Bindings:
+    """ "Pieces of fruit": what it is, is said by the second, how many by the first."""
+    many = meanings(bindings, "many")
+    named = tuple(binding for binding in bindings if binding.role == "condition")
+    return (*named, Binding("many", bool(many[0])))
+
+
+def _less(bindings: Bindings) -> Bindings | None:
+    compared = _one(bindings, "compared")
+    if not isinstance(compared, tuple):
+        return None
+    feature, more = compared
+    return (Binding("compared", (feature, not more)),)
+
+
+def _most(bindings: Bindings) -> Bindings | None:
+    if meanings(bindings, "ranked"):
+        return bindings
+    compared = _one(bindings, "compared")
+    return (Binding("ranked", query.Ranked(*compared)),) if isinstance(compared, tuple) else None
+
+
+def _least(bindings: Bindings) -> Bindings | None:
+    less = _less(bindings)
+    return None if less is None else _most(less)
+
+
+def _one_or_other(bindings: Bindings) -> Bindings:
+    """Which of two: those that are one or the other."""
+    either = query.AnyOf(tuple(query.Is(_reference(bindings, at)) for at in (0, 1)))
+    return (Binding("described", query.Description((either,))),)
+
+
+def _best(bindings: Bindings) -> Bindings | None:
+    """The one that comes first, by what is the most of several or is more than the other."""
+    compared = _one(bindings, "compared")
+    if isinstance(compared, tuple):
+        bindings = (*bindings, Binding("ranked", query.Ranked(*compared)))
+    return _picked(bindings)
+
+
 def _all_of(bindings: Bindings) -> Bindings:
     return _condition(query.All(_conditions(bindings)))
 
@@ -223,7 +271,16 @@ def _counted_off(bindings: Bindings) -> Bindings | None:
     return tuple(found)
 
 
+def _ranked_off(bindings: Bindings) -> Bindings:
+    """Things by their places: "the first and the second card"."""
+    ranks = [rank for rank in meanings(bindings, "rank") if isinstance(rank, int)]
+    conditions = _conditions(bindings)
+    numbered = (query.Description(conditions, query.Numbered(rank)) for rank in ranks)
+    return tuple(Binding("one", query.Reference(described)) for described in numbered)
+
+
 PHRASES: dict[str, Fold] = {
+    "ranked_off": _ranked_off,
     "apart": _apart,
     "else": _apart,
     "described": _described,
@@ -242,7 +299,14 @@ PHRASES: dict[str, Fold] = {
     "some_one": _described,
     "every_one": _described,
     "either_kind": _either_kind,
-    "best": _picked,
+    "best": _best,
+    "one_or_other": _one_or_other,
+    "two_kinds": _two_kinds,
+    "noun_of": _noun_of,
+    "less_so": _less,
+    "most_of_all": _most,
+    "least_of_all": _least,
+    "in_picture": lambda _: (),
     "verb_and_one": _standing,
     "same_as": _shares,
     "as_much": _shares,
@@ -267,6 +331,8 @@ PHRASES: dict[str, Fold] = {
     "picked": _picked,
     "the": _referring(query.References.THE),
     "some": _referring(query.References.SOME),
+    "like": _described,
+    "in_short": _referring(query.References.THE),
     "every": _referring(query.References.EVERY),
     "numbered": _numbered,
 }

@@ -341,10 +341,14 @@ class Difference(_OfTwo):
 
 @dataclass(frozen=True)
 class Consequence:
-    """What follows where a thing is taken away, or something else is so of it."""
+    """What follows where a thing is taken away, or something else is so of it.
+
+    ``to`` is the thing for which it is asked; None: for all of them.
+    """
 
     one: Reference
     supposed: Condition | None = None
+    to: Reference | None = None
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,11 @@ from seewhy.dialogue.grammar import Binding, Form, parse_form, words_of_form
 from seewhy.dialogue.question_words import words_of
 from seewhy.dialogue.spelling import Spelling
 from seewhy.dialogue.things.chart import Chart, Forms
+from seewhy.dialogue.things.follow_up_forms import FOLLOW_UPS, FollowUp
 from seewhy.dialogue.things.lexicon import lexicon_of, vocabulary_of
 from seewhy.dialogue.things.phrases import PHRASES, meanings, settled
 from seewhy.dialogue.things.query import Description, Query, Reference
-from seewhy.dialogue.things.question_forms import QUESTIONS, FollowUp
+from seewhy.dialogue.things.question_forms import QUESTIONS
 from seewhy.domain.things import Things
 from seewhy.errors import QuestionError
 
@@ -34,6 +35,11 @@ _POSSESSIVE = re.compile(
 )
 _SUPPOSE = frozenset({"if", "when", "once", "without", "supposing", "suppose", "assuming"})
 """Words with which it begins what is supposed."""
+_QUESTION_WORDS = frozenset({"how", "which", "what", "where", "why"})
+_BEGIN_QUESTIONS = _QUESTION_WORDS | {
+    "is", "are", "was", "were", "do", "does", "did", "has", "have", "would", "will", "could",
+    "can", "might", "may", "describe",
+}  # fmt: skip
 _PRONOUNS = frozenset({"it", "its", "they", "them", "their"})
 
 
@@ -61,7 +67,7 @@ class QuestionReader:
 
     def __init__(self, things: Things) -> None:
         lexicon = lexicon_of(things)
-        self._forms = Forms(_phrases(), lexicon, {**PHRASES, **QUESTIONS})
+        self._forms = Forms(_phrases(), lexicon, {**PHRASES, **QUESTIONS, **FOLLOW_UPS})
         self._spelling = Spelling(vocabulary_of(lexicon) | _words_of_grammar())
         self._one = things.one
 
@@ -97,12 +103,29 @@ class QuestionReader:
             found = True
             yield reading
         if not found:
+            for plain in self._plainly(sentences):
+                for reading in islice(self._in_turn(plain, antecedent, answered), _MOST_READINGS):
+                    found = True
+                    yield reading
+                if found:
+                    return
+        if not found:
             mended = [next(self._spelling.readings(words)).split() for words in sentences]
             for reading in islice(self._in_turn(mended, antecedent, answered), _MOST_READINGS):
                 found = True
                 yield reading
         if not found:
             raise self._not_understood(text, sentences, antecedent)
+
+    def _plainly(self, sentences: list[list[str]]) -> Iterator[list[list[str]]]:
+        """The same without what changes nothing: "isn't it still red?" asks whether it is red."""
+        adverbs = _adverbs()
+        fewer = [[word for word in words if word not in adverbs] for words in sentences]
+        if fewer != sentences and all(fewer):
+            yield fewer
+        *before, last = fewer
+        if len(last) > 2 and last[1] == "not" and last[0] != "why":
+            yield [*before, [last[0], *last[2:]]]
 
     def references(self, text: str) -> Iterator[Reference]:
         """Yield what a phrase such as "the red cube on the ball" may refer to.
@@ -119,11 +142,9 @@ class QuestionReader:
             return
         found = False
         for said in (words, next(self._spelling.readings(words)).split()):
-            for bindings in self._forms.readings(Chart(said, None), "one"):
-                for reference in meanings(bindings, "one"):
-                    if isinstance(reference, Reference):
-                        found = True
-                        yield reference
+            for reference in self._named(said, None):
+                found = True
+                yield reference
             if found:
                 return
 
@@ -143,11 +164,27 @@ class QuestionReader:
         yield from self._asked(words, antecedent, answered)
         if words[:2] == ["there", "is"]:  # "there is a cube, what colour is it"
             for cut in range(len(words) - 1, 3, -1):
+                if words[cut] not in _BEGIN_QUESTIONS:
+                    continue
                 for stated in self._statements(words[:cut], antecedent):
                     yield from self._asked(words[cut:], stated, answered)
+        if words[0] == "the":  # "the second cube from the left, what colour is it"
+            for cut in range(len(words) - 2, 1, -1):
+                if words[cut] not in _BEGIN_QUESTIONS or _PRONOUNS.isdisjoint(words[cut:]):
+                    continue
+                for named in self._named(words[:cut], antecedent):
+                    yield from self._asked(words[cut:], named, answered)
+
+    def _named(self, words: list[str], antecedent: Reference | None) -> Iterator[Reference]:
+        """The things that words may name."""
+        for bindings in self._forms.readings(Chart(words, antecedent), "one"):
+            for named in meanings(bindings, "one"):
+                if isinstance(named, Reference):
+                    yield named
 
     def _statements(self, words: list[str], antecedent: Reference | None) -> Iterator[Reference]:
-        """The things that a statement may introduce: "there is a red cube"."""
+        """The things that a statement may introduce: "there is a red cube", "the red cube"."""
+        yield from self._named(words, antecedent)
         for bindings in self._forms.readings(Chart(words, antecedent), "statement"):
             for described in meanings(bindings, "described"):
                 if isinstance(described, Description):
@@ -157,12 +194,14 @@ class QuestionReader:
         self, words: list[str], antecedent: Reference | None, answered: bool
     ) -> Iterator[Reading]:
         for said in _without_asides(words):
+            for of_them in _of_them(said, antecedent):
+                for query in self._queries(Chart(of_them, antecedent)):
+                    yield Reading(query, antecedent)
             chart = Chart(said, antecedent)
             for query in self._queries(chart):
                 yield Reading(query, antecedent)
             if said[0] == "why" and len(said) > 1:
-                for query in self._queries(Chart(said[1:], antecedent)):
-                    yield Reading(FollowUp("why", query=query), antecedent)
+                yield from self._reasons_asked(said[1:], antecedent)
             yield from self._supposing(said, antecedent)
             tables = _tables()
             names = (*tables["openings"], *(tables["follow_ups"] if answered else ()))
@@ -194,6 +233,15 @@ class QuestionReader:
                     for query in self._queries(Chart(said, one)):
                         yield Reading(replace(supposed, query=query), antecedent)
 
+    def _reasons_asked(self, words: list[str], antecedent: Reference | None) -> Iterator[Reading]:
+        """Read what is asked why: "is the block clear", "does the block not fall"."""
+        for query in self._queries(Chart(words, antecedent)):
+            yield Reading(FollowUp("why", query=query), antecedent)
+        if "not" in words and len(words) > 1:
+            at = words.index("not")
+            for query in self._queries(Chart([*words[:at], *words[at + 1 :]], antecedent)):
+                yield Reading(FollowUp("why", wanted=False, query=query), antecedent)
+
     def _queries(self, chart: Chart) -> Iterator[Query]:
         for name in _tables()["questions"]:
             for bindings in self._forms.readings(chart, name):
@@ -208,9 +256,30 @@ class QuestionReader:
             remedy = f"say which {self._one} is meant, as in 'there is …; what is it?'"
         elif strange:
             remedy = f"'{min(strange, key=text.casefold().find)}' is no word of the domain"
+        elif _asks_twice(sentences):
+            remedy = "ask one question at a time"
         else:
             remedy = "ask how many, which, what or whether there are"
         return QuestionError(f"I do not understand the question; {remedy}")
+
+
+def _of_them(words: list[str], antecedent: Reference | None) -> Iterator[list[str]]:
+    """ "How many are red?" behind "how many cubes are there?" asks of the cubes."""
+    if antecedent is None or not antecedent.description.many:
+        return
+    for asked in (["how", "many"], ["which"]):
+        size = len(asked)
+        if words[:size] == asked and words[size : size + 1] in (["are"], ["is"]):
+            yield [*asked, "of", "them", *words[size:]]
+
+
+def _asks_twice(sentences: list[list[str]]) -> bool:
+    """Whether there are two questions: "how many cubes, and how many balls?"."""
+    words = [word for sentence in sentences for word in sentence]
+    return any(
+        word in _QUESTION_WORDS and at > 1 and words[at - 1] in ("and", "or", "there")
+        for at, word in enumerate(words)
+    )
 
 
 def _without_asides(words: list[str]) -> Iterator[list[str]]:
@@ -235,6 +304,11 @@ def _tables() -> dict[str, Any]:
 @cache
 def _asides() -> tuple[list[str], ...]:
     return tuple(sorted((words_of(aside) for aside in _tables()["aside"]), key=len, reverse=True))
+
+
+@cache
+def _adverbs() -> frozenset[str]:
+    return frozenset(_tables()["adverbs"])
 
 
 @cache

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from seewhy.dialogue.things.evaluating import Evaluation, members
+from seewhy.dialogue.things.following import compared_numbers
 from seewhy.dialogue.things.query import (
     All,
     AnyOf,
@@ -305,10 +306,9 @@ class Reasons:
             case ValueOf(feature=feature, one=one):
                 for number in self.numbers(one):
                     yield self._seen(number, feature, None, self.words.name(number))
-            case SameValue(feature=feature, first=first, second=second):
-                for one in (first, second):
-                    for number in self.numbers(one):
-                        yield self._seen(number, feature, None, self.words.name(number))
+            case SameValue(feature=feature):
+                for number in compared_numbers(query, self.evaluation):
+                    yield self._seen_of(number, feature)
             case Holds(ones=ones, condition=condition):
                 self._add_referred((condition,), nodes, told)
                 for one in ones:
@@ -318,11 +318,10 @@ class Reasons:
                 for number in self.numbers(one):
                     for feature in self.evaluation.scene.values:
                         yield self._seen(number, feature, None, self.words.name(number))
-            case Difference(first=first, second=second):
+            case Difference():
                 for feature in self.evaluation.scene.values:
-                    for one in (first, second):
-                        for number in self.numbers(one):
-                            yield self._seen(number, feature, None, self.words.name(number))
+                    for number in compared_numbers(query, self.evaluation):
+                        yield self._seen_of(number, feature)
             case Consequence():
                 yield from of_consequence(query, self.words)
             case Most(described=described, condition=condition):

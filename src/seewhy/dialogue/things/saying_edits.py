@@ -9,7 +9,10 @@ from seewhy.dialogue.things.query import Description, HasValue
 from seewhy.dialogue.things.wording import ThingWords
 from seewhy.text.nouns import with_article
 
-__all__ = ["say_edit", "were"]
+__all__ = ["say_edit", "were", "would"]
+
+_WOULD = {"is not": "would not be", "is": "would be", "will": "would", "can": "could",
+          "cannot": "could not"}  # fmt: skip
 
 
 def were(clause: str) -> str:
@@ -21,6 +24,17 @@ def were(clause: str) -> str:
     ('the cube were on the ball', 'it lies on the ball')
     """
     return re.sub(r"\bis\b", "were", clause, count=1)
+
+
+def would(clause: str) -> str:
+    """Return a clause as it stands before "if".
+
+    Examples
+    --------
+    >>> would("the cube is not clear"), would("it cannot be sold"), would("it would fall")
+    ('the cube would not be clear', 'it could not be sold', 'it would fall')
+    """
+    return re.sub(r"\b(is not|is|will|can|cannot)\b", lambda verb: _WOULD[verb[0]], clause, count=1)
 
 
 def say_edit(edit: Edit, words: ThingWords) -> str:

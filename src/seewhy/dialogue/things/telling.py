@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from seewhy.dialogue.things.evaluating import Fits, Obstacle, UnclearReferenceError, members
+from seewhy.dialogue.things.following import compared_numbers
 from seewhy.dialogue.things.outcome import Outcome
 from seewhy.dialogue.things.query import (
     AnyOf,
@@ -182,11 +183,12 @@ def _value(feature: str, one: Reference, outcome: Outcome, words: ThingWords) ->
 
 def _both(query: SameValue, words: ThingWords) -> str:
     values = words.evaluation.scene.values[query.feature]
-    said = []
-    for one in (query.first, query.second):
-        number = words.evaluation.the(one)
-        said.append(words.clause(query.feature, str(values[number]), words.name(number)))
-    return join_words(said)
+    return join_words(
+        [
+            words.clause(query.feature, str(values[number]), words.name(number))
+            for number in compared_numbers(query, words.evaluation)
+        ]
+    )
 
 
 def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
@@ -259,16 +261,17 @@ def _described(one: Reference, words: ThingWords, *, place: bool) -> str:
 
 def _differing(query: Difference, outcome: Outcome, words: ThingWords) -> str:
     named = outcome.value if isinstance(outcome.value, tuple) else ()
-    one, other = words.evaluation.the(query.first), words.evaluation.the(query.second)
+    numbers = compared_numbers(query, words.evaluation)
     scene = words.evaluation.scene
     if not named:
         return "they have nothing in common" if query.alike else "they differ in nothing"
     parts = []
     for key in map(str, named):
-        subject = "each" if query.alike else words.name(one)
-        this = words.clause(key, str(scene.values[key][one]), subject)
-        that = words.clause(key, str(scene.values[key][other]), words.name(other))
-        parts.append(this if query.alike else f"{this} and {that}")
+        if query.alike:
+            parts.append(words.clause(key, str(scene.values[key][numbers[0]]), "each"))
+            continue
+        values = [(str(scene.values[key][number]), words.name(number)) for number in numbers]
+        parts.append(join_words([words.clause(key, value, name) for value, name in values]))
     features = join_words([words.things.features[str(key)].name for key in named])
     return f"they {'share' if query.alike else 'differ in'} {features}: {join_words(parts)}"
 
@@ -281,9 +284,12 @@ def _open(query: Query, outcome: Outcome, words: ThingWords) -> str:
     for fits in outcome.fits:
         unsure |= fits.maybe & ~fits.surely
     if isinstance(query, ValueOf | SameValue):
-        ones = (query.one,) if isinstance(query, ValueOf) else (query.first, query.second)
         values = words.evaluation.scene.values[query.feature]
-        numbers = [words.evaluation.the(one) for one in ones if one.which is References.THE]
+        numbers = (
+            compared_numbers(query, words.evaluation)
+            if isinstance(query, SameValue)
+            else (words.evaluation.the(query.one),)
+        )
         unsure = sum(1 << number for number in set(numbers) if values[number] is None)
         name = words.things.features[query.feature].name
         return f"the {name} of {words.names(list(members(unsure)))} is not known"

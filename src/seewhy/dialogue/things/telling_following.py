@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from math import comb
 
 from seewhy.dialogue.things.following import (
@@ -14,6 +13,7 @@ from seewhy.dialogue.things.following import (
     numbers_of,
 )
 from seewhy.dialogue.things.query import Completing, Consequence, Groups, Together
+from seewhy.dialogue.things.saying_edits import would
 from seewhy.dialogue.things.wording import ThingWords, number_word
 from seewhy.domain.conclusions import Group
 from seewhy.domain.wording import join_words
@@ -30,20 +30,30 @@ def say_consequence(query: Consequence, words: ThingWords) -> str:
     label = class_that_follows(query, words.evaluation)
     then = [] if label is None else [words.things.whole.say(label, be="would be")]
     if not found and not then:
+        if query.to is not None:
+            return f"nothing would happen to {words.reference(query.to)}"
         removed = [r.removed for r in words.things.relations.values() if r.removed is not None]
         if query.supposed is None and removed:
             return words.things.conclusions[removed[0]].say.replace("{it}", "nothing")
         return "nothing else would follow"
-    return join_words([*(_come_true(key, found, words) for key in _keys(found)), *then])
+    told = [_come_true(key, found, words) for key in _keys(found, ends=False)]
+    told += [_end(key, found, words) for key in _keys(found, ends=True)]
+    return join_words([*told, *then])
 
 
-def _keys(found: tuple[Follows, ...]) -> list[str]:
-    return list(dict.fromkeys(follows.conclusion for follows in found))
+def _keys(found: tuple[Follows, ...], *, ends: bool) -> list[str]:
+    return list(dict.fromkeys(one.conclusion for one in found if one.ends is ends))
 
 
 def _come_true(key: str, found: tuple[Follows, ...], words: ThingWords) -> str:
-    numbers = [follows.number for follows in found if follows.conclusion == key]
-    clause = re.sub(r"\bis\b", "would be", words.things.conclusions[key].say, count=1)
+    numbers = [one.number for one in found if one.conclusion == key and not one.ends]
+    clause = would(words.things.conclusions[key].say)
+    return clause.replace("{it}", words.names(numbers))
+
+
+def _end(key: str, found: tuple[Follows, ...], words: ThingWords) -> str:
+    numbers = [one.number for one in found if one.conclusion == key and one.ends]
+    clause = would(words.things.conclusions[key].deny)
     return clause.replace("{it}", words.names(numbers))
 
 

@@ -224,9 +224,7 @@ class ThingWords:
                 name = self.things.features[feature].name
                 return f"of the same {name} as {self.reference(other)}"
             case query.Compares(feature=feature, more=more, than=than):
-                values = self.things.features[feature].values
-                word = comparative(self.value(feature, values[-1 if more else 0]))
-                return f"{word} than {self.reference(than)}"
+                return f"{self._more_or_less(feature, more=more)} than {self.reference(than)}"
             case query.Between(first=first, second=second):
                 return f"between {self.reference(first)} and {self.reference(second)}"
             case query.Apart(one=one):
@@ -244,6 +242,15 @@ class ThingWords:
             case query.AnyOf(conditions=inners):
                 return self._together(inners, "or", many)
         raise TypeError(f"must be a condition, got {condition!r}")
+
+    def _more_or_less(self, feature: str, *, more: bool) -> str:
+        """The comparative of an ordered feature: of its last or first value, or of "how"."""
+        known = self.things.features[feature]
+        said = self.value(feature, known.values[-1 if more else 0])
+        ways = [word for word in known.how if word not in known.words[known.values[0]]]
+        if said in known.how or not ways:
+            return comparative(said)
+        return comparative(ways[0]) if more else f"less {ways[0]}"
 
     def _together(self, conditions: Sequence[query.Condition], word: str, many: bool) -> str:
         if not conditions:
