@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from functools import partial
 from itertools import cycle
 from pathlib import Path
 
@@ -18,7 +19,9 @@ from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.learning.attempts import attempts_of, spoken_about
 from seewhy.planning.learning.learning_from_runs import LearnedFromRuns, learn_from_runs
 from seewhy.planning.things.recorded_scene import domain_of_record
-from seewhy_lab.commands.hand_learns import OF_BALLS, untold
+from seewhy_lab.commands.hand_learns import OF_BALLS, pursued, recorded_runs, untold
+from seewhy_lab.simulators.tabletop.planned import scene_of_table
+from seewhy_lab.simulators.tabletop.table import Table, TableThing
 
 TABLE = load_planning_domain("tabletop")
 HAND = untold(TABLE)
@@ -349,3 +352,48 @@ def test_later_runs_withdraw_on_the_command_line(run: Run, tmp_path: Path) -> No
     after = learned.read_text(encoding="utf-8")
     assert parse_learned(after, TABLE.knowledge.signature) == ()
     assert "% withdrawn: impossible put_on(hand, T, H) if shape(H, sphere). because 7 of 8" in after
+
+
+def test_what_was_learned_before_goes_with_runs(run: Run, tmp_path: Path) -> None:
+    done = run("learn", "tabletop", "--data", str(tmp_path), "--learned", str(tmp_path / "l.al"))
+    assert (done.code, done.err) == (
+        2,
+        "seewhy: --learned goes with --runs; what pictures teach is kept in the domain\n",
+    )
+
+
+# With real physics
+
+
+def test_runs_of_the_simulated_hand_are_recorded_alike() -> None:
+    first, again = ([str(one) for one in recorded_runs(2, seed=0, most_steps=4)] for _ in range(2))
+    assert first == again
+    for text in first:
+        (history,) = read([text])
+        assert {"shape", "size"} <= {literal.predicate for literal in history.statics}
+        about = domain_of_record(HAND, history)
+        assert all(attempt.action.name for attempt in attempts_of(about, history, 0))
+
+
+def test_a_hand_that_learned_builds_on_what_carries() -> None:
+    """On a ball, a cube and a cylinder; only the ball must not be built on."""
+    look = {"colour": "red", "material": "rubber", "yaw": 0.0, "size": "large"}
+    table = Table(
+        (
+            TableThing(shape="sphere", x=-0.1, y=0.0, z=0.036, **look),
+            TableThing(shape="cube", x=0.0, y=0.0, z=0.031, **look),
+            TableThing(shape="cylinder", x=0.1, y=0.0, z=0.034, **look),
+        )
+    )
+    assert TABLE.at_first is not None
+    domain = load_planning_domain("tabletop", scene=scene_of_table(table, TABLE.at_first.things))
+    goal = "make a tower of three"
+    done = pursued(
+        domain, partial(untold, learned=learned_axioms()), goal, table, seed=0, most_steps=8
+    )
+    assert done.reached
+    assert [str(action) for action in done.run.actions if action.name == "put_on"] in (
+        ["put_on(hand,thing2,thing3)", "put_on(hand,thing1,thing2)"],
+        ["put_on(hand,thing3,thing2)", "put_on(hand,thing1,thing3)"],
+    )
+    assert not pursued(domain, untold, "on(thing2, thing1)", table, seed=0, most_steps=8).reached

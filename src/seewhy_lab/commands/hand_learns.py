@@ -119,7 +119,7 @@ def recorded_runs(runs: int, *, seed: int, most_steps: int = _MOST_STEPS) -> Ite
 
 
 def _compared(
-    learned: Sequence[Axiom], count: int, *, seed: int, most_steps: int
+    learned: Sequence[Axiom], count: int, *, seed: int, most_steps: int, only: str
 ) -> dict[str, list[Pursuit]]:
     """The same goals pursued by hands that know less or more."""
     hands: dict[str, Knows] = {
@@ -132,7 +132,7 @@ def _compared(
     for domain, table, rng in _tables(seed):
         if tables == count:
             return found
-        wanted = possible_goal(domain, rng, most=_MOST_GOALS)
+        wanted = possible_goal(domain, rng, most=_MOST_GOALS, only=only)
         if wanted is None:
             continue
         _, goal, _ = wanted
@@ -165,6 +165,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--count", type=int, default=100, help="Tables of the comparison.")
     parser.add_argument("--seed", type=int, default=0, help="Settles every random choice.")
     parser.add_argument("--steps", type=int, default=_MOST_STEPS, help="Actions of a run, at most.")
+    parser.add_argument("--goals", default="", help="How goals of the comparison begin.")
     parser.add_argument("--record", type=Path, help="Folder for the records of the runs (.al).")
     return parser.parse_args()
 
@@ -185,7 +186,11 @@ def main() -> None:
     _print_learned(found)
     print(f"seconds: {ran:.0f} for the runs, {learning:.0f} for learning", flush=True)
     compared = _compared(
-        found.axioms, options.count, seed=options.seed + 1, most_steps=options.steps
+        found.axioms,
+        options.count,
+        seed=options.seed + 1,
+        most_steps=options.steps,
+        only=options.goals,
     )
     print("hand", "reached", "actions", "plans", "something fell", "seconds", sep=" | ")
     for name, pursuits in compared.items():

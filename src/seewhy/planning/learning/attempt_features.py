@@ -52,45 +52,51 @@ def attempt_features(
     attempts says nothing and is left out, and so is what divides them as what comes before it.
     """
     name = attempts[0].action.name
-    circumstances = [(facts[one.run].in_state(one.before), one.action) for one in attempts]
-    columns: dict[str, list[str | None]] = {}
-    values: dict[str, tuple[str, ...]] = {}
-    told_by: dict[str, Attribute] = {}
-    related_by: dict[str, Relation] = {}
-    divided: set[tuple[int, ...]] = set()
-    for source in _sources(signature, name):
-        if isinstance(source, Attribute):
-            column = list(_told(source, circumstances))
-            possible = tuple(sorted({value for value in column if value is not None}))
-        else:
-            column = [YES if known.hold(source, action) else NO for known, action in circumstances]
-            possible = (YES, NO)
-        division = _division(column)
-        if len(set(column)) < 2 or len(possible) < 2 or division in divided:
-            continue
-        divided.add(division)
-        feature = str(source)
-        columns[feature], values[feature] = column, possible
-        if isinstance(source, Attribute):
-            told_by[feature] = source
-        else:
-            related_by[feature] = source
+    told = list(_columns(signature, attempts, facts))
     sorts = signature.predicates[name].sorts
     named = [place for place, sort in enumerate(sorts) if sort != things]
-    places, same = identities([one.action for one in attempts], named)
-    for feature, place in places.items():
-        columns[feature] = [str(one.action.arguments[place]) for one in attempts]
-        values[feature] = tuple(sorted(filter(None, set(columns[feature]))))
+    places, same = identities([attempt.action for attempt in attempts], named)
+    columns = {str(source): column for source, column in told}
+    columns |= {
+        feature: [str(attempt.action.arguments[place]) for attempt in attempts]
+        for feature, place in places.items()
+    }
+    relating = {str(source): source for source, _ in told if isinstance(source, Relation)}
     features = ArgumentFeatures(
         signature=signature,
         predicate=name,
-        relations=related_by,
+        relations=relating,
         places=places,
-        values=values,
+        values={
+            feature: (YES, NO) if feature in relating else _values(column)
+            for feature, column in columns.items()
+        },
         same=same,
-        attributes=told_by,
+        attributes={str(source): source for source, _ in told if isinstance(source, Attribute)},
     )
-    return features, [tuple(column[n] for column in columns.values()) for n in range(len(attempts))]
+    return features, list(zip(*columns.values(), strict=True)) or [()] * len(attempts)
+
+
+def _columns(
+    signature: Signature, attempts: Sequence[Attempt], facts: Mapping[int, Facts]
+) -> Iterator[tuple[Attribute | Relation, list[str | None]]]:
+    """What can be told of the arguments, with what it is in each attempt."""
+    circumstances = [(facts[one.run].in_state(one.before), one.action) for one in attempts]
+    divided: set[tuple[int, ...]] = set()
+    for source in _sources(signature, attempts[0].action.name):
+        column: list[str | None]
+        if isinstance(source, Attribute):
+            column = list(_told(source, circumstances))
+        else:
+            column = [YES if known.hold(source, action) else NO for known, action in circumstances]
+        division = _division(column)
+        if len(_values(column)) > 1 and division not in divided:
+            divided.add(division)
+            yield source, column
+
+
+def _values(column: Sequence[str | None]) -> tuple[str, ...]:
+    return tuple(sorted({value for value in column if value is not None}))
 
 
 def _sources(signature: Signature, action: str) -> Iterator[Attribute | Relation]:
