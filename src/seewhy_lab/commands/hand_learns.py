@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -119,31 +119,31 @@ def recorded_runs(runs: int, *, seed: int, most_steps: int = _MOST_STEPS) -> Ite
 
 
 def _compared(
-    learned: Sequence[Axiom], count: int, *, seed: int, most_steps: int, only: str
-) -> dict[str, list[Pursuit]]:
-    """The same goals pursued by hands that know less or more."""
+    learned: Sequence[Axiom], count: int, *, seed: int, most_steps: int
+) -> tuple[list[str], dict[str, list[Pursuit]]]:
+    """The kinds of goals, and what came of them for hands that know less or more."""
     hands: dict[str, Knows] = {
         "without what is said of balls": untold,
         "with what it learned": partial(untold, learned=learned),
         "told of balls": lambda domain: domain,
     }
     found: dict[str, list[Pursuit]] = {name: [] for name in hands}
-    tables = 0
+    kinds: list[str] = []
     for domain, table, rng in _tables(seed):
-        if tables == count:
-            return found
-        wanted = possible_goal(domain, rng, most=_MOST_GOALS, only=only)
+        if len(kinds) == count:
+            break
+        wanted = possible_goal(domain, rng, most=_MOST_GOALS)
         if wanted is None:
             continue
-        _, goal, _ = wanted
+        kind, goal, _ = wanted
         chance = int(rng.integers(2**31))
         for name, knows in hands.items():
             done = pursued(domain, knows, goal, table, seed=chance, most_steps=most_steps)
             found[name].append(done)
             if not done.reached:
-                print(f"table {tables}, {name}: {goal}: not reached", flush=True)
-        tables += 1
-    return found
+                print(f"table {len(kinds)}, {name}: {goal}: not reached", flush=True)
+        kinds.append(kind)
+    return kinds, found
 
 
 def _print_learned(found: LearnedFromRuns) -> None:
@@ -165,7 +165,6 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--count", type=int, default=100, help="Tables of the comparison.")
     parser.add_argument("--seed", type=int, default=0, help="Settles every random choice.")
     parser.add_argument("--steps", type=int, default=_MOST_STEPS, help="Actions of a run, at most.")
-    parser.add_argument("--goals", default="", help="How goals of the comparison begin.")
     parser.add_argument("--record", type=Path, help="Folder for the records of the runs (.al).")
     return parser.parse_args()
 
@@ -185,13 +184,13 @@ def main() -> None:
     learning = time.process_time() - begun
     _print_learned(found)
     print(f"seconds: {ran:.0f} for the runs, {learning:.0f} for learning", flush=True)
-    compared = _compared(
-        found.axioms,
-        options.count,
-        seed=options.seed + 1,
-        most_steps=options.steps,
-        only=options.goals,
+    kinds, compared = _compared(
+        found.axioms, options.count, seed=options.seed + 1, most_steps=options.steps
     )
+    _print_compared(kinds, compared)
+
+
+def _print_compared(kinds: Sequence[str], compared: Mapping[str, Sequence[Pursuit]]) -> None:
     print("hand", "reached", "actions", "plans", "something fell", "seconds", sep=" | ")
     for name, pursuits in compared.items():
         print(
@@ -203,6 +202,15 @@ def main() -> None:
             f"{sum(one.seconds for one in pursuits):.0f}",
             sep=" | ",
         )
+    print("goal", "tables", *(f"reached, actions {name}" for name in compared), sep=" | ")
+    for kind in sorted(set(kinds)):
+        places = [place for place, other in enumerate(kinds) if other == kind]
+        some = [[pursuits[place] for place in places] for pursuits in compared.values()]
+        told = (
+            f"{sum(one.reached for one in of_hand)}, {sum(len(one.run.actions) for one in of_hand)}"
+            for of_hand in some
+        )
+        print(kind, len(places), *told, sep=" | ")
 
 
 if __name__ == "__main__":
