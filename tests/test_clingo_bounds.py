@@ -60,6 +60,15 @@ def test_a_search_goes_on_beyond_its_first_conflicts(monkeypatch: pytest.MonkeyP
     assert sum(atom.name == "bad" for atom in found) == 1
 
 
+def test_the_one_model_that_is_asked_for_does_not_depend_on_the_clock(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    apart = "3 { a(X) : X = 1..9 } 4. :- a(X), a(X+1)."
+    soon = BoundedControl(apart, size=GroundingSize()).last_model()
+    monkeypatch.setattr(bounded_control, "_SOON", 0.0)
+    assert BoundedControl(apart, size=GroundingSize()).last_model() == soon
+
+
 def test_a_search_that_takes_too_long_ends_with_a_sentence(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -20,7 +20,7 @@ from seewhy.knowledge.learned_file import learned_text, parse_learned
 from seewhy.planning.diagnosis.diagnosis import diagnose, explained
 from seewhy.planning.domain import load_planning_domain
 from seewhy.planning.learning.cases import cases_of
-from seewhy.planning.learning.learning_defaults import LearnedFromRuns, learn_from_runs
+from seewhy.planning.learning.learning_from_runs import LearnedFromRuns, learn_from_runs
 from seewhy_lab.experiments.planning import MEASURES, summary, trial
 from seewhy_lab.experiments.statistics import Interval
 from tower import TOWER

@@ -13,7 +13,7 @@ from seewhy.cli.axiom_lines import rests
 from seewhy.cli.learn_things import domain_of_things, learn_from_things
 from seewhy.cli.learned_lines import judgement_lines, learning_dict, print_learning
 from seewhy.cli.options import Json, Outside, Seed
-from seewhy.cli.robot import Without, with_knowledge_of_robot
+from seewhy.cli.robot import Learned, Without, with_knowledge_of_robot
 from seewhy.cli.screen import harmless, print_json, remark, say
 from seewhy.errors import DatasetError, SeeWhyError
 
@@ -57,6 +57,7 @@ def learn(
         ),
     ] = None,
     without: Without = None,
+    learned: Learned = None,
     support: Annotated[
         float | None,
         typer.Option(
@@ -111,13 +112,14 @@ def learn(
     Of a domain with several things in a picture, axioms about them are learned without a model:
     which things there are, how many, which not. They are added to the domain's knowledge.al.
 
-    With --runs, learn what is usually so from the record of a robot's earlier runs, and write it
-    to --out, for 'seewhy plan --learned' and 'seewhy simulate --learned'.
+    With --runs, learn what is usually so, and what does not work, from the record of a robot's
+    earlier runs, and write it to --out, for 'seewhy plan --learned' and 'seewhy simulate
+    --learned'. With --learned, these runs judge what was learned from others, and go on from there.
     """
     if runs is not None:
         _from_runs(
-            str(model), runs, out, data=data, picture=picture, without=without, support=support,
-            tolerance=tolerance, seed=seed, yes=yes, json=json,
+            str(model), runs, out, data=data, picture=picture, without=without, learned=learned,
+            support=support, tolerance=tolerance, seed=seed, yes=yes, json=json,
         )  # fmt: skip
         return
     if data is None:
@@ -128,8 +130,8 @@ def learn(
     if even_if_worse and not yes:
         raise SeeWhyError("--even-if-worse goes with --yes; without it you are asked")
     with_things = domain_of_things(model)
-    if (out is not None and with_things is None) or without:
-        given = "--without" if without else "--out"
+    if (out is not None and with_things is None) or without or learned:
+        given = "--without" if without else "--learned" if learned else "--out"
         kept = "model" if with_things is None else "domain"
         raise SeeWhyError(f"{given} goes with --runs; what pictures teach is kept in the {kept}")
     from seewhy.evaluation.held_back import not_worse
@@ -235,6 +237,7 @@ def _from_runs(
     data: Path | None,
     picture: Path | None,
     without: list[str] | None,
+    learned: Path | None,
     support: float | None,
     tolerance: float | None,
     seed: int,
@@ -255,10 +258,12 @@ def _from_runs(
         with_knowledge_of_robot(load_planning_domain(domain), learned=None, without=without),
         runs,
         out,
+        learned=learned,
         support=support,
         tolerance=tolerance,
         seed=seed,
         accept=None if yes else _none if json else partial(_ask, else_="nothing is written"),
+        keep=yes or not json,
         json=json,
     )
 

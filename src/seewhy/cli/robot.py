@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from seewhy.knowledge.axiom import Axiom
+    from seewhy.knowledge.learned_file import Withdrawn
     from seewhy.planning.domain import PlanningDomain
 
 Learned = Annotated[
@@ -28,20 +30,24 @@ def with_knowledge_of_robot(
     domain: PlanningDomain, *, learned: Path | None, without: list[str] | None
 ) -> PlanningDomain:
     """Return the domain with what the robot knows: less than it says, and what was learned."""
+    for statement in without or ():
+        domain = domain.without(statement)
+    return domain if learned is None else domain.knowing(learned_before(domain, learned)[0])
+
+
+def learned_before(
+    domain: PlanningDomain, learned: Path
+) -> tuple[tuple[Axiom, ...], tuple[Withdrawn, ...]]:
+    """Return the axioms of a file that 'seewhy learn --runs' has written, and those withdrawn."""
     from seewhy.errors import KnowledgeError
     from seewhy.knowledge.learned_file import read_learned
 
-    for statement in without or ():
-        domain = domain.without(statement)
-    if learned is None:
-        return domain
     if not learned.is_file():
         raise KnowledgeError(
             f"{learned}: there is no such file; 'seewhy learn DOMAIN --runs FOLDER --out FILE' "
             "writes one"
         )
-    axioms, _ = read_learned(learned, domain.knowledge.signature)
-    return domain.knowing(axioms)
+    return read_learned(learned, domain.knowledge.signature)
 
 
 def robot_options(*, learned: Path | None, without: list[str] | None) -> str:

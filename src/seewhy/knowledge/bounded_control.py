@@ -54,12 +54,16 @@ _Read = TypeVar("_Read")
 
 @dataclass(frozen=True)
 class _Search(Generic[_Read]):
-    """What a search found, whether all was looked through, and how long it took."""
+    """What a search found, whether all was looked through, and how long it took.
+
+    ``cut`` says that it was ended by the clock, before the model that came next.
+    """
 
     found: list[_Read]
     ended: bool
     interrupted: bool
     seconds: float
+    cut: bool = False
 
 
 class OutOfTimeError(ReasoningError):
@@ -232,11 +236,13 @@ class BoundedControl:
         begun = time.perf_counter()
         found: list[_Read] = []
         with self._control.solve(assumptions, yield_=True) as solving:
-            for model in solving:
+            for number, model in enumerate(solving):
+                # One that is found late is found: where no other is asked for, it would be another
+                # that a search anew finds.
+                if number and time.perf_counter() - begun >= seconds:
+                    return _Search(found, ended=False, interrupted=False, seconds=seconds, cut=True)
                 if not last_only:
                     found.append(on_model(model))
-                if time.perf_counter() - begun >= seconds:
-                    return _Search(found, ended=False, interrupted=False, seconds=seconds)
             result = solving.get()
             if last_only and (last := solving.last()) is not None:
                 found.append(on_model(last))
@@ -253,7 +259,7 @@ class BoundedControl:
 
     def _limited(self, search: _Search[Any]) -> bool:
         """Whether a search may have been cut short: it took its time, or all its conflicts."""
-        if search.interrupted or not search.found or search.seconds >= _SOON:
+        if search.interrupted or search.cut or not search.found:
             return True
         if search.seconds < _SOONER:
             return False

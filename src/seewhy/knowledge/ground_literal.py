@@ -9,17 +9,17 @@ from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import key_of, literal_of
 from seewhy.knowledge.language import read_literal
-from seewhy.knowledge.signature import Location, Predicate, Signature
+from seewhy.knowledge.signature import Location, Predicate, PredicateKind, Signature
 from seewhy.knowledge.statements import NumberError, one_line
 from seewhy.text.nearest import did_you_mean
 
-Kind = OneOf["fluent", "action"]
+Kind = OneOf["fluent", "action", "static"]
 
 
 def read_ground_literal(
     text: str, signature: Signature, *, of: Kind, place: Location | None = None
 ) -> Literal:
-    """Read a literal about a fluent, or an action, with all its arguments.
+    """Read a literal about a fluent or a static, or an action, with all its arguments.
 
     ``place`` is where it stands, if it stands in a file.
 
@@ -78,9 +78,12 @@ def read_ground_literal(
 
 
 def _of_kind(signature: Signature, of: Kind) -> Iterable[Predicate]:
-    for predicate in signature.predicates.values():
-        if predicate.kind.is_fluent if of == "fluent" else predicate.kind.is_action:
-            yield predicate
+    kinds = {
+        "fluent": (PredicateKind.FLUENT_BASIC, PredicateKind.FLUENT_DEFINED),
+        "action": (PredicateKind.ACTION, PredicateKind.EXOGENOUS_ACTION),
+        "static": (PredicateKind.STATIC,),
+    }[of]
+    return (found for found in signature.predicates.values() if found.kind in kinds)
 
 
 def _example(signature: Signature, of: Kind) -> str:

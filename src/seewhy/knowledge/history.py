@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seewhy.errors import KnowledgeError
 from seewhy.knowledge.axiom import Literal
 from seewhy.knowledge.ground import key_of
 from seewhy.knowledge.ground_literal import read_ground_literal
-from seewhy.knowledge.signature import Signature
+from seewhy.knowledge.signature import PredicateKind, Signature
 from seewhy.knowledge.statements import Statement, statements
 from seewhy.text.nearest import did_you_mean
 
 _STATEMENT = re.compile(r"([a-z]+)(\s+)(.+?)\s+at\s+(\d{1,6})\s*$", re.DOTALL)
+_FACT = re.compile(r"-?\s*([a-z]\w*)\s*\(.*\)\s*$", re.DOTALL)
 _WORDS = ("observed", "happened", "attempted")
 
 
@@ -49,6 +50,9 @@ class Occurrence:
 class History:
     """Observations and actions, in the order of the steps (statement (6) of the paper).
 
+    ``statics`` is what the record of a run says of the things that it was about: what they are
+    like, which never changes.
+
     Examples
     --------
     >>> from seewhy.knowledge.language import read_knowledge
@@ -60,6 +64,7 @@ class History:
 
     observations: tuple[Observation, ...] = ()
     occurrences: tuple[Occurrence, ...] = ()
+    statics: tuple[Literal, ...] = ()
 
     @property
     def last_step(self) -> int:
@@ -72,18 +77,21 @@ class History:
         new = dict.fromkeys(
             [*self.observations, *(Observation(literal, step) for literal in literals)]
         )
-        return History(tuple(new), self.occurrences)
+        return replace(self, observations=tuple(new))
 
     def with_occurrence(self, action: Literal, *, step: int, attempted: bool = False) -> History:
         """Return the history with an action that happened, or was tried, at a step."""
-        return History(self.observations, (*self.occurrences, Occurrence(action, step, attempted)))
+        return replace(self, occurrences=(*self.occurrences, Occurrence(action, step, attempted)))
 
     def __str__(self) -> str:
-        return "\n".join(map(str, (*self.observations, *self.occurrences)))
+        facts = (f"{literal}." for literal in self.statics)
+        return "\n".join([*facts, *map(str, (*self.observations, *self.occurrences))])
 
 
 def history_text(history: History, *, title: str) -> str:
     """Return a history as the text of a file, step by step, under a comment that says what it is.
+
+    What never changes stands before the first step.
 
     Examples
     --------
@@ -99,7 +107,8 @@ def history_text(history: History, *, title: str) -> str:
     """
     entries: list[Observation | Occurrence] = [*history.observations, *history.occurrences]
     entries.sort(key=lambda entry: entry.step)
-    return "\n".join([f"% {' '.join(title.split())}", *map(str, entries), ""])
+    facts = (f"{literal}." for literal in history.statics)
+    return "\n".join([f"% {' '.join(title.split())}", *facts, *map(str, entries), ""])
 
 
 def read_history_file(path: Path | str, signature: Signature) -> History:
@@ -117,6 +126,8 @@ def read_history_file(path: Path | str, signature: Signature) -> History:
 def read_history(source: str, signature: Signature, *, file: str = "history.al") -> History:
     """Read ``observed literal at step.``, ``happened action at step.`` and ``attempted …``.
 
+    A literal about a static alone, such as ``colour(thing1, red).``, is what never changed.
+
     Raises
     ------
     KnowledgeError
@@ -125,7 +136,15 @@ def read_history(source: str, signature: Signature, *, file: str = "history.al")
     """
     observations: dict[Observation, Statement] = {}
     occurrences: dict[Occurrence, Statement] = {}
+    statics: dict[Literal, Statement] = {}
     for statement in statements(source, file=file):
+        if _is_fact(statement.text, signature):
+            fact = read_ground_literal(
+                statement.text, signature, of="static", place=statement.location
+            )
+            _refuse_denied(statement, fact, statics)
+            statics.setdefault(fact, statement)
+            continue
         match = _STATEMENT.match(statement.text)
         word = match.group(1) if match else statement.text.split()[0]
         if match is None or word not in _WORDS:
@@ -148,7 +167,24 @@ def read_history(source: str, signature: Signature, *, file: str = "history.al")
     return History(
         tuple(sorted(observations, key=lambda observation: observation.step)),
         tuple(sorted(occurrences, key=lambda occurrence: occurrence.step)),
+        tuple(statics),
     )
+
+
+def _is_fact(text: str, signature: Signature) -> bool:
+    """Whether a statement says a literal about a static, and nothing of a step."""
+    match = _FACT.match(text)
+    declared = signature.predicates.get(match.group(1)) if match else None
+    return declared is not None and declared.kind is PredicateKind.STATIC
+
+
+def _refuse_denied(statement: Statement, fact: Literal, earlier: dict[Literal, Statement]) -> None:
+    first = earlier.get(fact.complement)
+    if first is not None:
+        raise KnowledgeError(
+            f"{statement.location}: '{fact}' is said, and its opposite at {first.location}; remove "
+            "one of the two"
+        )
 
 
 def _refuse_contradiction(

@@ -71,6 +71,8 @@ class PlanningDomain:
         The things of a picture, where planning is about them.
     seen_at_first : tuple of Literal
         What is seen of them that may change.
+    seen_axioms : tuple of Axiom
+        What is seen of them that never changes.
 
     Examples
     --------
@@ -96,6 +98,7 @@ class PlanningDomain:
     goals: tuple[GoalTable, ...] = ()
     at_first: SceneOfPlan | None = None
     seen_at_first: tuple[Literal, ...] = ()
+    seen_axioms: tuple[Axiom, ...] = ()
 
     @property
     def sensors_err(self) -> bool:
@@ -109,9 +112,55 @@ class PlanningDomain:
         ------
         KnowledgeError
             If the file is missing or wrong.
+        PlanningError
+            If it says of things what is not so of those that there are.
         """
         said = read_history_file(file, self.knowledge.signature)
+        for predicate in sorted({literal.predicate for literal in said.statics}):
+            known = set(self.statics(predicate))
+            for literal in said.statics:
+                if literal.predicate == predicate and clingo.parse_term(str(literal)) not in known:
+                    raise PlanningError(
+                        f"{file}: says '{literal}', which is not so of the things that the plan "
+                        "begins with; give the scene that the file is about with --scene"
+                    )
         return said.with_observations(self.seen_at_first, step=0)
+
+    def about(self, scene: ThingScene) -> PlanningDomain:
+        """Return the domain about the things of another scene, with the same axioms.
+
+        Of what was seen and done with others nothing is left.
+
+        Raises
+        ------
+        PlanningError
+            If the scene has no things, or the domain plans about none.
+
+        Examples
+        --------
+        >>> from seewhy.data.thing_scene import thing_scene
+        >>> table = load_planning_domain("tabletop")
+        >>> ball = thing_scene(table.at_first.things, [{"shape": "sphere"}], relations={})
+        >>> table.about(ball).words.name("thing1")
+        'the sphere'
+        """
+        if self.at_first is None:
+            raise PlanningError(f"{self.folder}: plans are about no things of pictures")
+        seen = set(self.seen_axioms)
+        given = tuple(axiom for axiom in self.knowledge.axioms if axiom not in seen)
+        at_first = replace(self.at_first, scene=scene)
+        knowledge, seen_at_first = with_scene(replace(self.knowledge, axioms=given), at_first)
+        before = self.at_first.names().keys()
+        names = {key: name for key, name in self.words.things.items() if key not in before}
+        return replace(
+            self,
+            knowledge=knowledge,
+            history=History().with_observations(seen_at_first, step=0),
+            words=replace(self.words, things={**names, **at_first.names()}),
+            at_first=at_first,
+            seen_at_first=tuple(seen_at_first),
+            seen_axioms=_added(given, knowledge),
+        )
 
     def statics(self, predicate: str) -> list[clingo.Symbol]:
         """The literals about a static that follow from the knowledge, sorted."""
@@ -241,6 +290,7 @@ def load_planning_domain(name: str | Path, *, scene: ThingScene | None = None) -
     past = folder / "history.al"
     at_first = scene_of_plan(folder, scene)
     seen_at_first: list[Literal] = []
+    given = knowledge.axioms
     if at_first is not None:
         knowledge, seen_at_first = with_scene(knowledge, at_first)
     source = path.read_text(encoding="utf-8-sig")
@@ -272,7 +322,14 @@ def load_planning_domain(name: str | Path, *, scene: ThingScene | None = None) -
         goals=table.goals,
         at_first=at_first,
         seen_at_first=tuple(seen_at_first),
+        seen_axioms=_added(given, knowledge),
     )
+
+
+def _added(given: tuple[Axiom, ...], knowledge: Knowledge) -> tuple[Axiom, ...]:
+    """The axioms of a knowledge that were not given before."""
+    before = set(given)
+    return tuple(axiom for axiom in knowledge.axioms if axiom not in before)
 
 
 def _read_knowledge(folder: Path, *, picture: str | None) -> Knowledge:

@@ -46,6 +46,10 @@ class PlanningWords:
         key = str(term)
         return self.things.get(key, key.strip('"').replace("_", " "))
 
+    def table(self, predicate: str) -> FluentTable | None:
+        """The words of planning.toml for a fluent or static; None where it has none."""
+        return self.fluents.get(predicate) or self.statics.get(predicate)
+
     def clauses(self, predicate: str, arity: int) -> tuple[str, str]:
         """The clauses, with slots, that say that a fluent or static holds, and that it does not.
 
@@ -54,7 +58,7 @@ class PlanningWords:
         >>> PlanningWords({}, {}, {}).clauses("next_to", 2)
         ('{0} is next to {1}', '{0} is not next to {1}')
         """
-        table = self.fluents.get(predicate) or self.statics.get(predicate)
+        table = self.table(predicate)
         if table is None:
             return named_clause(predicate, arity)
         return table.say, table.deny or f"it is not so that {table.say}"

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from seewhy_lab.rendering.rays import Scene
     from seewhy_lab.simulators.tabletop.view import View
 
-__all__ = ["Trial", "main", "random_goals", "trial"]
+__all__ = ["DOMAIN", "Trial", "main", "possible_goal", "random_goals", "trial"]
 
 DOMAIN = "tabletop"
 _NUMBERS = ("two", "three", "four")
@@ -92,14 +92,19 @@ def random_goals(words: ThingWords, rng: np.random.Generator) -> Iterator[tuple[
         yield kind, kinds[kind]
 
 
-def _possible_goal(
-    domain: PlanningDomain, rng: np.random.Generator, *, most: int
+def possible_goal(
+    domain: PlanningDomain, rng: np.random.Generator, *, most: int, only: str = ""
 ) -> tuple[str, str, Goal] | None:
-    """A random goal that is not reached yet, and can be; None where none is found."""
+    """Return a random goal that is not reached yet, and can be; None where none is found.
+
+    It is one of ``most`` that are tried, and of a kind that begins so: ``only``.
+    """
     assert domain.at_first is not None
     words = ThingWords(Evaluation(domain.at_first.scene, domain.at_first.things))
     now = diagnose(domain.knowledge, domain.history).now
     for (kind, said), _ in zip(random_goals(words, rng), range(most), strict=False):
+        if not kind.startswith(only):
+            continue
         try:
             goal = goal_of(said, domain)
         except SeeWhyError:
@@ -128,7 +133,7 @@ def trial(
     things = load_domain(DOMAIN).things
     assert things is not None
     truth = load_planning_domain(DOMAIN, scene=scene_of_table(table, things, view.azimuth))
-    wanted = _possible_goal(truth, rng, most=40)
+    wanted = possible_goal(truth, rng, most=40)
     if wanted is None:
         return None
     kind, said, goal = wanted

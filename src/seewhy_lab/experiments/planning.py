@@ -22,7 +22,7 @@ from seewhy.planning.domain import PlanningDomain, load_planning_domain
 from seewhy.planning.execution.environment import PlanningEnvironment
 from seewhy.planning.execution.simulation import Simulation, execution_seconds, simulate
 from seewhy.planning.goal import Goal, read_goal
-from seewhy.planning.learning.learning_defaults import LearnedFromRuns, learn_from_runs
+from seewhy.planning.learning.learning_from_runs import LearnedFromRuns, learn_from_runs
 from seewhy_lab.experiments.conclusions import Compared, finite
 from seewhy_lab.experiments.experiment import ALL, Row
 from seewhy_lab.experiments.origin import one_machine

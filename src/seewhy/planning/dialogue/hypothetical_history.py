@@ -29,9 +29,10 @@ def known_at(history: History, step: int | None) -> History:
     """
     if step is None:
         return history
-    return History(
-        tuple(observation for observation in history.observations if observation.step <= step),
-        tuple(occurrence for occurrence in history.occurrences if occurrence.step < step),
+    return replace(
+        history,
+        observations=tuple(seen for seen in history.observations if seen.step <= step),
+        occurrences=tuple(done for done in history.occurrences if done.step < step),
     )
 
 

@@ -1,4 +1,7 @@
-"""What a run leaves to learn from: its history, without what was found to be seen wrongly."""
+"""What a run leaves to learn from: its history, and what the things are like that it is about.
+
+What was found to be seen wrongly is left out.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +12,13 @@ from seewhy.knowledge.history import History
 from seewhy.planning.diagnosis.diagnosis import SurpriseKind, diagnose
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.execution.execution import Run
+from seewhy.planning.things.recorded_scene import seen_statics
 
 
 def record_of(domain: PlanningDomain, run: Run) -> History:
-    """Return the history of a run; observations that its diagnosis takes to be wrong are left out.
+    """Return the history of a run, with what the things of a picture are like.
+
+    Observations that its diagnosis takes to be wrong are left out.
 
     Examples
     --------
@@ -23,8 +29,9 @@ def record_of(domain: PlanningDomain, run: Run) -> History:
     >>> print(record_of(domain, run))
     observed loc(rob1, library) at 0.
     """
+    history = replace(run.history, statics=seen_statics(domain))
     if not run.sensors_err:
-        return run.history
+        return history
     found = diagnose(domain.knowledge, run.history, sensors_err=True).surprises
     wrong = {
         (surprise.step, str(surprise.what))
@@ -36,4 +43,4 @@ def record_of(domain: PlanningDomain, run: Run) -> History:
         for observation in run.history.observations
         if (observation.step, key_of(observation.literal)) not in wrong
     )
-    return replace(run.history, observations=tuple(kept))
+    return replace(history, observations=tuple(kept))

@@ -13,16 +13,16 @@ from seewhy.induction.generalisation import most_general
 from seewhy.induction.scene_table import SceneTable, scene_table
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.scene import FeatureVector
-from seewhy.planning.learning.features import YES, FluentFeatures
+from seewhy.planning.learning.features import YES, ArgumentFeatures
 from seewhy.planning.learning.learned_defaults import excluded, single
 from seewhy.planning.learning.preference import preferred
 
-_AS_OFTEN_WRONG = 0.05
+AS_OFTEN_WRONG = 0.05
 """What is usual is right more often than wrong: so unlikely is the opposite."""
 
 
 def default_candidates(
-    features: FluentFeatures, table: SceneTable, decide: Decide, options: LearningOptions
+    features: ArgumentFeatures, table: SceneTable, decide: Decide, options: LearningOptions
 ) -> list[Candidate]:
     """Return the candidates by which a fluent usually holds, each one axiom.
 
@@ -46,7 +46,7 @@ def default_candidates(
     [(PathCondition(feature='work_place(0, 1)', values=('yes',)),)]
     """
     everywhere = Candidate(YES, ())
-    if is_borne_out(everywhere, table, options.tolerance) and _is_usual(everywhere, table):
+    if is_borne_out(everywhere, table, options.tolerance) and is_usual(everywhere, table):
         return [everywhere]
     if not features.values:
         return []
@@ -64,16 +64,13 @@ def default_candidates(
         if judgement.candidate.label == YES
     ]
     every = [
-        part
-        for candidate in found
-        for part in single(candidate, features)
-        if _is_usual(part, table)
+        part for candidate in found for part in single(candidate, features) if is_usual(part, table)
     ]
     return most_general(every)
 
 
 def _with_usual_things(
-    candidate: Candidate, features: FluentFeatures, table: SceneTable
+    candidate: Candidate, features: ArgumentFeatures, table: SceneTable
 ) -> Candidate:
     """Take back things that a candidate leaves out, though it is usually right of them, too.
 
@@ -94,19 +91,19 @@ def _with_usual_things(
     return candidate
 
 
-def _is_usual(candidate: Candidate, table: SceneTable) -> bool:
-    """Whether an axiom by itself is right more often than not, and than chance explains.
+def is_usual(candidate: Candidate, table: SceneTable) -> bool:
+    """Return whether an axiom by itself is right more often than not, and than chance explains.
 
     A candidate about several things may owe its evidence to some of them.
     """
     found = tally(candidate, table)
-    if at_least(found.right, found.right + found.wrong, 0.5) > _AS_OFTEN_WRONG:
+    if at_least(found.right, found.right + found.wrong, 0.5) > AS_OFTEN_WRONG:
         return False
     return not candidate.conditions or chance(candidate, table, found) <= BY_CHANCE
 
 
 def exceptions(
-    candidate: Candidate, features: FluentFeatures, table: SceneTable
+    candidate: Candidate, features: ArgumentFeatures, table: SceneTable
 ) -> Iterator[Candidate]:
     """Yield that things which a candidate leaves out are usually otherwise than it says.
 
@@ -118,7 +115,7 @@ def exceptions(
         spoken = [(v, c) for row in rows for v, c in _scenes(table, int(row))]
         among = scene_table(features.values, [v for v, _ in spoken], [c for _, c in spoken])
         alone = Candidate(opposite.label, (thing,))
-        if _is_usual(alone, among):
+        if is_usual(alone, among):
             yield opposite
 
 

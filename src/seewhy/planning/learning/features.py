@@ -2,50 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import clingo
 
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.signature import Signature
 from seewhy.planning.learning.cases import Case
-from seewhy.planning.learning.relations import Facts, Relation, relations
+from seewhy.planning.learning.relations import Attribute, Facts, Relation, relations
 
 YES, NO = "yes", "no"
 
 
-@dataclass(frozen=True)
-class FluentFeatures:
-    """What is learned from about one fluent.
+@dataclass(frozen=True, kw_only=True)
+class ArgumentFeatures:
+    """What is learned from about the arguments of one fluent, or of one action.
 
     Attributes
     ----------
-    fluent : str
-    sorts : tuple of str
-        Those of its arguments.
+    predicate : str
+        The fluent or action.
     relations : mapping of str to Relation
         Feature → the relation that it says yes or no of.
     places : mapping of str to int
         Feature → the argument whose identity it is.
     values : mapping of str to tuple of str
-        Feature → its values, relations first.
+        Feature → its values, what is said of arguments before who they are.
     same : mapping of int to str
         Argument → the thing that it is in all cases: of others nothing was seen.
+    attributes : mapping of str to Attribute
+        Feature → the attribute whose value it is.
     """
 
     signature: Signature
-    facts: Facts
-    fluent: str
+    predicate: str
     relations: Mapping[str, Relation]
     places: Mapping[str, int]
     values: Mapping[str, tuple[str, ...]]
     same: Mapping[int, str]
+    attributes: Mapping[str, Attribute] = field(default_factory=dict)
 
     @property
     def sorts(self) -> tuple[str, ...]:
-        """The sorts of the fluent's arguments."""
-        return self.signature.predicates[self.fluent].sorts
+        """The sorts of the arguments."""
+        return self.signature.predicates[self.predicate].sorts
+
+
+@dataclass(frozen=True, kw_only=True)
+class FluentFeatures(ArgumentFeatures):
+    """What is learned from about one fluent, by what is fixed."""
+
+    facts: Facts
 
     def vector(self, fluent: clingo.Symbol) -> FeatureVector:
         """The values of the features of one fluent."""
@@ -84,13 +92,39 @@ def features_of(signature: Signature, facts: Facts, cases: Sequence[Case]) -> Fl
             told.setdefault(pattern, relation)
     kept = {str(relation): relation for relation in told.values()}
     values: dict[str, tuple[str, ...]] = dict.fromkeys(kept, (YES, NO))
-    places: dict[str, int] = {}
+    places, same = identities(fluents, range(len(signature.predicates[name].sorts)))
+    values |= {
+        feature: tuple(sorted({str(fluent.arguments[place]) for fluent in fluents}))
+        for feature, place in places.items()
+    }
+    return FluentFeatures(
+        signature=signature,
+        facts=facts,
+        predicate=name,
+        relations=kept,
+        places=places,
+        values=values,
+        same=same,
+    )
+
+
+def identities(
+    terms: Sequence[clingo.Symbol], places: Iterable[int]
+) -> tuple[dict[str, int], dict[int, str]]:
+    """Return the features that say which thing an argument is, and what those are that say nothing.
+
+    Examples
+    --------
+    >>> going = [clingo.parse_term(text) for text in ("go(rob, hall)", "go(rob, attic)")]
+    >>> identities(going, (0, 1))
+    ({'argument 1': 1}, {0: 'rob'})
+    """
+    features: dict[str, int] = {}
     same: dict[int, str] = {}
-    for place in range(len(signature.predicates[name].sorts)):
-        members = sorted({str(fluent.arguments[place]) for fluent in fluents})
+    for place in places:
+        members = {str(term.arguments[place]) for term in terms}
         if len(members) > 1:
-            feature = f"argument {place}"
-            places[feature], values[feature] = place, tuple(members)
+            features[f"argument {place}"] = place
         else:
-            same[place] = members[0]
-    return FluentFeatures(signature, facts, name, kept, places, values, same)
+            same[place] = members.pop()
+    return features, same

@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from itertools import product
 
 from seewhy.induction.candidate import Candidate
 from seewhy.induction.tree import PathCondition
 from seewhy.knowledge.axiom import Literal
-from seewhy.planning.learning.features import NO, YES, FluentFeatures
+from seewhy.planning.learning.features import NO, YES, ArgumentFeatures
 
 __all__ = [
+    "argument_terms",
+    "condition_parts",
     "default_statement",
     "excluded",
     "narrowest_sorts",
     "single",
-    "things_left_out",
     "things_named",
+    "values_left_out",
 ]
 
 _SPARE = "XYZUVW"
 
 
-def single(candidate: Candidate, features: FluentFeatures) -> Iterator[Candidate]:
+def single(candidate: Candidate, features: ArgumentFeatures) -> Iterator[Candidate]:
     """Divide a candidate into candidates that are one axiom each.
 
     That an argument is one of several things is said by naming the others, where they are fewer,
@@ -41,7 +43,7 @@ def single(candidate: Candidate, features: FluentFeatures) -> Iterator[Candidate
 
 
 def excluded(
-    candidate: Candidate, features: FluentFeatures
+    candidate: Candidate, features: ArgumentFeatures
 ) -> Iterator[tuple[Candidate, PathCondition]]:
     """Yield the opposite of a candidate for each thing that it leaves out by naming it.
 
@@ -49,23 +51,23 @@ def excluded(
     """
     for place, condition in enumerate(candidate.conditions):
         if condition.feature in features.places and _is_exclusion(condition, features):
-            for thing in things_left_out(condition, features):
+            for thing in values_left_out(condition, features):
                 conditions = list(candidate.conditions)
                 conditions[place] = named = PathCondition(condition.feature, (thing,))
                 yield Candidate(NO if candidate.label == YES else YES, tuple(conditions)), named
 
 
-def _is_exclusion(condition: PathCondition, features: FluentFeatures) -> bool:
+def _is_exclusion(condition: PathCondition, features: ArgumentFeatures) -> bool:
     every = len(features.values[condition.feature])
     return len(condition.values) > 1 and every < 2 * len(condition.values)
 
 
-def things_left_out(condition: PathCondition, features: FluentFeatures) -> list[str]:
-    """Return the things that a condition about an argument does not allow."""
+def values_left_out(condition: PathCondition, features: ArgumentFeatures) -> list[str]:
+    """Return the things, or the values, that a condition does not allow."""
     return [v for v in features.values[condition.feature] if v not in condition.values]
 
 
-def default_statement(candidate: Candidate, features: FluentFeatures) -> str:
+def default_statement(candidate: Candidate, features: ArgumentFeatures) -> str:
     """Return the axiom that says what one of :func:`single` says.
 
     Examples
@@ -87,21 +89,43 @@ def default_statement(candidate: Candidate, features: FluentFeatures) -> str:
     >>> default_statement(Candidate("no", (at_work, bob)), features)
     '-loc(bob, P) if work_place(bob, P), not loc(bob, P).'
     """
-    terms = _terms(candidate, features)
-    head = Literal(features.fluent, tuple(terms), candidate.label == YES)
-    parts: list[str] = []
-    for condition in candidate.conditions:
-        relation = features.relations.get(condition.feature)
-        if relation is not None:
-            denied = "" if condition.values == (YES,) else "not "
-            parts.append(f"{denied}{relation.of(terms)}")
-        elif len(condition.values) > 1:
-            variable = terms[features.places[condition.feature]]
-            parts += [f"{variable} != {thing}" for thing in things_left_out(condition, features)]
+    terms = argument_terms(candidate, features)
+    head = Literal(features.predicate, tuple(terms), candidate.label == YES)
+    parts = condition_parts(candidate, features, terms)
     return f"{head} if {', '.join([*parts, f'not {head.complement}'])}."
 
 
-def _terms(candidate: Candidate, features: FluentFeatures) -> list[str]:
+def condition_parts(
+    candidate: Candidate,
+    features: ArgumentFeatures,
+    terms: Sequence[str],
+    *,
+    unless: Collection[str] = (),
+) -> list[str]:
+    """Return the conditions of a candidate as they stand in an axiom.
+
+    What is said of the features ``unless`` is said as an exception: that they are not otherwise.
+    """
+    parts: list[str] = []
+    for condition in candidate.conditions:
+        feature, values = condition.feature, condition.values
+        if feature in features.relations:
+            denied = "" if values == (YES,) else "not "
+            parts.append(f"{denied}{features.relations[feature].of(terms)}")
+        elif feature in features.attributes:
+            attribute = features.attributes[feature]
+            if len(values) == 1 and feature not in unless:
+                parts.append(attribute.of(terms, values[0]))
+            else:
+                left_out = values_left_out(condition, features)
+                parts += [f"not {attribute.of(terms, value)}" for value in left_out]
+        elif len(values) > 1:
+            variable = terms[features.places[feature]]
+            parts += [f"{variable} != {thing}" for thing in values_left_out(condition, features)]
+    return parts
+
+
+def argument_terms(candidate: Candidate, features: ArgumentFeatures) -> list[str]:
     """What stands for the arguments: the one thing that is meant, or a variable."""
     named = things_named(candidate, features)
     terms: list[str] = []
@@ -112,7 +136,7 @@ def _terms(candidate: Candidate, features: FluentFeatures) -> list[str]:
     return terms
 
 
-def things_named(candidate: Candidate, features: FluentFeatures) -> dict[int, str]:
+def things_named(candidate: Candidate, features: ArgumentFeatures) -> dict[int, str]:
     """Return the arguments that are one thing: the only one seen, or the one that is meant."""
     meant = {
         features.places[condition.feature]: condition.values[0]
@@ -122,7 +146,7 @@ def things_named(candidate: Candidate, features: FluentFeatures) -> dict[int, st
     return {**features.same, **meant}
 
 
-def narrowest_sorts(candidate: Candidate, features: FluentFeatures) -> list[str]:
+def narrowest_sorts(candidate: Candidate, features: ArgumentFeatures) -> list[str]:
     """Return the narrowest sort of every argument that a candidate leaves."""
     sorts = list(features.sorts)
     for condition in candidate.conditions:

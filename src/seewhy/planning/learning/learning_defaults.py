@@ -1,4 +1,4 @@
-"""Learn axioms about what is usually so at first from the record of earlier runs.
+"""Learn what is usually so at first.
 
 The paper's robot learns so that people are usually where they work (hypothesis H4).
 The learner is that of pictures (:mod:`seewhy.induction.axiom_learning`); what is a picture there
@@ -8,10 +8,9 @@ arguments.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 
-from seewhy.errors import PlanningError
 from seewhy.induction.axiom_learning import Decide, LearningOptions
 from seewhy.induction.candidate import Candidate, tally
 from seewhy.induction.scene_table import SceneTable, scene_table
@@ -22,7 +21,6 @@ from seewhy.knowledge.language import read_axioms
 from seewhy.knowledge.reasoner import Decision, Verdict
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.planning.diagnosis.belief_state import State
-from seewhy.planning.diagnosis.diagnosis import diagnose
 from seewhy.planning.domain import PlanningDomain
 from seewhy.planning.learning.candidates import default_candidates, exceptions
 from seewhy.planning.learning.cases import Case, cases_of
@@ -32,102 +30,47 @@ from seewhy.planning.learning.learned_defaults import default_statement, single
 from seewhy.planning.learning.one_standard_error import suggested_tolerance
 from seewhy.planning.learning.preference import preferred
 from seewhy.planning.learning.relations import Facts
-from seewhy.planning.learning.validation import Rejected, at_first, check_explained, validated
+from seewhy.planning.learning.validation import at_first
 
-__all__ = ["THINGS", "LearnedFromRuns", "Rejected", "learn_from_runs"]
+__all__ = ["OBSERVATIONS", "learn_defaults", "open_cases"]
 
-THINGS = "observations"
-SUPPORT = 0.02
-
-
-@dataclass(frozen=True)
-class LearnedFromRuns:
-    """What came of learning from earlier runs.
-
-    Attributes
-    ----------
-    axioms : tuple of Axiom
-        With a sentence, and the observations that they rest on.
-    rejected : tuple of Rejected
-    tolerances : mapping of str to float
-        Fluent → how often what is usual may be otherwise, as the record suggests.
-    runs, observations : int
-        How many runs the record has, and how many observations of it count.
-    """
-
-    axioms: tuple[Axiom, ...]
-    rejected: tuple[Rejected, ...]
-    tolerances: Mapping[str, float]
-    runs: int
-    observations: int
+OBSERVATIONS = "observations"
 
 
-def learn_from_runs(
+def open_cases(domain: PlanningDomain, record: Sequence[History], first: State) -> list[Case]:
+    """Return what runs show of that of which the knowledge leaves open how it is at first."""
+    return [case for case in cases_of(domain.knowledge, record) if case.fluent in first.unknown]
+
+
+def learn_defaults(
     domain: PlanningDomain,
-    record: Sequence[History],
+    cases: Sequence[Case],
     *,
-    names: Sequence[str] = (),
-    support: float = SUPPORT,
-    tolerance: float | None = None,
-    seed: int = 0,
-) -> LearnedFromRuns:
-    """Learn what is usually so at first, and for whom it is not.
+    tolerance: float | None,
+    options: LearningOptions,
+) -> tuple[list[Axiom], dict[str, float]]:
+    """Return what is usually so at first, and of which fluents with what tolerance.
 
-    Parameters
-    ----------
-    domain : PlanningDomain
-        With the knowledge that the robot had in those runs. Of what this knowledge and
-        ``history.al`` say at first nothing is learned.
-    record : sequence of History
-    names : sequence of str, optional
-        What errors call the runs; by default "run 1" and so on.
-    support : float
-        The least share, of the observations that nothing explains, that an axiom speaks about.
-    tolerance : float, optional
-        How often what is usual may be otherwise; by default the record decides it, for every
-        fluent (:func:`~seewhy.planning.learning.one_standard_error.suggested_tolerance`).
-    seed : int
-
-    Notes
-    -----
     An axiom concludes that a fluent holds and gives way to what is known. Things that it does not
     hold of are named in it, and of them it is learned that it is usually not so. That a fluent
     usually does not hold is learned only so: nearly everything is nearly nowhere.
 
-    An axiom must be such that every recorded run can still be explained, and must leave what was
-    believed at first as it was.
-
-    Raises
-    ------
-    PlanningError
-        If a run of the record cannot be explained by the knowledge as it is, or if no run shows
-        anything that is not known at first.
+    Parameters
+    ----------
+    domain : PlanningDomain
+    cases : sequence of Case
+        Of :func:`open_cases`.
+    tolerance : float or None
+        How often what is usual may be otherwise; None leaves it to the cases of each fluent.
+    options : LearningOptions
 
     Examples
     --------
-    >>> from seewhy.knowledge.history import read_history
     >>> from seewhy.planning.domain import load_planning_domain
-    >>> office = load_planning_domain("robot_assistant")
-    >>> robot = office.without("loc(P, L) if work_place(P, L), not -loc(P, L).")
-    >>> people, places = ("bob", "john", "sarah", "sally"), ("kitchen", "library")
-    >>> seen = [f"observed loc({p}, {p}s_office) at {n}." for n, p in enumerate(people)]
-    >>> seen += [f"observed -loc({p}, {place}) at 5." for p in people for place in places]
-    >>> run = read_history(" ".join(seen), office.knowledge.signature)
-    >>> for axiom in learn_from_runs(robot, [run] * 8).axioms:
-    ...     print(axiom.text, "/", axiom, axiom.origin.support)  # doctest: +NORMALIZE_WHITESPACE
-    if a person works in a place, then usually the person is in the place /
-    loc(P, L) if work_place(P, L), not -loc(P, L). 32
+    >>> learn_defaults(load_planning_domain("robot_assistant"), [], tolerance=None,
+    ...     options=LearningOptions())
+    ([], {})
     """
-    names = names or [f"run {number}" for number in range(1, len(record) + 1)]
-    check_explained(domain, dict(zip(names, record, strict=True)))
-    first = diagnose(domain.knowledge, domain.history).states[0]
-    cases = [case for case in cases_of(domain.knowledge, record) if case.fluent in first.unknown]
-    if not cases:
-        raise PlanningError(
-            "the record shows nothing of which the knowledge leaves open how it is at first, so "
-            "nothing is to be learned from it; leave out what shall be learned (--without AXIOM), "
-            "or record runs in which more is seen"
-        )
     facts = Facts(domain.knowledge)
     found: list[Axiom] = []
     tolerances: dict[str, float] = {}
@@ -136,23 +79,18 @@ def learn_from_runs(
         if not any(case.holds for case in some):
             continue
         features = features_of(domain.knowledge.signature, facts, some)
-        options = LearningOptions(support=support, tolerance=tolerance or 0.0, seed=seed)
+        chosen = replace(options, tolerance=tolerance or 0.0)
         if tolerance is None:
-            options = replace(options, tolerance=suggested_tolerance(features, some, options))
-        learned = _learned(domain, features, some, options)
+            vectors = [features.vector(case.fluent) for case in some]
+            labels = [YES if case.holds else NO for case in some]
+            runs = [case.run for case in some]
+            suggested = suggested_tolerance(features, vectors, labels, runs, chosen)
+            chosen = replace(chosen, tolerance=suggested)
+        learned = _learned(domain, features, some, chosen)
         if learned:
-            tolerances[fluent] = options.tolerance
+            tolerances[fluent] = chosen.tolerance
         found += learned
-    kept, rejected = validated(domain, dict(zip(names, record, strict=True)), first, found)
-    return LearnedFromRuns(
-        axioms=tuple(
-            replace(axiom, identifier=f"l{number}") for number, axiom in enumerate(kept, start=1)
-        ),
-        rejected=tuple(rejected),
-        tolerances=tolerances,
-        runs=len(record),
-        observations=len(cases),
-    )
+    return found, tolerances
 
 
 def _learned(
@@ -185,7 +123,7 @@ def _axiom(
             learned=True,
             support=spoken.right + spoken.wrong,
             precision=spoken.precision,
-            things=THINGS,
+            things=OBSERVATIONS,
         ),
     )
 

@@ -9,36 +9,38 @@ import numpy as np
 from scipy.stats import sem
 from sklearn.model_selection import GroupKFold
 
-from seewhy.induction.axiom_learning import LearningOptions, decide_by_candidates
+from seewhy.induction.axiom_learning import Decide, LearningOptions, decide_by_candidates
 from seewhy.induction.candidate import Candidate
 from seewhy.induction.scene_table import scene_table
 from seewhy.knowledge.reasoner import Decision
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.planning.learning.candidates import default_candidates
-from seewhy.planning.learning.cases import Case
-from seewhy.planning.learning.features import NO, YES, FluentFeatures
+from seewhy.planning.learning.cases import Run
+from seewhy.planning.learning.features import NO, YES, ArgumentFeatures
 
 TOLERANCES = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4)
 _FOLDS = 5
 
 
 def suggested_tolerance(
-    features: FluentFeatures, cases: Sequence[Case], options: LearningOptions
+    features: ArgumentFeatures,
+    vectors: Sequence[FeatureVector],
+    labels: Sequence[str],
+    runs: Sequence[Run],
+    options: LearningOptions,
 ) -> float:
     """Return the greatest tolerance within a standard error of the one that predicts best.
 
-    What the axioms learned from four fifths of the runs predict is held against the rest.
+    What the axioms learned from four fifths of the runs predict is held against the rest; ``runs``
+    says of which run each case is.
     """
-    folds = min(_FOLDS, len({case.run for case in cases}))
+    folds = min(_FOLDS, len(set(runs)))
     if folds < 2:
         return 0.0
-    vectors = [features.vector(case.fluent) for case in cases]
-    labels = [YES if case.holds else NO for case in cases]
-    groups = [case.run for case in cases]
     scores = []
     for tolerance in TOLERANCES:
         right = []
-        for train, test in GroupKFold(folds).split(vectors, labels, groups):
+        for train, test in GroupKFold(folds).split(vectors, labels, runs):
             predict = _predictor(
                 features,
                 [vectors[n] for n in train],
@@ -57,17 +59,23 @@ def suggested_tolerance(
 
 
 def _predictor(
-    features: FluentFeatures,
+    features: ArgumentFeatures,
     vectors: Sequence[FeatureVector],
     labels: Sequence[str],
     options: LearningOptions,
 ) -> Callable[[Sequence[FeatureVector]], list[str]]:
     """Learn from some cases alone; where no axiom says that a fluent holds, it does not."""
+    decide = decide_what_holds(features)
+    table = scene_table(features.values, vectors, labels)
+    holding = default_candidates(features, table, decide, options)
+    return lambda some: [decision.label or NO for decision in decide(holding, some)]
+
+
+def decide_what_holds(features: ArgumentFeatures) -> Decide:
+    """Return how candidates decide of which only those become axioms by which something holds."""
     by_all = decide_by_candidates(features.values)
 
     def decide(some: Sequence[Candidate], asked: Sequence[FeatureVector]) -> Sequence[Decision]:
         return by_all([candidate for candidate in some if candidate.label == YES], asked)
 
-    table = scene_table(features.values, vectors, labels)
-    holding = default_candidates(features, table, decide, options)
-    return lambda some: [decision.label or NO for decision in decide(holding, some)]
+    return decide

@@ -8,14 +8,15 @@ from dataclasses import replace
 from seewhy.induction.candidate import Candidate
 from seewhy.induction.scene_table import Rows, SceneTable
 from seewhy.induction.tree import PathCondition
-from seewhy.planning.learning.features import NO, YES, FluentFeatures
+from seewhy.planning.learning.features import NO, YES, ArgumentFeatures
 
 
-def preferred(candidate: Candidate, features: FluentFeatures, table: SceneTable) -> Candidate:
+def preferred(candidate: Candidate, features: ArgumentFeatures, table: SceneTable) -> Candidate:
     """Return a candidate that speaks of the same cases, naming things only where it must.
 
-    Of conditions that divide the cases alike, that a relation holds is preferred (one between more
-    of the arguments), then that one does not hold, then which thing the first argument is.
+    Of conditions that divide the cases alike, what an argument is like is preferred, then that a
+    relation holds (one between more of the arguments), then that one does not hold, then which
+    thing the first argument is.
 
     Examples
     --------
@@ -53,24 +54,29 @@ def preferred(candidate: Candidate, features: FluentFeatures, table: SceneTable)
 
 
 def _before(
-    condition: PathCondition, features: FluentFeatures, table: SceneTable, left_out: Rows
+    condition: PathCondition, features: ArgumentFeatures, table: SceneTable, left_out: Rows
 ) -> Iterator[PathCondition]:
     """Conditions that are preferred to this one, the best first."""
     for other in _in_order(features, table, left_out):
         if other == condition or (
-            other.feature == condition.feature and condition.feature in features.places
+            other.feature == condition.feature and condition.feature not in features.relations
         ):
             return
         yield other
 
 
 def _in_order(
-    features: FluentFeatures, table: SceneTable, left_out: Rows
+    features: ArgumentFeatures, table: SceneTable, left_out: Rows
 ) -> Iterator[PathCondition]:
-    """That relations hold, that they do not, and which things arguments are."""
+    """What arguments are like, that relations hold, that they do not, and which things they are."""
+
+    def allowed(feature: str) -> PathCondition:
+        values = zip(features.values[feature], table.showing[feature], strict=True)
+        return PathCondition(
+            feature, tuple(value for value, rows in values if not (rows & left_out).any())
+        )
+
+    yield from map(allowed, features.attributes)
     for value in (YES, NO):
         yield from (PathCondition(relation, (value,)) for relation in features.relations)
-    for feature in features.places:
-        values = zip(features.values[feature], table.showing[feature], strict=True)
-        kept = (value for value, rows in values if not (rows & left_out).any())
-        yield PathCondition(feature, tuple(kept))
+    yield from map(allowed, features.places)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from seewhy.errors import PlanningError
@@ -21,16 +21,20 @@ class Rejected:
     reason: str
 
 
-def check_explained(domain: PlanningDomain, record: Mapping[str, History]) -> None:
+RecordedRun = tuple[str, PlanningDomain, History]
+"""What errors call a run, the domain with the things that it is about, and what it shows."""
+
+
+def check_explained(runs: Sequence[RecordedRun]) -> None:
     """Refuse a record with a run that nothing explains; the error names the run.
 
     Raises
     ------
     PlanningError
     """
-    for name, run in record.items():
-        if not explained(domain.knowledge, run, sensors_err=domain.sensors_err):
-            raise PlanningError(f"{name}: {unexplained(domain.knowledge, run)}")
+    for name, domain, history in runs:
+        if not explained(domain.knowledge, history, sensors_err=domain.sensors_err):
+            raise PlanningError(f"{name}: {unexplained(domain.knowledge, history)}")
 
 
 def at_first(domain: PlanningDomain) -> State | None:
@@ -42,7 +46,7 @@ def at_first(domain: PlanningDomain) -> State | None:
 
 
 def validated(
-    domain: PlanningDomain, record: Mapping[str, History], first: State, found: Sequence[Axiom]
+    domain: PlanningDomain, runs: Sequence[RecordedRun], first: State, found: Sequence[Axiom]
 ) -> tuple[list[Axiom], list[Rejected]]:
     """Return the axioms that leave old beliefs as they are and the record explained, and the rest.
 
@@ -52,9 +56,9 @@ def validated(
     rejected: list[Rejected] = []
     for number, axiom in enumerate(found):
         numbered = replace(axiom, identifier=f"n{number}")
-        with_it = domain.knowing([*kept, numbered])
-        now = at_first(with_it)
-        reason = next(_objections(with_it, now, record, first), None)
+        learned = [*kept, numbered]
+        now = at_first(domain.knowing(learned))
+        reason = next(_objections(now, runs, first, learned), None)
         if reason is None and now is not None:
             kept.append(numbered)
             first = now
@@ -63,11 +67,35 @@ def validated(
     return kept, rejected
 
 
+def validated_by_runs(
+    runs: Sequence[RecordedRun], known: Sequence[Axiom], found: Sequence[Axiom]
+) -> tuple[list[Axiom], list[Rejected]]:
+    """Return the axioms about actions that leave every run explained, and the rest.
+
+    Each is tried with what was learned besides, and with those before it that were kept.
+    """
+    kept: list[Axiom] = []
+    rejected: list[Rejected] = []
+    for number, axiom in enumerate(found):
+        numbered = replace(axiom, identifier=f"m{number}")
+        reason = next(unexplained_runs(runs, [*known, *kept, numbered]), None)
+        if reason is None:
+            kept.append(numbered)
+        else:
+            rejected.append(Rejected(axiom, reason))
+    return kept, rejected
+
+
+def unexplained_runs(runs: Sequence[RecordedRun], axioms: Sequence[Axiom]) -> Iterator[str]:
+    """Yield which runs could not be explained with further axioms."""
+    for name, domain, history in runs:
+        known = domain.knowing(axioms).knowledge
+        if not explained(known, history, sensors_err=domain.sensors_err):
+            yield f"{name} could not be explained with it"
+
+
 def _objections(
-    domain: PlanningDomain,
-    now: State | None,
-    record: Mapping[str, History],
-    before: State,
+    now: State | None, runs: Sequence[RecordedRun], before: State, learned: Sequence[Axiom]
 ) -> Iterator[str]:
     if now is None:
         yield "nothing can be believed with it"
@@ -76,6 +104,4 @@ def _objections(
         yield "others say the same"
     for literal in sorted(before.holds - now.holds):
         yield f"'{literal}' would no longer be believed at first"
-    for name, run in record.items():
-        if not explained(domain.knowledge, run, sensors_err=domain.sensors_err):
-            yield f"{name} could not be explained with it"
+    yield from unexplained_runs(runs, learned)
