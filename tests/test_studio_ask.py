@@ -8,11 +8,14 @@ import shutil
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from fastapi.testclient import TestClient
 
 from conftest import draw_tile
+from seewhy.knowledge.justification import Basis, Node
+from seewhy.studio import rendering
 from studio_tiles import HTMX, csrf_of, keys_of, studio_of, text_of, tiles_project
 
 
@@ -71,6 +74,26 @@ def test_an_answer_has_its_certainty_and_reasons_that_fold(client: TestClient) -
     assert re.search(r"<details open>\s*<summary><span class=\"holds\">the tile is good", shown)
     assert "knowledge.al:8" in said
     assert "/ask/where?picture=images/000.png&amp;feature=colour" in shown
+
+
+def test_what_is_not_sure_is_told_in_sentences_apart() -> None:
+    reply = SimpleNamespace(
+        question=SimpleNamespace(text="what is it"),
+        text="Probably good.",
+        certainty=SimpleNamespace(value="probably"),
+        least_sure=SimpleNamespace(feature="colour", value="red", probability=0.8),
+        method="tree",
+        label="good",
+        classification=SimpleNamespace(probability=0.8),
+        justification=Node("good(tile)", "the tile is good", Basis.FACT),
+    )
+    classes = {"good": SimpleNamespace(say="good")}
+    template = rendering._templates().get_template("_ask_answer.html")
+    said = text_of(template.render(reply=reply, before=[], classes=classes, picture="a.png"))
+    assert (
+        "Not sure: probably. The least sure is colour red, 80 %. By the decision tree. "
+        "It is taken to be good, 80 %." in said
+    )
 
 
 def test_a_follow_up_is_about_what_was_spoken_of(client: TestClient) -> None:
