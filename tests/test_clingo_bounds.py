@@ -21,6 +21,7 @@ from seewhy.errors import ReasoningError, SeeWhyError
 from seewhy.knowledge import bounded_control
 from seewhy.knowledge.abandoned import still_working
 from seewhy.knowledge.bounded_control import BoundedControl, OutOfTimeError
+from seewhy.knowledge.change import ChangeFinder
 from seewhy.knowledge.grounding_size import GroundingSize, grounding_size
 from seewhy.knowledge.history import read_history
 from seewhy.knowledge.language import read_knowledge
@@ -209,6 +210,27 @@ def test_threads_may_share_a_reasoner(structures: Domain) -> None:
 
         with ThreadPoolExecutor(8) as threads:
             assert all(threads.map(work, range(0, len(vectors), len(vectors) // 8)))
+
+
+def test_threads_that_look_for_the_same_change_add_its_goal_once(
+    structures: Domain, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whoever adds rules is kept waiting, so that the others come while it does."""
+    add = BoundedControl.add
+
+    def slowly(control: BoundedControl, part: str, program: str) -> None:
+        time.sleep(0.05)
+        add(control, part, program)
+
+    monkeypatch.setattr(BoundedControl, "add", slowly)
+    vector = structures.vector({"num_blocks": "5", "lean": "yes", "block_displaced": "yes"})
+    labels = ["stable", "unstable"] * 4
+    alone = ChangeFinder(Reasoner(structures.knowledge, structures.schema))
+    expected = [alone.smallest(vector, label) for label in labels]
+    shared = ChangeFinder(Reasoner(structures.knowledge, structures.schema))
+    with ThreadPoolExecutor(8) as threads:
+        found = list(threads.map(lambda label: shared.smallest(vector, label), labels))
+    assert found == expected
 
 
 @pytest.mark.usefixtures("switching")

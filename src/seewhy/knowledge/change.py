@@ -113,9 +113,10 @@ class ChangeFinder:
     def _literal(self, atom: str) -> int:
         """The solver literal of an atom; those that were found once are not looked for again."""
         if atom not in self._literals:
-            found = self._control.atoms[clingo.parse_term(atom)]
-            assert found is not None, f"the program has no {atom}"
-            self._literals[atom] = found.literal
+            with self._control.lock:
+                found = self._control.atoms[clingo.parse_term(atom)]
+                assert found is not None, f"the program has no {atom}"
+                self._literals[atom] = found.literal
         return self._literals[atom]
 
     def _program(self) -> str:
@@ -229,19 +230,23 @@ class ChangeFinder:
 
         None where no scene has the belief.
         """
-        if self._control.atoms[clingo.parse_term(f"holds({goal.believed})")] is None:
-            return None
-        if goal not in self._goals:
-            atom = f"goal({len(self._goals)})"
-            rules = [f"{{ {atom} }}.", f":- {atom}, not holds({goal.believed})."]
-            if self._is_stratified:
-                # Without exceptions there is one answer set, and what it holds is believed.
-                rules += [f":- {atom}, holds({key}), not {_EXCEPTED}." for key in goal.apart_from]
-            self._control.add(f"goal_{len(self._goals)}", "\n".join(rules))
-            if self._control.atoms[clingo.parse_term(atom)] is None:
-                return None  # no scene has an answer set at all
-            self._goals[goal] = atom
-        return self._goals[goal]
+        # Threads share the program: two that have the same goal must not add it twice.
+        with self._control.lock:
+            if self._control.atoms[clingo.parse_term(f"holds({goal.believed})")] is None:
+                return None
+            if goal not in self._goals:
+                atom = f"goal({len(self._goals)})"
+                rules = [f"{{ {atom} }}.", f":- {atom}, not holds({goal.believed})."]
+                if self._is_stratified:
+                    # Without exceptions there is one answer set, and what it holds is believed.
+                    rules += [
+                        f":- {atom}, holds({key}), not {_EXCEPTED}." for key in goal.apart_from
+                    ]
+                self._control.add(f"goal_{len(self._goals)}", "\n".join(rules))
+                if self._control.atoms[clingo.parse_term(atom)] is None:
+                    return None  # no scene has an answer set at all
+                self._goals[goal] = atom
+            return self._goals[goal]
 
     def _nearest(
         self,
@@ -252,6 +257,8 @@ class ChangeFinder:
     ) -> list[FeatureVector]:
         """The vectors of least cost that reach a goal and, with ``occurrence``, can occur."""
         can_occur = self._literal(_CAN_OCCUR)
+        with self._control.lock:
+            goals = tuple(self._goals.values())
         current = [
             self._literal(f"current({feature},{UNKNOWN if value is None else value})")
             for feature, value in zip(self.schema.features, vector, strict=True)
@@ -259,10 +266,7 @@ class ChangeFinder:
         assumptions = [
             *current,
             self._literal("strict"),
-            *(
-                self._literal(other) if other == goal else -self._literal(other)
-                for other in self._goals.values()
-            ),
+            *(self._literal(other) if other == goal else -self._literal(other) for other in goals),
             can_occur if occurrence is not None else -can_occur,
         ]
         until = time.monotonic() + SOLVING_SECONDS

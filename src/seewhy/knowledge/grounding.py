@@ -75,9 +75,11 @@ class Grounding:
 
     def literal(self, atom: str) -> int | None:
         """Return the solver literal of an atom; None where it can never hold."""
-        # An atom that turned out to have no rule is listed still, with the literal 0.
-        found = self._control.atoms[clingo.parse_term(atom)]
-        return found.literal or None if found is not None else None
+        # While another thread adds rules, the table of atoms is not to be read.
+        with self._control.lock:
+            found = self._control.atoms[clingo.parse_term(atom)]
+            # An atom that turned out to have no rule is listed still, with the literal 0.
+            return found.literal or None if found is not None else None
 
     def _needed(self, atom: str) -> int:
         found = self.literal(atom)
@@ -122,11 +124,12 @@ class Grounding:
     def with_predicate(self, name: str, arity: int) -> dict[clingo.Symbol, int]:
         """Return the atoms of a predicate with their solver literals."""
         if (name, arity) not in self._predicates:
-            self._predicates[name, arity] = {
-                atom.symbol: atom.literal
-                for atom in self._control.by_signature(name, arity)
-                if atom.literal
-            }
+            with self._control.lock:
+                self._predicates[name, arity] = {
+                    atom.symbol: atom.literal
+                    for atom in self._control.by_signature(name, arity)
+                    if atom.literal
+                }
         return self._predicates[name, arity]
 
     def satisfiable(self, assumptions: Iterable[int]) -> bool:
