@@ -282,6 +282,13 @@ def test_two_questions_at_once_are_asked_for_one_by_one(table: Asked) -> None:
         told(table, "how many cubes are there and how many balls?")
 
 
+def test_what_stands_behind_and_is_not_what_stands_on_the_thing_before(table: Asked) -> None:
+    """ "The ball the cube is under" needs no "that"; behind "and" it would be another question."""
+    assert told(table, "how many things are there the red cube is under?").startswith("There")
+    with pytest.raises(QuestionError, match="do not understand"):
+        told(table, "is a ball on a cube and a red ball is on a blue cube?")
+
+
 def test_a_statement_of_any_length_is_read_in_no_time(table: Asked) -> None:
     """What follows it is looked for only where a question may begin."""
     with pytest.raises(QuestionError, match="do not understand"):

@@ -150,6 +150,7 @@ def test_a_reason_in_words_is_a_rule(
         ("it is tidy because moo", "'moo' is not understood as a reason"),
         ("it is tidy because the leftmost ball is red", "is no condition that a rule can have"),
         ("it is tidy because there are more balls than boxes", "is no condition that a rule"),
+        ("it is tidy because a red ball is blue", "is no condition that a rule can have"),
         ("it is tidy because a ball is on a box and a red ball is on a blue box",
          "a rule speaks of 3 things at most"),
     ],

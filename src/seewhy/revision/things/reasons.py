@@ -262,7 +262,13 @@ class _PatternMaker:
 
     @property
     def pattern(self) -> Pattern:
-        """All of it."""
+        """All of it; a thing that would have two values of one feature is not what was said."""
+        values: dict[tuple[int, str], str] = {}
+        for atom in self.atoms:
+            if isinstance(atom, HasValue) and atom.holds:
+                place = (atom.thing, atom.feature)
+                if values.setdefault(place, atom.value) != atom.value:
+                    raise _NotSaidError
         if self.count > MOST_THINGS:
             raise _NotSaidError
         return Pattern.of(self.count, self.atoms)
