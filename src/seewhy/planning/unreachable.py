@@ -75,7 +75,7 @@ class _Unreachable:
         may = reachable(self.knowledge, start).may
         for literal in wanted:
             instances = list(islice(self._instances(literal), _MOST_ACTIONS))
-            if not any(_symbol(one) in may for one in instances):
+            if not any(_symbol(instance) in may for instance in instances):
                 why = self._not_done(instances)
                 if why is not None:
                     return why
@@ -122,13 +122,13 @@ class _Unreachable:
         first = instances[0]
         if self.knowledge.signature.kind(first.predicate) is not PredicateKind.FLUENT_BASIC:
             return None
-        leading = (action for one in instances for action in self._leading_to(one))
+        leading = (action for instance in instances for action in self._leading_to(instance))
         actions = list(islice(leading, _MOST_ACTIONS + 1))
         if len(actions) > _MOST_ACTIONS:
             return None
         if not actions:
             return f"nothing that can be done leads to it that {self._said(instances)}"
-        if any(self.probe.is_possible(done=one, without=self.usual) for one in actions):
+        if any(self.probe.is_possible(done=action, without=self.usual) for action in actions):
             return None
         conditions = list(of_kind(self.knowledge, AxiomKind.EXECUTABILITY_CONDITION))
         forbidding = self.probe.smallest_conflict(conditions, done=actions[0], without=self.usual)
@@ -137,7 +137,7 @@ class _Unreachable:
     def _said(self, instances: Sequence[Literal]) -> str:
         """One of some fluents in words; where they are several, of any member."""
         sorts = self.knowledge.signature.argument_sorts(instances[0].predicate)
-        columns = zip(*(one.arguments for one in instances), strict=True)
+        columns = zip(*(instance.arguments for instance in instances), strict=True)
         arguments = tuple(
             column[0] if len(set(column)) == 1 else f"any_{sort}"
             for column, sort in zip(columns, sorts, strict=True)
@@ -155,7 +155,9 @@ class _Unreachable:
             binding = _bound(law.head, literal)
             if binding is not None:
                 done = action.substitute(binding)
-                yield from (one for one in self._instances(done) if self._is_named(one))
+                yield from (
+                    instance for instance in self._instances(done) if self._is_named(instance)
+                )
 
     def _is_named(self, literal: Literal) -> bool:
         """Whether each argument of a literal is a member of its sort."""

@@ -196,9 +196,9 @@ def _print_compared(kinds: Sequence[str], compared: Mapping[str, Sequence[Pursui
         print(
             name,
             f"{sum(one.reached for one in pursuits)} of {len(pursuits)}",
-            sum(len(one.run.actions) for one in pursuits),
-            sum(len(one.run.plans) for one in pursuits),
-            sum(any(step.surprises for step in one.run.steps) for one in pursuits),
+            sum(len(pursuit.run.actions) for pursuit in pursuits),
+            sum(len(pursuit.run.plans) for pursuit in pursuits),
+            sum(any(step.surprises for step in pursuit.run.steps) for pursuit in pursuits),
             f"{sum(one.seconds for one in pursuits):.0f}",
             sep=" | ",
         )
@@ -207,7 +207,8 @@ def _print_compared(kinds: Sequence[str], compared: Mapping[str, Sequence[Pursui
         places = [place for place, other in enumerate(kinds) if other == kind]
         some = [[pursuits[place] for place in places] for pursuits in compared.values()]
         told = (
-            f"{sum(one.reached for one in of_hand)}, {sum(len(one.run.actions) for one in of_hand)}"
+            f"{sum(pursuit.reached for pursuit in of_hand)}, "
+            f"{sum(len(pursuit.run.actions) for pursuit in of_hand)}"
             for of_hand in some
         )
         print(kind, len(places), *told, sep=" | ")

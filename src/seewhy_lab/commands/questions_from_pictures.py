@@ -178,11 +178,11 @@ def _print(found: Sequence[Compared], *, pictures: int) -> None:
 
 
 def _right(asked: Sequence[Compared]) -> str:
-    return percent(Share(sum(one.is_right for one in asked), len(asked)).value)
+    return percent(Share(sum(question.is_right for question in asked), len(asked)).value)
 
 
 def _majority(asked: Sequence[Compared]) -> str:
-    counted = Counter(repr(one.annotated) for one in asked)
+    counted = Counter(repr(question.annotated) for question in asked)
     return percent(Share(max(counted.values(), default=0), len(asked)).value)
 
 

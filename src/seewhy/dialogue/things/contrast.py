@@ -233,7 +233,7 @@ def _not_following(query: Consequence, number: int, words: ThingWords) -> str | 
     if follows is None:
         return None
     things = words.things
-    true = [one.conclusion for one in follows if one.number == number]
+    true = [follow.conclusion for follow in follows if follow.number == number]
     if true:
         clauses = [things.conclusions[key].say.replace("{it}", words.name(number)) for key in true]
         return sentence(f"but it is so: {join_words(clauses)}")

@@ -80,20 +80,22 @@ def consequences(query: Consequence, evaluation: Evaluation) -> tuple[Follows, .
         for key, relation in things.relations.items():
             if relation.removed is not None:
                 left = scene.related[key][number] & evaluation.everything
-                found += [Follows(one, relation.removed, key) for one in members(left)]
+                found += [Follows(member, relation.removed, key) for member in members(left)]
     then, without = scene_after(scene, things, edits, without=evaluation.without)
     about = None if query.to is None else evaluation.the(query.to)
     touched = sum(1 << follows.number for follows in found) | without
     said = _concluded_in(query.supposed)
     for key in things.conclusions:
         new = then.concluded[key] & ~scene.concluded[key] & evaluation.everything & ~touched
-        found += [Follows(one, key) for one in members(new) if (one, key) != (number, said)]
+        found += [
+            Follows(member, key) for member in members(new) if (member, key) != (number, said)
+        ]
     # Of what something new is true of, it goes without saying what is true no more.
     touched |= sum(1 << number for number in {follows.number for follows in found})
     for key in things.conclusions:
         gone = scene.concluded[key] & ~then.concluded[key] & evaluation.everything & ~touched
-        found += [Follows(one, key, ends=True) for one in members(gone & ~then.unsettled)]
-    return tuple(one for one in found if about is None or one.number == about)
+        found += [Follows(member, key, ends=True) for member in members(gone & ~then.unsettled)]
+    return tuple(follow for follow in found if about is None or follow.number == about)
 
 
 def _concluded_in(supposed: Condition | None) -> str | None:

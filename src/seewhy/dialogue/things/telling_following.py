@@ -42,17 +42,17 @@ def say_consequence(query: Consequence, words: ThingWords) -> str:
 
 
 def _keys(found: tuple[Follows, ...], *, ends: bool) -> list[str]:
-    return list(dict.fromkeys(one.conclusion for one in found if one.ends is ends))
+    return list(dict.fromkeys(follow.conclusion for follow in found if follow.ends is ends))
 
 
 def _come_true(key: str, found: tuple[Follows, ...], words: ThingWords) -> str:
-    numbers = [one.number for one in found if one.conclusion == key and not one.ends]
+    numbers = [follow.number for follow in found if follow.conclusion == key and not follow.ends]
     clause = would(words.things.conclusions[key].say)
     return clause.replace("{it}", words.names(numbers))
 
 
 def _end(key: str, found: tuple[Follows, ...], words: ThingWords) -> str:
-    numbers = [one.number for one in found if one.conclusion == key and one.ends]
+    numbers = [follow.number for follow in found if follow.conclusion == key and follow.ends]
     clause = would(words.things.conclusions[key].deny)
     return clause.replace("{it}", words.names(numbers))
 

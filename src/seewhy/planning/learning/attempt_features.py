@@ -81,7 +81,9 @@ def _columns(
     signature: Signature, attempts: Sequence[Attempt], facts: Mapping[int, Facts]
 ) -> Iterator[tuple[Attribute | Relation, list[str | None]]]:
     """What can be told of the arguments, with what it is in each attempt."""
-    circumstances = [(facts[one.run].in_state(one.before), one.action) for one in attempts]
+    circumstances = [
+        (facts[attempt.run].in_state(attempt.before), attempt.action) for attempt in attempts
+    ]
     divided: set[tuple[int, ...]] = set()
     for source in _sources(signature, attempts[0].action.name):
         column: list[str | None]

@@ -96,14 +96,14 @@ def thing_rule_revisions(
         So many of each kind.
     """
     judged = [_judged(asked, doubted) for asked in _tried(doubted, reasons)]
-    judged.sort(key=lambda one: _cost(one, doubted))
+    judged.sort(key=lambda judgement: _cost(judgement, doubted))
     found: list[Proposal] = []
     for cause in (Cause.EXCEPTION, Cause.NARROWED):
         offered = 0
-        for one in judged:
-            if one.asked.cause is not cause or offered == most:
+        for judgement in judged:
+            if judgement.asked.cause is not cause or offered == most:
                 continue
-            proposal = _proposal(one, doubted)
+            proposal = _proposal(judgement, doubted)
             if proposal is not None:
                 found.append(proposal)
                 offered += 1
