@@ -7,7 +7,7 @@ from itertools import product
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from conftest import Run, seen, write_tiles
@@ -312,6 +312,8 @@ def test_it_complains(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch)
             "--subject",
             "!",
         ): "--subject '!' has no word; write one such as 'the apple'",
+        ("new", "x", "--from", "two", "--subject", "the"): "--subject 'the' has no word; write "
+        "one such as 'the apple'",
     }
     before = sorted(tmp_path.iterdir())
     for arguments, expected in cases.items():
@@ -333,6 +335,8 @@ WORDS = st.text(min_size=1, max_size=12)
     values=st.lists(WORDS, min_size=1, max_size=3, unique=True),
     subject=st.sampled_from(["the picture", "the kind", "it", "the big look", "the thing"]),
 )
+@example(classes=["0", "00"], features=["A"], values=["0"], subject="the picture")
+@example(classes=["the", "a"], features=["★", "the"], values=["an", "!"], subject="it")
 def test_whatever_the_words_the_domain_works(
     tmp_path_factory: pytest.TempPathFactory,
     classes: list[str],

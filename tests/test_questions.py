@@ -301,6 +301,13 @@ def test_a_wrong_template_is_named_with_its_line(
     ("name", "old", "new", "complaint"),
     [
         ("domain", r"(?m)^subject = .*$", 'subject = ""', "subject = '' has no word"),
+        ("domain", r"(?m)^subject = .*$", 'subject = "the a"', "subject = 'the a' has no word"),
+        (
+            "domain",
+            r"(?m)^subject = .*$",
+            'subject = "please"',
+            "subject = 'please' is what questions may leave out; write what the picture shows",
+        ),
         ("questions", r"(?m)^fillers = .*$", 'fillers = ["!"]', "'!' in the fillers has no word"),
         ("questions", r"\Z", '\n[synonyms]\ngood = [""]\n', "'' in the synonyms of 'good' has no"),
     ],

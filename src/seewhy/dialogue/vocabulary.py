@@ -10,7 +10,7 @@ from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
 
-__all__ = ["MANY", "SUBJECTS", "Vocabulary"]
+__all__ = ["MANY", "SUBJECTS", "Vocabulary", "without_articles"]
 
 MANY = "many_of_its_kind"
 """What the grammar reads for a noun in the plural: "structures" are not the one that is shown."""
@@ -99,13 +99,21 @@ class Vocabulary:
             word for scene_class in domain.classes.values() for word in scene_class.words
         }
         self._named = {
-            _lemmas(words_of(feature.name))[-1] for feature in domain.features.values()
+            word
+            for feature in domain.features.values()
+            for word in _lemmas(words_of(feature.name))[-1:]  # none where it is called "A"
         } | {"people"}
         self._fillers = sorted(map(_lemmas, fillers), key=len, reverse=True)
+        for key, said in (("subject", domain.subject), ("scene", domain.scene)):
+            if not self.for_grammar(said):
+                raise DomainError(
+                    f"{domain.folder / 'domain.toml'}: {key} = '{said}' is what questions may "
+                    "leave out; write what the picture shows"
+                )
 
     def for_templates(self, text: str) -> tuple[str, ...]:
         """Return the words of a text as templates and the recurrent network read them."""
-        tokens = self._own_places(_without_articles(words_of(text)))
+        tokens = self._own_places(without_articles(words_of(text)))
         stems = _replaced([stem_of(token) for token in tokens], self._for_templates)
         words: list[str] = []
         for stem in stems:
@@ -118,7 +126,7 @@ class Vocabulary:
         """Return the words of a text without inflections, synonyms and what may be left out."""
         words = [
             part
-            for word in _without_articles(words_of(text))
+            for word in without_articles(words_of(text))
             for part in _of_owner(word)
             if part not in self._adverbs
         ]
@@ -244,7 +252,7 @@ class Vocabulary:
         return words
 
 
-def _without_articles(words: Sequence[str]) -> list[str]:
+def without_articles(words: Sequence[str]) -> list[str]:
     """Words without articles; "the only one" is not "only one"."""
     return [
         "sole" if before == "the" and word == "only" else word
@@ -291,11 +299,15 @@ def _replaced(words: list[str], phrases: dict[str, list[_Pair]]) -> list[str]:
 
 def _check_words(domain: Domain) -> None:
     """Raise a DomainError where a subject, synonym or filler is not made of words."""
-    if not words_of(domain.subject):
-        raise DomainError(
-            f"{domain.folder / 'domain.toml'}: subject = '{domain.subject}' has no word; "
-            'write one such as "the apple"'
-        )
+    for key, said, example in (
+        ("subject", domain.subject, "the apple"),
+        ("scene", domain.scene, "apple"),
+    ):
+        if not without_articles(words_of(said)):
+            raise DomainError(
+                f"{domain.folder / 'domain.toml'}: {key} = '{said}' has no word; "
+                f'write one such as "{example}"'
+            )
     questions = domain.questions
     phrases = {f"synonyms of '{key}'": (key, *words) for key, words in questions.synonyms.items()}
     phrases["fillers"] = tuple(questions.fillers)

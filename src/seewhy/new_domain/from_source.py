@@ -22,6 +22,7 @@ from seewhy.data.importers.writing import (
     write_dataset,
 )
 from seewhy.dialogue.question_words import words_of
+from seewhy.dialogue.vocabulary import without_articles
 from seewhy.errors import DomainError
 from seewhy.new_domain.from_pictures import WrittenDomain, write_domain_of
 from seewhy.new_domain.sketch import look_features, sketch_of
@@ -103,7 +104,7 @@ def new_domain_from(
         If the source cannot be used, shows fewer than two classes, or a folder is taken.
     """
     check_new_folder(folder)
-    if not words_of(subject):
+    if not without_articles(words_of(subject)):
         raise DomainError(f"--subject '{subject}' has no word; write one such as 'the apple'")
     is_dataset = (request.source / TABLE).is_file()
     if not request.format:
