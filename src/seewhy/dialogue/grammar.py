@@ -13,7 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from typing import NamedTuple
 
 from seewhy.dialogue.first_words import Beginning, beginnings_of
@@ -89,13 +89,20 @@ def _choice(signs: Sequence[str], at: int) -> tuple[Form, int]:
             if at >= len(signs) or signs[at] != closing:
                 raise DomainError(f"the brackets of '{' '.join(signs)}' do not pair")
             at += 1
-            parts.append(Form("choice", parts=(inner, Form("sequence"))) if sign == "[" else inner)
-        elif sign.startswith("<"):
-            parts.append(Form("phrase", sign[1:-1]))
+            parts.append(Form("choice", parts=(inner, _NOTHING)) if sign == "[" else inner)
         else:
-            parts.append(Form("word", lemma(sign)))
+            parts.append(_smallest(sign))
     branches.append(Form("sequence", parts=tuple(parts)))
     return (branches[0] if len(branches) == 1 else Form("choice", parts=tuple(branches))), at
+
+
+_NOTHING = Form("sequence")
+
+
+@cache
+def _smallest(sign: str) -> Form:
+    """A phrase's name or a word; ten thousand of a grammar's signs are a thousand words."""
+    return Form("phrase", sign[1:-1]) if sign.startswith("<") else Form("word", lemma(sign))
 
 
 def words_of_form(text: str) -> set[str]:
