@@ -118,6 +118,19 @@ ANSWERS = {
     "Are all cubes red?": (True, "Yes, every cube is red."),
     "Are all cubes small?": (False, "No, not every cube is small."),
     "Is a cube made of rubber?": (True, None),
+    "Is the ball the only blue thing?": (
+        True,
+        "Yes, the large blue metal sphere is the only blue thing.",
+    ),
+    "Is only the ball made of metal?": (
+        False,
+        "No, the large blue metal sphere is not the only metal thing.",
+    ),
+    "Is the ball the sole cube?": (False, "No, the large blue metal sphere is no cube."),
+    "Is the small cube the only one that is left of the big cube?": (
+        True,
+        "Yes, the small red metal cube is the only thing left of the large red rubber cube.",
+    ),
     "How many things are either cubes or rubber things left of the ball?": (2, None),
     "How many things that are not cubes are left of every cylinder?": (1, None),
     "How many things are neither red nor small?": (1, None),
@@ -227,6 +240,23 @@ def test_why(answerer: ThingAnswerer, scene: ThingScene) -> None:
     why = answerer.answer("Why is there no green cube?", scene)
     assert why.text.startswith("There is no green cube: ")
     assert answerer.answer("Why is the ball red?", scene).text.startswith("But it is not so: ")
+
+
+def test_why_something_is_not_the_only_one(answerer: ThingAnswerer, scene: ThingScene) -> None:
+    asked = ("Is the ball the only metal thing?", "why?", "and the cylinder?")
+    _, why, other = talk(answerer, scene, *asked)
+    assert why.text == (
+        "There are two metal things. The sphere is the large blue metal sphere. There is the "
+        "small red metal cube, too: it is made of metal."
+    )
+    assert other.text == "No, the small green rubber cylinder is no metal thing."
+
+
+def test_why_of_every_thing(answerer: ThingAnswerer, scene: ThingScene) -> None:
+    _, why = talk(answerer, scene, "Are all cubes red?", "why?")
+    assert why.text == (
+        "There are two cubes. The small red metal cube is red. The large red rubber cube is red."
+    )
 
 
 def test_why_not_another_answer(answerer: ThingAnswerer, scene: ThingScene) -> None:

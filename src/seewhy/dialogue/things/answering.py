@@ -337,6 +337,8 @@ def _spoken_of(query: Query) -> Reference | None:
     match query:
         case ValueOf(one=one) | Describe(one=one):
             return one
+        case Holds(ones=(kind,), condition=Is(one=only)) if kind.which is References.EVERY:
+            return only
         case Holds(ones=ones):
             return ones[0]
         case Together(ones=ones) | Completing(ones=ones):
@@ -370,6 +372,8 @@ def _instead(query: Query, instead: Description | Reference | None) -> Query | N
                 return ValueOf(feature, instead)
             case Describe(place=place):
                 return Describe(instead, place)
+            case Holds(ones=(kind,), condition=Is()) if kind.which is References.EVERY:
+                return Holds((kind,), Is(instead)) if instead.which is References.THE else None
             case Holds(condition=condition):
                 return Holds((instead,), condition)
         instead = instead.description

@@ -25,6 +25,7 @@ from seewhy.dialogue.things.query import (
     Groups,
     HasValue,
     Holds,
+    Is,
     Most,
     Not,
     PartOf,
@@ -156,7 +157,7 @@ def tell_why_not(query: Query, value: Value, wanted: Wanted, words: ThingWords) 
             few = _too_few(query, wanted, value, words)
             nearest = _nearest(few, words, to=f"{words.counted(1, few)} more")
             return f"{sentence(_counted(query, words))} {nearest}"
-        case Holds(ones=ones, condition=condition):
+        case Holds(ones=ones, condition=condition) if not isinstance(condition, Is):
             reasons = Reasons(words.evaluation, words)
             leaves = [
                 reasons.judged(number, condition) for one in ones for number in reasons.numbers(one)
@@ -186,6 +187,8 @@ def _contrasted(query: Query, number: int, words: ThingWords) -> str | None:
     """Why what was asked is not so of a thing; that it is, where it is."""
     reasons, name = Reasons(words.evaluation, words), words.name(number)
     match query:
+        case Holds(ones=(kind,), condition=Is()):
+            described = kind.description
         case Holds(condition=condition):
             return _of_condition(condition, number, words)
         case Consequence():

@@ -203,6 +203,18 @@ def as_held(bindings: Bindings) -> Bindings | None:
     return as_query(Holds(ones, all_of(conditions)))
 
 
+def _the_only(bindings: Bindings) -> Bindings | None:
+    """Whether every thing of a kind is one thing, which is then the only one of the kind."""
+    ones, described, conditions = (
+        references_of(bindings), _descriptions(bindings), conditions_of(bindings)
+    )  # fmt: skip
+    if len(ones) != 1 or ones[0].which is not References.THE or len(described) > 1:
+        return None
+    kind = (described[0] if described else Description()).also(*conditions)
+    every = Reference(Description(kind.conditions, many=True), References.EVERY)
+    return as_query(Holds((every,), Is(ones[0])))
+
+
 def _each_other(bindings: Bindings) -> Bindings | None:
     """Whether several things stand to each other in some way: each of them to every other."""
     ones, relations = references_of(bindings), meanings(bindings, "relation")
@@ -322,6 +334,7 @@ QUESTIONS: dict[str, Fold] = {
     "consequence": _consequence,
     "with_it": _with_it,
     "each_other": _each_other,
+    "the_only": _the_only,
     "choice": _choice,
     "in_few": _in_few,
     "together_made": _together,

@@ -29,6 +29,7 @@ from seewhy.dialogue.things.query import (
     Groups,
     HasValue,
     Holds,
+    Is,
     Most,
     MostCommon,
     Nearest,
@@ -132,8 +133,10 @@ class Reasons:
             )
             nodes.append(Node(self.words.term(number), text, Basis.JOINTLY, children=children))
             return
-        text = self.words.reference(one)
-        nodes.append(Node(text, text, Basis.JOINTLY, children=children))
+        count = self.evaluation.fits(one.description).surely.bit_count()
+        verb = "is" if count == 1 else "are"
+        text = f"there {verb} {self.words.counted(count, one.description)}"
+        nodes.append(Node(self.words.reference(one), text, Basis.JOINTLY, children=children))
 
     def _add_referred(
         self, conditions: Sequence[Condition], nodes: list[Node], told: dict[int, Reference]
@@ -309,6 +312,9 @@ class Reasons:
             case SameValue(feature=feature):
                 for number in compared_numbers(query, self.evaluation):
                     yield self._seen_of(number, feature)
+            case Holds(ones=(kind,), condition=Is(one=only)) if kind.which is References.EVERY:
+                self._add_referred((query.condition,), nodes, told)
+                yield from self.besides(self.evaluation.the(only), kind.description)
             case Holds(ones=ones, condition=condition):
                 self._add_referred((condition,), nodes, told)
                 for one in ones:
@@ -340,6 +346,17 @@ class Reasons:
                 yield from of_class(query, self.words)
             case _:
                 return
+
+    def besides(self, only: int, kind: Description) -> Iterator[Node]:
+        """Why a thing is not the only one of a kind: it is none, or there are others, too."""
+        fits = self.evaluation.fits(kind)
+        if not fits.maybe >> only & 1:
+            yield self.excluded(only, kind)
+            return
+        for number in members(fits.surely & ~(1 << only)):
+            text = f"there is {self.words.name(number)}, too"
+            children = tuple(self._so(number, condition, "it") for condition in kind.conditions)
+            yield Node(self.words.term(number), text, Basis.JOINTLY, children=children)
 
     def numbers(self, one: Reference) -> list[int]:
         """Return the things that a reference surely means."""

@@ -194,6 +194,8 @@ def _both(query: SameValue, words: ThingWords) -> str:
 def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
     if (clause := _single_clause(query, outcome, words)) is not None:
         return clause
+    if isinstance(query.condition, Is) and query.ones[0].which is References.EVERY:
+        return _only(query.ones[0].description, query.condition.one, outcome, words)
     subjects = join_words([words.reference(one) for one in query.ones])
     if not outcome.value and any(one.which is References.EVERY for one in query.ones):
         return f"not {words.being(query.condition, subjects)}"
@@ -211,6 +213,15 @@ def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
     denied = "" if outcome.value else "not "
     both = "both " if len(query.ones) > 1 and not outcome.value else ""
     return f"{subjects} {verb} {denied}{both}{words.predicate(query.condition)}"
+
+
+def _only(kind: Description, one: Reference, outcome: Outcome, words: ThingWords) -> str:
+    """Whether a thing is the only one of a kind; what is none of it is said to be none."""
+    name, kind_said = words.reference(one), words.phrase(kind, many=False)
+    is_one = words.evaluation.fits(kind).maybe >> words.evaluation.the(one) & 1
+    if not is_one:
+        return f"{name} is no {kind_said}"
+    return f"{name} is {'' if outcome.value else 'not '}the only {kind_said}"
 
 
 def _single_clause(query: Holds, outcome: Outcome, words: ThingWords) -> str | None:
