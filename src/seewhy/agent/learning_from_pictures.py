@@ -184,8 +184,10 @@ def with_candidates(
     knowledge: Knowledge, candidates: Sequence[Candidate], schema: SceneSchema
 ) -> Knowledge:
     """Return the knowledge with candidates added as axioms."""
-    single = (one for candidate in candidates for one in conjunctions(candidate, schema))
-    text = "\n".join(axiom_statement(one, schema) for one in single)
+    single = (
+        conjunction for candidate in candidates for conjunction in conjunctions(candidate, schema)
+    )
+    text = "\n".join(axiom_statement(conjunction, schema) for conjunction in single)
     added = read_axioms(text, knowledge.signature, letter="c")
     return replace(knowledge, axioms=(*knowledge.axioms, *added))
 
@@ -197,21 +199,24 @@ def axioms_of(
     schema = domain.schema
     features = {key: feature.values for key, feature in domain.features.items()}
     table = scene_table(features, scenes.vectors, scenes.labels)
-    single = [one for candidate in candidates for one in conjunctions(candidate, schema)]
+    single = [
+        conjunction for candidate in candidates for conjunction in conjunctions(candidate, schema)
+    ]
     text = "\n".join(
-        f"%% {say_rule(domain, one.conditions, one.label)}\n{axiom_statement(one, schema)}"
-        for one in single
+        f"%% {say_rule(domain, conjunction.conditions, conjunction.label)}\n"
+        f"{axiom_statement(conjunction, schema)}"
+        for conjunction in single
     )
     axioms = read_axioms(text, domain.knowledge.signature)
     found = []
-    for one, axiom in zip(single, axioms, strict=True):
-        spoken = tally(one, table)
-        rows = np.flatnonzero(table.satisfying(one.conditions))
+    for conjunction, axiom in zip(single, axioms, strict=True):
+        spoken = tally(conjunction, table)
+        rows = np.flatnonzero(table.satisfying(conjunction.conditions))
         positions = sorted(n for row in rows for n in table.scenes[row])
         pictures = (
             scenes.pictures[n]
             for n in positions
-            if scenes.pictures[n] and scenes.labels[n] == one.label
+            if scenes.pictures[n] and scenes.labels[n] == conjunction.label
         )
         origin = Origin(
             learned=True,

@@ -56,12 +56,12 @@ def ask_all(answers: RunAnswers, questions: Sequence[str] | None) -> list[Asked]
 
 def show_answers(asked: Sequence[Asked]) -> None:
     """Print questions and answers for a person."""
-    for one in asked:
-        say(f"\n{one.question}")
-        if one.reply is not None:
-            say(one.reply.text)
+    for answered in asked:
+        say(f"\n{answered.question}")
+        if answered.reply is not None:
+            say(answered.reply.text)
         else:
-            complain(str(one.problem))
+            complain(str(answered.problem))
 
 
 def talk(answers: RunAnswers, *, json: bool) -> None:
@@ -73,5 +73,5 @@ def talk(answers: RunAnswers, *, json: bool) -> None:
 
 def exit_if_not_understood(asked: Sequence[Asked]) -> None:
     """End with exit code 2 where a question was not understood."""
-    if any(one.problem is not None for one in asked):
+    if any(answered.problem is not None for answered in asked):
         raise typer.Exit(2)

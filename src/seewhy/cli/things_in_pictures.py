@@ -338,7 +338,7 @@ def _print_figures(result: ThingsSeen, agent: ThingAgent) -> None:
     if result.inconsistent:
         say(f"{result.inconsistent:,} pictures could not be read as the knowledge allows")
     say(f"{result.pictures_per_second:.1f} pictures a second")
-    for one in result.wrong[:5]:
-        say(f"  {one.image}: {'; '.join(one.wrong[:4])}")
+    for picture in result.wrong[:5]:
+        say(f"  {picture.image}: {'; '.join(picture.wrong[:4])}")
     if len(result.wrong) > 5:
         say(f"  … and {len(result.wrong) - 5:,} more that are not wholly right; --json lists all")

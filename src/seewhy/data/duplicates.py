@@ -207,9 +207,9 @@ def _near_notices(dataset: Dataset, near: Sequence[Pair]) -> Iterable[str]:
     differing = list(contradictions(dataset, near))
     if differing:
         said = [
-            f"{_rows(dataset, (one.first, one.second))}: {one.column} {one.said_first} and "
-            f"{one.said_second}"
-            for one in differing
+            f"{_rows(dataset, (pair.first, pair.second))}: {pair.column} {pair.said_first} and "
+            f"{pair.said_second}"
+            for pair in differing
         ]
         yield (
             f"{name}: {_count(differing, _PAIR, _PAIRS)} nearly the same, but annotated "

@@ -31,10 +31,10 @@ def contradicted(said: Sequence[Related], things: Things) -> tuple[Related, Rela
     True
     """
     first: dict[_Pair, Related] = {}
-    for one in said:
-        for pair in _pairs(one, things):
-            if first.setdefault(pair, one).holds is not one.holds:
-                return first[pair], one
+    for relation in said:
+        for pair in _pairs(relation, things):
+            if first.setdefault(pair, relation).holds is not relation.holds:
+                return first[pair], relation
     return None
 
 
@@ -52,7 +52,7 @@ def not_listed(
     ...  for r in not_listed([Related("left", "cup", "book")], [cup, book], things, ["left"])]
     [('left', 'book', 'cup', False)]
     """
-    told = {pair for one in said for pair in _pairs(one, things)}
+    told = {pair for relation in said for pair in _pairs(relation, things)}
     for relation in things.relations:
         if relation not in listed:
             continue

@@ -85,7 +85,7 @@ def named_scene(
             "leave one out"
         )
     if closed:
-        related += not_listed(related, found, things, {one.relation for one in related})
+        related += not_listed(related, found, things, {relation.relation for relation in related})
     whole = tuple(map(named_values(domain, of_picture).get, domain.features))
     return vector_with_things(domain, whole, found, related), found
 

@@ -134,5 +134,5 @@ def _unreadable(cell: str, problem: OSError | ValueError) -> str:
 
 
 def _shown(cell: str) -> str:
-    printable = "".join(one if one.isprintable() else "�" for one in cell)
+    printable = "".join(letter if letter.isprintable() else "�" for letter in cell)
     return printable if len(printable) <= _SHOWN else f"{printable[:_SHOWN]}…"

@@ -329,7 +329,7 @@ def _related(
                 f"{did_you_mean(image, found)}"
             )
         said[image].append(_one_related(cells, things, found[image]))
-    listed = {one.relation for of_image in said.values() for one in of_image}
+    listed = {related.relation for of_image in said.values() for related in of_image}
     for image, of_image in said.items():
         if (both := contradicted(of_image, things)) is not None:
             first, second = both

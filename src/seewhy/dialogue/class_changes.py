@@ -75,7 +75,7 @@ class Ways:
     def _needed(self, change: Change, asked: str) -> Changes:
         """The part of a change that the class rests on; all of it where that is none."""
         features = self._why_class(change.vector, asked).features()
-        pairs = tuple((one.feature, one.after) for one in change.changes)
+        pairs = tuple((changed.feature, changed.after) for changed in change.changes)
         return tuple(pair for pair in pairs if pair[0] in features) or pairs
 
 

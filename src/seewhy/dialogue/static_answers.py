@@ -80,7 +80,9 @@ def _because(domain: Domain, scene: Classification, node: Node) -> str:
 def _not_applying(node: Node) -> str:
     """Which axiom is nearest, and what it misses."""
     nearest = next((child for child in node.children if child.is_refuted), None)
-    missing = [] if nearest is None else [one.text for one in nearest.children if not one.holds]
+    missing = (
+        [] if nearest is None else [child.text for child in nearest.children if not child.holds]
+    )
     if nearest is None or nearest.axiom is None or not missing:
         return ""
     return f': "{nearest.axiom.text}" does not apply, since {join_words(missing)}'

@@ -293,7 +293,7 @@ class _Counts:
     def _unsettled(self, scene: Scene) -> set[tuple[str, int, int]]:
         """The relations that annotated boxes do not settle, which are exact to a pixel."""
         boxes = boxes_of(scene.things)
-        said = {one.relation for one in scene.related}
+        said = {relation.relation for relation in scene.related}
         found: set[tuple[str, int, int]] = set()
         for key, relation in self.things.relations.items():
             if relation.measure in MEASURES and key not in said:

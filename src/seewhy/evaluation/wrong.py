@@ -76,7 +76,7 @@ class WrongPicture:
             "method": self.method,
             "verdict": self.verdict,
             "probability": self.probability,
-            "misread": [asdict(one) for one in self.misread],
+            "misread": [asdict(misreading) for misreading in self.misread],
             "not_annotated": list(self.not_annotated),
         }
 
@@ -111,5 +111,5 @@ def wrong_pictures(dataset: Dataset, found: Sequence[Classification]) -> tuple[W
 
 
 def _order(wrong: WrongPicture) -> tuple[bool, float, float]:
-    surest = max((one.probability for one in wrong.misread), default=0.0)
+    surest = max((misreading.probability for misreading in wrong.misread), default=0.0)
     return not wrong.wrong_class, -(wrong.probability or 0.0), -surest

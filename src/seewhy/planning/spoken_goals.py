@@ -240,7 +240,7 @@ class SpokenGoals:
                 for term in meant.terms or (variable,)
             ]
         # "All cubes on the red cube" are the others.
-        apart_from = [one for one in bindings if len(set(one.values())) == len(one)]
+        apart_from = [binding for binding in bindings if len(set(binding.values())) == len(binding)]
         bindings = apart_from or bindings
         # Other variables than those of goals that are joined to this one.
         free = {name for text in form.conditions for name in variables_in(text)}

@@ -153,13 +153,13 @@ def _wrong(domain: Domain, picture: WrongPicture) -> dict[str, Any]:
         "probability": picture.probability,
         "misread": [
             {
-                "name": domain.features[one.feature].name,
-                "seen": one.seen,
-                "probability": one.probability,
-                "annotated": one.annotated,
-                "overruled": one.overruled,
+                "name": domain.features[misreading.feature].name,
+                "seen": misreading.seen,
+                "probability": misreading.probability,
+                "annotated": misreading.annotated,
+                "overruled": misreading.overruled,
             }
-            for one in picture.misread
+            for misreading in picture.misread
         ],
         "why": _why(domain, picture),
     }

@@ -154,15 +154,15 @@ def new_rule(
     """
     domain = doubted.known.domain
     found = []
-    for one in conjunctions(candidate, domain.schema):
-        statement = axiom_statement(one, domain.schema)
-        said = sentence or say_rule(domain, one.conditions, one.label)
+    for conjunction in conjunctions(candidate, domain.schema):
+        statement = axiom_statement(conjunction, domain.schema)
+        said = sentence or say_rule(domain, conjunction.conditions, conjunction.label)
         edit = axiom_added(doubted.texts[KNOWLEDGE], statement, said)
-        about = {"statement": statement, "label": one.label}
+        about = {"statement": statement, "label": conjunction.label}
         proposal = doubted.judged(Cause.MISSING, said, (edit,), **about)
-        applying = replace(doubted, vector=_vector_with(one, doubted))
-        if applying.decision.label not in (None, one.label):
-            given_way = exceptions_for(applying, one)
+        applying = replace(doubted, vector=_vector_with(conjunction, doubted))
+        if applying.decision.label not in (None, conjunction.label):
+            given_way = exceptions_for(applying, conjunction)
             edits = (edit, *(each for rule in given_way for each in rule.edits(doubted)))
             exceptions = tuple(rule.sentence(domain) for rule in given_way)
             if exceptions:
@@ -203,7 +203,9 @@ def known_already(known: WorkingKnowledge, candidate: Candidate) -> Axiom | None
     """
     schema, signature = known.domain.schema, known.domain.knowledge.signature
     (rule, *others) = read_axioms(
-        "\n".join(axiom_statement(one, schema) for one in conjunctions(candidate, schema)),
+        "\n".join(
+            axiom_statement(conjunction, schema) for conjunction in conjunctions(candidate, schema)
+        ),
         signature,
     )
     if others:

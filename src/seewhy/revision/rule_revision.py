@@ -155,7 +155,7 @@ def rule_revisions(doubted: Doubted, *, most: int = 1) -> tuple[Proposal, ...]:
             if proposal is not None:
                 found.append(proposal)
                 chosen.append(narrowing)
-            if sum(one.rule.cause is cause for one in chosen) == most:
+            if sum(narrowing.rule.cause is cause for narrowing in chosen) == most:
                 break
     return tuple(found)
 

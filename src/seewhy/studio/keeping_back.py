@@ -65,7 +65,7 @@ def splits(
             # What has no class, or no boxes where there are things, tells too little: it trains.
             few = (
                 _SHARE * (shown[label, TEST] + 1)
-                <= sum(shown[label, one] for one in (TRAIN, TEST)) + 1
+                <= sum(shown[label, split] for split in (TRAIN, TEST)) + 1
             )
             split = TEST if few and label is not None else TRAIN
         shown[label, split] += 1

@@ -80,7 +80,9 @@ class Progress:
     @property
     def differs(self) -> bool:
         """Whether pictures of two classes are labelled, so that there is something to learn."""
-        classes = next((one.values for one in self.questions if one.name == CLASS), ())
+        classes = next(
+            (question.values for question in self.questions if question.name == CLASS), ()
+        )
         return sum(value.labelled > 0 for value in classes) > 1
 
     @property

@@ -116,8 +116,9 @@ def _smallest(agent: Agent, then: Classification) -> tuple[SmallestChange, ...]:
             continue
         for change in agent.reasoned.ways.smallest(then.vector, label)[:_OF_EACH]:
             says = tuple(
-                features[one.feature].change.get(one.after) or f"{one.feature}: {one.after}"
-                for one in change.changes
+                features[changed.feature].change.get(changed.after)
+                or f"{changed.feature}: {changed.after}"
+                for changed in change.changes
             )
             after = agent.domain.named(change.vector)
             values = {key: value for key, value in after.items() if value}

@@ -85,7 +85,7 @@ class RelationQuestion:
     @property
     def is_open(self) -> bool:
         """Whether nothing is said of some."""
-        return any(one.holds is None for one in self.to)
+        return any(pair.holds is None for pair in self.to)
 
 
 @dataclass(frozen=True)
@@ -177,11 +177,11 @@ def _at_hand(
     at: str, questions: Collection[Question], relations: Collection[RelationQuestion]
 ) -> str:
     """The one that is asked for, else the first that is open, else the first."""
-    names = [*(one.name for one in questions), *(one.name for one in relations)]
+    names = [*(question.name for question in questions), *(relation.name for relation in relations)]
     if at in names:
         return at
-    open_ones = [one.name for one in questions if one.label is None]
-    open_ones += [one.name for one in relations if one.is_open]
+    open_ones = [question.name for question in questions if question.label is None]
+    open_ones += [relation.name for relation in relations if relation.is_open]
     return next(iter((*open_ones, *names)), "")
 
 

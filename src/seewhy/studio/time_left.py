@@ -44,7 +44,7 @@ def time_left(job: Job, before: Iterable[Job], *, now: datetime | None = None) -
     ''
     """
     pictures = job.asked.get(PICTURES)
-    last = next((one for one in before if _is_measure(one)), None)
+    last = next((job for job in before if _is_measure(job)), None)
     if last is None or not pictures or job.asked.get(WENT_ON):
         return ""
     took, of = _seconds(last.started, last.ended), last.asked[PICTURES]

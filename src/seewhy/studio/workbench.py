@@ -264,7 +264,12 @@ def letters_of(names: Sequence[str], *, taken: Collection[str]) -> dict[str, str
     for name in names:
         wanted = [letter for letter in name if letter.isascii() and letter.isalpha()]
         letter = next(
-            (one for one in (*wanted, *"abcdefghijklmnopqrstuvwxyz") if one not in used), ""
+            (
+                candidate
+                for candidate in (*wanted, *"abcdefghijklmnopqrstuvwxyz")
+                if candidate not in used
+            ),
+            "",
         )
         found[name] = letter
         used.add(letter)

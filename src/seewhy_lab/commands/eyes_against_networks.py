@@ -78,7 +78,7 @@ def compare(
     took = time.process_time() - began
     found = agent.classify_all(test.pictures(agent.picture_size))
     right = sum(one.label == true for one, true in zip(found, test.classes, strict=True))
-    unknown = sum(one.label is None for one in found)
+    unknown = sum(scene.label is None for scene in found)
     print(
         f"eyes {eyes}, {len(some)} pictures: {100 * right / len(test):.1f} % of {len(test)} right "
         f"({100 * unknown / len(test):.1f} % not known), {took:.0f} s of processor time",

@@ -195,11 +195,11 @@ def _print_compared(kinds: Sequence[str], compared: Mapping[str, Sequence[Pursui
     for name, pursuits in compared.items():
         print(
             name,
-            f"{sum(one.reached for one in pursuits)} of {len(pursuits)}",
+            f"{sum(pursuit.reached for pursuit in pursuits)} of {len(pursuits)}",
             sum(len(pursuit.run.actions) for pursuit in pursuits),
             sum(len(pursuit.run.plans) for pursuit in pursuits),
             sum(any(step.surprises for step in pursuit.run.steps) for pursuit in pursuits),
-            f"{sum(one.seconds for one in pursuits):.0f}",
+            f"{sum(pursuit.seconds for pursuit in pursuits):.0f}",
             sep=" | ",
         )
     print("goal", "tables", *(f"reached, actions {name}" for name in compared), sep=" | ")

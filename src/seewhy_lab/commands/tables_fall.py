@@ -78,7 +78,7 @@ def taken_away(*, tables: int) -> tuple[int, int]:
     for index in range(tables):
         table, _, _ = random_scene(seed=1, index=index)
         for number in range(len(table.things)):
-            above = {one for one in range(len(table.things)) if number in _below(table, one)}
+            above = {thing for thing in range(len(table.things)) if number in _below(table, thing)}
             found = fallen(table, np.random.default_rng(0), without=number, nudge=0.0)
             right += found == above
             count += 1

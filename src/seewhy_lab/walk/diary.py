@@ -17,7 +17,7 @@ def read_steps(file: Path) -> list[Step]:
     if not file.is_file():
         return []
     read = json.loads(file.read_text(encoding="utf-8"))
-    return [Step(one["what"], Effort(**one["effort"]), one["machine"]) for one in read]
+    return [Step(step["what"], Effort(**step["effort"]), step["machine"]) for step in read]
 
 
 def write_steps(file: Path, steps: Sequence[Step]) -> None:

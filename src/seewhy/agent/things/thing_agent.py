@@ -214,7 +214,7 @@ class ThingAgent:
         given = [None] * len(pictures) if boxes is None else boxes
         for start in range(0, len(pictures), BATCH):
             some = slice(start, start + BATCH)
-            places = [None if one is None else _in_order(one) for one in given[some]]
+            places = [None if order is None else _in_order(order) for order in given[some]]
             for sighting in self.trained.look(pictures[some], places):
                 yield self.reader.read(sighting)
 

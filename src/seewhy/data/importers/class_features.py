@@ -218,9 +218,9 @@ def features_of_parts(pattern: str, classes: Sequence[str]) -> ClassFeatures:
             )
         values[name] = dict(zip(parts, (part.strip() for part in found.groups()), strict=True))
     for part in parts:
-        singular = _singulars({one[part] for one in values.values()})
-        for one in values.values():
-            one[part] = singular.get(one[part], one[part])
+        singular = _singulars({parts_of_class[part] for parts_of_class in values.values()})
+        for parts_of_class in values.values():
+            parts_of_class[part] = singular.get(parts_of_class[part], parts_of_class[part])
     return ClassFeatures(tuple(parts), values, f"the pattern {pattern}")
 
 

@@ -164,9 +164,9 @@ def _looks_like_a_picture(value: str) -> bool:
 def _of_task(source: Source, task: _Task, file: str) -> _Answers:
     answers = _Answers(file)
     completed = [
-        one
-        for one in (task.annotations or task.completions or ())
-        if not (one.was_cancelled or one.skipped)
+        answer
+        for answer in (task.annotations or task.completions or ())
+        if not (answer.was_cancelled or answer.skipped)
     ]
     if not completed:
         return answers
@@ -193,15 +193,17 @@ def _of_record(
         if control in _ABOUT_THE_TASK or value == written:
             continue
         values = value if isinstance(value, list) else [value]
-        for one in values:
-            if isinstance(one, dict):
-                region = {"from_name": control, "value": one}
+        for said in values:
+            if isinstance(said, dict):
+                region = {"from_name": control, "value": said}
                 sides = {
-                    side: one[side] for side in ("original_width", "original_height") if side in one
+                    side: said[side]
+                    for side in ("original_width", "original_height")
+                    if side in said
                 }
                 _add_region(source, answers, [checked(Result, {**region, **sides}, place)])
-            elif not isinstance(one, list):
-                answers.add(control, [known(one)])
+            elif not isinstance(said, list):
+                answers.add(control, [known(said)])
     return answers
 
 
@@ -235,36 +237,38 @@ def _add_region(source: Source, answers: _Answers, results: list[Result]) -> Non
 
 
 def _pictures(source: Source, answers: list[_Answers]) -> Iterator[AnnotatedPicture]:
-    controls = list(dict.fromkeys(control for one in answers for control in one.choices))
+    controls = list(dict.fromkeys(control for answer in answers for control in answer.choices))
     several = {
         control
         for control in controls
-        if any(len(one.choices.get(control, ())) > 1 for one in answers)
+        if any(len(answer.choices.get(control, ())) > 1 for answer in answers)
     }
     single = [control for control in controls if control not in several]
     label = _class_control(source, single, several)
     every = {
         control: list(
-            dict.fromkeys(choice for one in answers for choice in one.choices.get(control, ()))
+            dict.fromkeys(
+                choice for answer in answers for choice in answer.choices.get(control, ())
+            )
         )
         for control in several
     }
-    for one in answers:
+    for answer in answers:
         features: dict[str, str] = {}
         for control in controls:
-            chosen = one.choices.get(control, [])
+            chosen = answer.choices.get(control, [])
             if control in several:
                 # Nothing ticked in a picture that was labelled means that nothing applies.
-                for choice in every[control] if one.answered else ():
+                for choice in every[control] if answer.answered else ():
                     features[choice] = "yes" if choice in chosen else "no"
             elif control != label and chosen:
                 features[control] = chosen[0]
         yield AnnotatedPicture(
-            file=one.file,
-            class_name=next(iter(one.choices.get(label, ())), "") if label else "",
+            file=answer.file,
+            class_name=next(iter(answer.choices.get(label, ())), "") if label else "",
             features=features,
-            boxes=tuple(one.boxes),
-            split=split_in_folders(one.file),
+            boxes=tuple(answer.boxes),
+            split=split_in_folders(answer.file),
             measured_in=(1, 1),
         )
 

@@ -360,7 +360,7 @@ def _all_of(ones: tuple[Reference, ...]) -> Reference:
     """What "they" are."""
     if len(ones) == 1:
         return ones[0]
-    any_of = AnyOf(tuple(Is(one) for one in ones))
+    any_of = AnyOf(tuple(Is(reference) for reference in ones))
     return Reference(Description((any_of,), many=True), References.EVERY)
 
 

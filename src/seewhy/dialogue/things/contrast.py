@@ -160,7 +160,9 @@ def tell_why_not(query: Query, value: Value, wanted: Wanted, words: ThingWords) 
         case Holds(ones=ones, condition=condition) if not isinstance(condition, Is):
             reasons = Reasons(words.evaluation, words)
             leaves = [
-                reasons.judged(number, condition) for one in ones for number in reasons.numbers(one)
+                reasons.judged(number, condition)
+                for reference in ones
+                for number in reasons.numbers(reference)
             ]
             return " ".join(sentence(_denied(leaf)) for leaf in leaves)
         case Together(denied=denied) if denied is bool(value):

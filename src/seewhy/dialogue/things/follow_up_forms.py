@@ -44,7 +44,11 @@ def _follow(asks: str) -> Fold:
     def fold(bindings: Bindings) -> Bindings:
         wanted = meanings(bindings, "wanted")
         other: list[Description | Reference] = [*references_of(bindings)]
-        other += [one for one in meanings(bindings, "described") if isinstance(one, Description)]
+        other += [
+            described
+            for described in meanings(bindings, "described")
+            if isinstance(described, Description)
+        ]
         follow_up = FollowUp(
             asks,
             wanted=wanted[-1] if wanted else None,  # type: ignore[arg-type]

@@ -122,11 +122,11 @@ def numbers_of(ones: Sequence[Reference], evaluation: Evaluation) -> tuple[int, 
         If one refers to a thing that is not there or not one.
     """
     found = 0
-    for one in ones:
-        if one.which is References.THE:
-            found |= 1 << evaluation.the(one)
+    for reference in ones:
+        if reference.which is References.THE:
+            found |= 1 << evaluation.the(reference)
         else:
-            found |= evaluation.fits(one.description).surely
+            found |= evaluation.fits(reference.description).surely
     return tuple(members(found))
 
 
@@ -212,7 +212,9 @@ def _only(scene: ThingScene, chosen: set[int]) -> ThingScene:
     return replace(
         scene,
         count=len(kept),
-        values={key: tuple(column[one] for one in kept) for key, column in scene.values.items()},
+        values={
+            key: tuple(column[number] for number in kept) for key, column in scene.values.items()
+        },
         related=of(scene.related),
         unknown=of(scene.unknown),
         positions=(),

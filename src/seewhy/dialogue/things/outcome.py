@@ -99,14 +99,18 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
             return Outcome(_same_value(query, evaluation))
         case Holds(ones=ones, condition=condition):
             fits = evaluation.fits(Description((condition,)))
-            return Outcome(_all([_holds_of(one, fits, evaluation) for one in ones]), (fits,))
+            return Outcome(
+                _all([_holds_of(reference, fits, evaluation) for reference in ones]), (fits,)
+            )
         case Describe(one=one):
             return Outcome((evaluation.the(one),))
         case Difference():
             return _difference(query, evaluation)
         case Consequence():
             follows = consequences(query, evaluation)
-            return Outcome(None if follows is None else tuple(one.number for one in follows))
+            return Outcome(
+                None if follows is None else tuple(consequence.number for consequence in follows)
+            )
         case Groups():
             return Outcome(_groups(query, evaluation))
         case Together(group=group, ones=ones, denied=denied):
@@ -127,9 +131,9 @@ def outcome_of(query: Query, evaluation: Evaluation) -> Outcome:
 
 def _count_difference(query: CountDifference, evaluation: Evaluation) -> Outcome:
     fits = (evaluation.fits(query.first), evaluation.fits(query.second))
-    first, second = (one.surely.bit_count() for one in fits)
+    first, second = (fitting.surely.bit_count() for fitting in fits)
     more = first - second if query.sign == ">" else second - first
-    return Outcome(more if all(one.known for one in fits) else None, fits)
+    return Outcome(more if all(fitting.known for fitting in fits) else None, fits)
 
 
 def _tallied(query: SharedByMost | MostCommon | Occurring, evaluation: Evaluation) -> Outcome:
@@ -165,7 +169,7 @@ def _completing(query: Completing, evaluation: Evaluation) -> Value:
     found = completions(query, evaluation)
     if found is None:
         return None
-    return tuple(one.number for one in found if one.number is not None)
+    return tuple(completion.number for completion in found if completion.number is not None)
 
 
 def _value_of(feature: str, one: Reference, evaluation: Evaluation) -> Outcome:

@@ -47,7 +47,7 @@ def settled(
     if query.Apart(None) not in description.conditions:
         return description
     others = [c for c in description.conditions if c != query.Apart(None)]
-    referred = [one for condition in others for one in query.references_in(condition)]
+    referred = [reference for condition in others for reference in query.references_in(condition)]
     anchor = referred[0] if referred else antecedent
     apart = () if anchor is None else (query.Apart(anchor),)
     return query.Description((*others, *apart), description.selection, description.many)

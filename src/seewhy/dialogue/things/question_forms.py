@@ -56,7 +56,7 @@ def _descriptions(bindings: Bindings) -> list[Description]:
 def references_of(bindings: Bindings) -> tuple[Reference, ...]:
     """Return the references among some bindings, in order."""
     found = meanings(bindings, "one")
-    return tuple(one for one in found if isinstance(one, Reference))
+    return tuple(reference for reference in found if isinstance(reference, Reference))
 
 
 def conditions_of(bindings: Bindings) -> tuple[Condition, ...]:
@@ -218,7 +218,7 @@ def _the_only(bindings: Bindings) -> Bindings | None:
 def _each_other(bindings: Bindings) -> Bindings | None:
     """Whether several things stand to each other in some way: each of them to every other."""
     ones, relations = references_of(bindings), meanings(bindings, "relation")
-    if len(ones) == 2 and all(one.which is References.THE for one in ones):
+    if len(ones) == 2 and all(reference.which is References.THE for reference in ones):
         return as_query(Holds(ones[:1], Related(str(relations[0]), ones[1])))
     if len(ones) != 1 or ones[0].which is not References.EVERY:
         return None

@@ -83,8 +83,8 @@ class Reasons:
         """Return the reasons of a query's answer, which is said as ``text``."""
         children: list[Node] = []
         told: dict[int, Reference] = {}
-        for one in _references(query):
-            self._add_reference(one, children, told)
+        for reference in _references(query):
+            self._add_reference(reference, children, told)
         for description in _descriptions(query):
             self._add_referred(description.conditions, children, told)
             children += self._described(description)
@@ -142,8 +142,8 @@ class Reasons:
         self, conditions: Sequence[Condition], nodes: list[Node], told: dict[int, Reference]
     ) -> None:
         for condition in conditions:
-            for one in references_in(condition):
-                self._add_reference(one, nodes, told)
+            for reference in references_in(condition):
+                self._add_reference(reference, nodes, told)
 
     def _described(self, description: Description) -> Iterator[Node]:
         """The things that fit a description with what is so of each, and why no others do."""
@@ -317,8 +317,8 @@ class Reasons:
                 yield from self.besides(self.evaluation.the(only), kind.description)
             case Holds(ones=ones, condition=condition):
                 self._add_referred((condition,), nodes, told)
-                for one in ones:
-                    for number in self.numbers(one):
+                for reference in ones:
+                    for number in self.numbers(reference):
                         yield self._so(number, condition, self.words.name(number))
             case Describe(one=one):
                 for number in self.numbers(one):

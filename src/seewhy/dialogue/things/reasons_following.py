@@ -85,8 +85,8 @@ def of_class(query: ClassIs | WhichClass, words: ThingWords) -> Iterator[Node]:
     label = words.evaluation.scene.label
     if label is None and isinstance(query, ClassIs):
         label = query.label
-    for one in words.things.whole.classes if label is None else (label,):
-        yield why_class(one, words)
+    for asked in words.things.whole.classes if label is None else (label,):
+        yield why_class(asked, words)
 
 
 def _named_once(node: Node, names: Sequence[str]) -> Node:
@@ -178,12 +178,12 @@ def of_completing(query: Completing, words: ThingWords) -> Iterator[Node]:
     scene = evaluation.scene
     group = group_of(query, words.things.groups)
     chosen = numbers_of(query.ones, evaluation)
-    for one in completions(query, evaluation) or ():
-        if one.number is not None:
-            yield why_concluded(group.key, sorted((*chosen, one.number)), words)
+    for completion in completions(query, evaluation) or ():
+        if completion.number is not None:
+            yield why_concluded(group.key, sorted((*chosen, completion.number)), words)
         elif scene.conclusions is not None and scene.count < words.things.most:
-            more = with_one_more(scene, evaluation, one.values)
-            names = [*_names(words), with_article(words.described(one.values))]
+            more = with_one_more(scene, evaluation, completion.values)
+            names = [*_names(words), with_article(words.described(completion.values))]
             numbers = (*chosen, scene.count)
             node = scene.conclusions.why(more, group.key, numbers, names)
             yield _named_once(node, [names[number] for number in numbers])

@@ -196,10 +196,10 @@ def _held(query: Holds, outcome: Outcome, words: ThingWords) -> str:
         return clause
     if isinstance(query.condition, Is) and query.ones[0].which is References.EVERY:
         return _only(query.ones[0].description, query.condition.one, outcome, words)
-    subjects = join_words([words.reference(one) for one in query.ones])
-    if not outcome.value and any(one.which is References.EVERY for one in query.ones):
+    subjects = join_words([words.reference(reference) for reference in query.ones])
+    if not outcome.value and any(reference.which is References.EVERY for reference in query.ones):
         return f"not {words.being(query.condition, subjects)}"
-    if not outcome.value and any(one.which is References.SOME for one in query.ones):
+    if not outcome.value and any(reference.which is References.SOME for reference in query.ones):
         some = words.phrase(query.ones[0].description, many=False)
         return words.being(query.condition, f"no {some}")
     if outcome.value and len(query.ones) == 1:

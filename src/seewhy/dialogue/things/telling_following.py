@@ -118,11 +118,13 @@ def say_completing(query: Completing, words: ThingWords) -> str:
     them = words.names(numbers)
     if not found:
         return f"no {words.things.one} makes {with_article(group.one)} with {them}"
-    there = [one.number for one in found if one.number is not None]
+    there = [completion.number for completion in found if completion.number is not None]
     if there:
         verb = "make" if len(there) > 1 else "makes"
         return f"{words.names(there)} {verb} {with_article(group.one)} with {them}"
-    likes = [with_article(words.described(one.values)) for one in found[:_MOST_LISTED]]
+    likes = [
+        with_article(words.described(completion.values)) for completion in found[:_MOST_LISTED]
+    ]
     return (
         f"{join_words(likes, word='or')} would make {with_article(group.one)} with {them}; there "
         "is none here"

@@ -117,14 +117,17 @@ def _common(query: MostCommon, value: object, words: ThingWords) -> str:
     values = [value] if isinstance(value, str) else list(value) if isinstance(value, tuple) else []
     shares = [
         say_share(
-            counted[one].surely.bit_count(), query.described, HasValue(query.feature, one), words
+            counted[common].surely.bit_count(),
+            query.described,
+            HasValue(query.feature, common),
+            words,
         )
-        for one in values
+        for common in values
     ]
     name = _feature(query.feature, words, many=len(values) > 1)
     how = "least" if query.least else "most"
     kind = f"the {how} common {name} of {_the(query.described, words)}"
-    said = join_words([words.value(query.feature, one) for one in values])
+    said = join_words([words.value(query.feature, value) for value in values])
     if len(values) == 1:
         return f"{kind} is {said}: {shares[0]}"
     return f"{kind} are {said}, which tie: {join_words(shares)}"

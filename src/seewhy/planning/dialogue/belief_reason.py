@@ -112,7 +112,11 @@ class Beliefs:
 
     def positive(self, predicate: str | None, step: int) -> list[clingo.Symbol]:
         """The literals of a predicate that are believed of a step and are no denials, sorted."""
-        fixed = (one for one in self.instances.statics if one.positive and one.name == predicate)
+        fixed = (
+            static
+            for static in self.instances.statics
+            if static.positive and static.name == predicate
+        )
         return [*self.diagnosis.states[step].positive(predicate), *sorted(fixed)]
 
     def observed(self, literal: clingo.Symbol, step: int) -> bool:

@@ -100,7 +100,10 @@ class Instances:
         instances = [self._applied(narrowed, binding, facts) for binding in bindings]
         if axiom.has_sentence:
             return instances
-        return [replace(one, axiom=replace(one.axiom, text=str(one.axiom))) for one in instances]
+        return [
+            replace(instance, axiom=replace(instance.axiom, text=str(instance.axiom)))
+            for instance in instances
+        ]
 
     def counted(self, axiom: Axiom, state: Iterable[clingo.Symbol]) -> list[clingo.Symbol]:
         """Return the literals that the aggregates of an axiom without variables count."""

@@ -91,7 +91,7 @@ def which_were(view: RunView, query: Query) -> Told:
     def found(state: State) -> Literals:
         if query.asks is Asks.CONTENTS:
             there = contents(view.domain, state, query.arguments[0] or "")
-            return tuple(one for one in there if one.name in whose or not asks_who)
+            return tuple(robot for robot in there if robot.name in whose or not asks_who)
         return tuple(
             literal
             for literal in state.positive(query.predicate)
@@ -141,7 +141,7 @@ def _known(view: RunView, query: Query, state: State) -> Literals:
             return ()
         arguments[query.whose] = place
     literal = replace(query, arguments=tuple(arguments), whose=None).symbol()
-    return tuple(one for one in (literal, complement_of(literal)) if one in state.holds)
+    return tuple(said for said in (literal, complement_of(literal)) if said in state.holds)
 
 
 def _as_asked(query: Query, believed: Sequence[clingo.Symbol]) -> bool:

@@ -119,7 +119,7 @@ def question_templates(domain: PlanningDomain) -> list[Template]:
     --------
     >>> from seewhy.planning.domain import load_planning_domain
     >>> templates = question_templates(load_planning_domain("robot_assistant"))
-    >>> [one.raw for one in templates if one.predicate == "work_place"][1:7:5]
+    >>> [template.raw for template in templates if template.predicate == "work_place"][1:7:5]
     ['who works in {1}', 'which place does {0} work in']
     """
     return list(dict.fromkeys(_templates(domain)))
@@ -161,7 +161,10 @@ def _about_places(domain: PlanningDomain) -> Iterator[Template]:
 
 def _about_a_relation(domain: PlanningDomain, predicate: Predicate) -> Iterator[Template]:
     say, deny = domain.words.clauses(predicate.name, len(predicate.sorts))
-    place = next((one for one in places(domain) if one.predicate == predicate.name), None)
+    place = next(
+        (place_kind for place_kind in places(domain) if place_kind.predicate == predicate.name),
+        None,
+    )
     for slot, text in asking_for(say, predicate.sorts):
         # Where things are, and what is somewhere, is asked about above.
         is_asked = place is not None and (

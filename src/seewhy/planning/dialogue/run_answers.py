@@ -108,7 +108,8 @@ class RunAnswers:
     >>> domain = load_planning_domain("robot_assistant")
     >>> run = Run(read_goal("loc(rob1, kitchen)", domain.knowledge), domain.history)
     >>> answers = RunAnswers(domain, run)
-    >>> [answers.answer(one).query.asks.value for one in ("where are you?", "what is your plan?")]
+    >>> asked = ("where are you?", "what is your plan?")
+    >>> [answers.answer(question).query.asks.value for question in asked]
     ['where', 'plan']
     """
 

@@ -97,7 +97,11 @@ class RunView:
         """The steps and actions of attempts that failed."""
         errors = self.domain.sensors_err
         found = diagnose(self.domain.knowledge, self.run.history, sensors_err=errors).surprises
-        return {(one.step, one.what) for one in found if one.kind is SurpriseKind.FAILURE}
+        return {
+            (surprise.step, surprise.what)
+            for surprise in found
+            if surprise.kind is SurpriseKind.FAILURE
+        }
 
 
 def fits(query: Query, action: clingo.Symbol) -> bool:

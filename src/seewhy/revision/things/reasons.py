@@ -212,7 +212,7 @@ def _of_query(query: object, things: Things, *, just: bool) -> tuple[Condition, 
             bound = ">=" if sign == "=" and number and not just else sign
             return _counted(_pattern(described, things), bound, number)
         case asked.Holds(ones=ones, condition=condition):
-            return tuple(_holding(one, condition, things) for one in ones)
+            return tuple(_holding(thing, condition, things) for thing in ones)
         case asked.SameValue(feature=feature, first=first, second=second, denied=denied):
             maker = _PatternMaker(things)
             pair = sorted((maker.add(first), maker.add(second)))

@@ -189,7 +189,7 @@ def _figures(project: Project, done: Job, found: Mapping[str, Any], start: int) 
         tiles = wrong_pictures(found, pictures=pictures, changed=changed)
         rows: list[Any] = list(rows_of_things(domain, found))
         return {"rows": rows, "wrong": tiles[some], "more": max(0, len(tiles) - start - TILES)}
-    wrong = [one for one in found["wrong"] if one["image"] in pictures]
+    wrong = [picture for picture in found["wrong"] if picture["image"] in pictures]
     return {
         "rows": list(_rows(domain, found)),
         "wrong": list(_tiles(domain, wrong[some], changed=changed)),
@@ -235,21 +235,21 @@ def _rows(domain: Domain, found: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 def _tiles(
     domain: Domain, wrong: list[Mapping[str, Any]], *, changed: Collection[str]
 ) -> Iterator[Wrong]:
-    for one in wrong:
+    for picture in wrong:
         misread = [
             {**read, "words": domain.features[read["feature"]].name}
-            for read in one["misread"]
+            for read in picture["misread"]
             if read["feature"] in domain.features
         ]
         yield Wrong(
-            one["image"],
-            _said(domain, one["said"]) if one["said"] else "undecided",
-            _said(domain, one["class"]) if one["class"] else "no class",
-            one["class"] is not None and one["said"] != one["class"],
-            one["probability"],
+            picture["image"],
+            _said(domain, picture["said"]) if picture["said"] else "undecided",
+            _said(domain, picture["class"]) if picture["class"] else "no class",
+            picture["class"] is not None and picture["said"] != picture["class"],
+            picture["probability"],
             misread,
             misread[0]["feature"] if misread else CLASS,
-            one["image"] in changed,
+            picture["image"] in changed,
         )
 
 
