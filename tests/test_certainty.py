@@ -158,6 +158,18 @@ def test_an_overruled_network_leaves_doubt(reasoning: Agent) -> None:
     assert reply.least_sure == Ground("lean", "yes", 0.2)
 
 
+@pytest.mark.parametrize(
+    ("class_probability", "concluded"), [(0.6, "Perhaps the tile is good. "), (0.95, "")]
+)
+def test_what_a_tree_concludes_is_told_no_surer_than_it_is(
+    agents: dict[str, Agent], class_probability: float, concluded: str
+) -> None:
+    agent = agents["tiles"]
+    scene = scene_of(agent, ("green", "yes"), {}, class_probability=class_probability)
+    told = agent.answer(scene, agent.questions.understand("please explain this answer")).text
+    assert f"(1 of 2 features tested, 100 % of 8 tiles). {concluded}The answer was chosen" in told
+
+
 def test_what_is_supposed_is_no_doubt_but_what_would_be_seen_is(reasoning: Agent) -> None:
     stable = scene_of(reasoning, ("2", "wide", "no", "no"), {}, class_probability=0.8)
     leaning = scene_of(reasoning, TOPPLES, {"lean": 0.2}, class_probability=0.2)
