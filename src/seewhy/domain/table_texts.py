@@ -44,7 +44,7 @@ def _with_it_alone(text: str) -> str:
 
 
 def _with_value(text: str) -> str:
-    if wrong_slot(with_letters(text), ("it", "value")) is not None or "{value}" not in text:
+    if wrong_slot(text, ("it", "value")) is not None or "{value}" not in text:
         raise ValueError(f"must have the slot {{value}} and may have {{it}}, got '{text}'")
     return text
 
