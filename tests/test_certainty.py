@@ -8,7 +8,7 @@ from itertools import product
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from conftest import QUESTIONS, TRUTH, seen, write_domain
@@ -214,9 +214,7 @@ SCENES = {
 }
 
 
-@settings(
-    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
-)
+@settings(max_examples=150)
 @given(data=st.data(), name=st.sampled_from(["structures", "signs", "tiles"]))
 def test_a_word_says_so_exactly_where_something_is_unsure(
     agents: dict[str, Agent], data: st.DataObject, name: str

@@ -330,7 +330,7 @@ def test_it_complains(tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch)
 WORDS = st.text(min_size=1, max_size=12)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     classes=st.lists(WORDS, min_size=2, max_size=4, unique=True),
     features=st.lists(WORDS, min_size=1, max_size=3, unique=True),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import combinations, product
 
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from knowledge_builders import CLASSES, Rule, World, worlds
@@ -21,7 +21,7 @@ VALUES = (("a", "b"), ("x", "y"), ("1", "2", "3"))
 SPACE: list[FeatureVector] = list(product(*VALUES))
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=200)
 @given(counts=st.lists(st.integers(0, 30), min_size=len(SPACE), max_size=len(SPACE)))
 def test_what_never_goes_together(counts: list[int]) -> None:
     """The definition, written out, scene by scene."""
@@ -79,13 +79,7 @@ def by_trying(
     return {candidate for candidate in can or of_class if distance(candidate) == least}
 
 
-@settings(
-    max_examples=40,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+@settings(max_examples=40)
 @given(
     world=worlds(costly=True),
     often=st.lists(st.sampled_from([0, 0, 0, 1, 40]), min_size=12, max_size=12),
