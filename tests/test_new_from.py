@@ -377,6 +377,20 @@ def test_whatever_the_words_the_domain_works(
         assert agent.answer(seen(agent, *values_of), question).text
 
 
+def test_a_class_and_a_value_may_be_called_like_what_is_shown(tmp_path: Path) -> None:
+    table = "class,shape\napple,apple\npear,long\n"
+    named = NamedDomain(("apple", "pear"), {}, table, subject="the apple")
+    domain_from_names(named, tmp_path / "fruit", data="photos")
+    domain = load_domain(tmp_path / "fruit")
+    assert list(map(str, domain.knowledge.axioms)) == [
+        "of_kind(S, apple) if shape(S, apple).",
+        "of_kind(S, pear) if shape(S, long).",
+    ]
+    agent = Agent(domain)
+    why = agent.answer(seen(agent, "apple"), agent.questions.understand("why is it an apple?"))
+    assert why.text == "The shape of the apple is apple."
+
+
 def test_long_names_are_written_as_they_are_read(tmp_path: Path) -> None:
     """The line of a sort is broken behind a value, however long its name is."""
     question = (
