@@ -1,5 +1,6 @@
 # make demo   the whole way once, from simulated pictures to demo/report.html
 # make test   install and run the tests
+# make hunt   the properties with random examples, ROUNDS times over
 # make lint   style and types
 # make dist   what is published: wheel and sdist in dist/, checked
 # make bench  the speed of the reasoner, beside plain clingo
@@ -10,10 +11,11 @@
 PYTHON ?= python3
 DOMAIN ?= structure_stability
 OUT ?= demo
+ROUNDS ?= 3
 VENV := .venv
 INSTALLED := $(VENV)/.installed
 
-.PHONY: demo test lint dist bench figures tutorials docs clean
+.PHONY: demo test hunt lint dist bench figures tutorials docs clean
 
 $(INSTALLED): pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else "SeeWhy needs Python 3.11 or newer, found " + sys.version.split()[0] + "; name one with make PYTHON=...")'
@@ -27,6 +29,10 @@ demo: $(INSTALLED)
 # Compiled once, and not by each of the processes that tests start.
 test: $(INSTALLED)
 	PYTHONDONTWRITEBYTECODE= $(VENV)/bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
+
+# What fails is tried first by the next hunt.
+hunt: $(INSTALLED)
+	for round in $$(seq $(ROUNDS)); do $(VENV)/bin/python -m pytest tests -m hypothesis --hypothesis-profile=random --numprocesses auto --maxprocesses 4 --dist loadfile || exit 1; done
 
 lint: $(INSTALLED)
 	$(VENV)/bin/ruff check .

@@ -30,6 +30,7 @@ os.environ["SEEWHY_PROGRESS_SECONDS"] = "3600"
 
 from PIL import Image, ImageDraw
 
+from hypothesis_profiles import register
 from seewhy.agent.agent import Agent
 from seewhy.agent.things.thing_agent import ThingAgent
 from seewhy.cli.main import main
@@ -47,6 +48,8 @@ from things_builder import write_shelf
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
+
+register()
 
 DOMAIN = """\
 [domain]

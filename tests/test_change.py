@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import product
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from knowledge_builders import CLASSES, VALUES, Rule, World, schema_of, worlds
@@ -59,13 +59,7 @@ def by_trying(world: World, vector: FeatureVector, label: str) -> list[tuple[int
 )
 @example(world=WITH_COMPANY, scenes=[0, 20, 30])
 @example(world=BY_DEFAULT, scenes=[0, 5, 17, 35])
-@settings(
-    max_examples=30,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+@settings(max_examples=30)
 def test_no_vector_is_nearer(world: World, scenes: list[int]) -> None:
     # One finder for all, so that what it ruled out once must not be missing later.
     finder = ChangeFinder(Reasoner(world.knowledge, world.schema))

@@ -209,7 +209,7 @@ def test_all_systems_get_the_same_pictures(
     assert "Of 100.0 % of the pictures (e) decides on no class; they count as wrong." in report
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     st.lists(st.sampled_from("aabc"), min_size=1, max_size=40),
     st.integers(0, 5),

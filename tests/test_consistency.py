@@ -6,7 +6,7 @@ from dataclasses import replace
 from itertools import chain, combinations
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given, settings
 
 from knowledge_builders import Rule, World, opposite, schema_of, worlds
 from seewhy.errors import KnowledgeError
@@ -14,13 +14,7 @@ from seewhy.knowledge.consistency import check_consistency, never_applies
 from seewhy.knowledge.language import Knowledge, read_knowledge
 from seewhy.knowledge.scene import FeatureVector, SceneSchema
 
-thorough = settings(
-    max_examples=25,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+thorough = settings(max_examples=25)
 # The last axiom can be used: where f holds, the default is given up.
 DEFEATED = World(
     (

@@ -203,7 +203,7 @@ def test_a_long_line_takes_no_time(line: str) -> None:
     assert seconds(lambda: line_of(line, ("a",))) < 0.5
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(data=st.data())
 def test_whatever_is_done_to_a_folder_it_is_read_or_refused(
     tmp_path_factory: pytest.TempPathFactory, data: st.DataObject

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from seewhy.agent.agent import Agent
@@ -45,7 +45,6 @@ def by_hand(trained: np.ndarray, values: list[str | None], shown: np.ndarray, va
     return max(found)
 
 
-@settings(deadline=None)
 @given(seed=st.integers(0, 10_000), count=st.integers(0, 12))
 def test_the_likeness_is_the_nearest_cosine_of_the_value_read(seed: int, count: int) -> None:
     trained, shown = embeddings(8, seed=seed), embeddings(count, seed=seed + 1)
@@ -219,7 +218,6 @@ def pictures_of(labels: list[str | None]) -> list[TrainingPicture]:
     ]
 
 
-@settings(deadline=None)
 @given(seed=st.integers(0, 10_000), count=st.integers(1, 9))
 def test_the_nearest_are_those_with_the_greatest_cosine(seed: int, count: int) -> None:
     trained, shown = embeddings(8, seed=seed)["colour"], embeddings(1, seed=seed + 1)["colour"][0]

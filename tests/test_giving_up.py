@@ -85,7 +85,7 @@ def in_the_way(
     return found
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(known=WORLDS, goal=SIGNED, seen=SEEN)
 def test_what_is_doubted_is_what_trying_every_age_finds(
     known: Knowledge, goal: str, seen: list[tuple[str, bool, int]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
-from hypothesis import HealthCheck, Phase, example, given, settings
+from hypothesis import Phase, example, given, settings
 
 from knowledge_builders import Rule, World, facts, opposite, schema_of, worlds
 from seewhy.knowledge.axiom import Literal
@@ -16,14 +16,7 @@ from seewhy.knowledge.scene import FeatureVector
 from seewhy.knowledge.why import contradiction, why
 from seewhy.knowledge.why_not import why_not
 
-thorough = settings(
-    phases=(Phase.explicit, Phase.generate),
-    max_examples=25,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+thorough = settings(phases=(Phase.explicit, Phase.generate), max_examples=25)
 CIRCLE = World(
     (
         Rule("p(S)", ("q(S)",)),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import clingo
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from conftest import KNOWLEDGE, write_domain
@@ -307,13 +307,7 @@ def accepted(text: str) -> bool:
     return True
 
 
-fuzzed = settings(
-    max_examples=150,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+fuzzed = settings(max_examples=150)
 
 
 @given(text=st.one_of(texts, texts.map((SIGNATURE + "\n").__add__), st.text(max_size=40)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, assume, example, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from knowledge_builders import SIGNATURE, World, worlds
@@ -96,7 +96,7 @@ def test_what_is_read_is_written_and_read_again(text: str) -> None:
 
 
 @given(world=worlds())
-@settings(max_examples=50, deadline=None, derandomize=True, database=None)
+@settings(max_examples=50)
 def test_random_axioms_are_written_and_read_again(world: World) -> None:
     again = read_knowledge(SIGNATURE + "\n".join(written(world.knowledge)))
     assert list(map(meaning, again.axioms)) == list(map(meaning, world.knowledge.axioms))
@@ -596,13 +596,7 @@ def mutations(draw: st.DrawFn) -> str:
 @given(text=mutations())
 @example(text=VALID)
 @example(text=VALID.replace("lean(S),", "lean(S), ☂"))
-@settings(
-    max_examples=400,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+@settings(max_examples=400)
 def test_whatever_is_typed_is_read_or_refused_in_one_sentence(text: str) -> None:
     try:
         knowledge = read_knowledge(text)
@@ -623,7 +617,7 @@ def test_whatever_is_typed_is_read_or_refused_in_one_sentence(text: str) -> None
 
 
 @given(text=st.text(st.characters(codec="utf-8"), max_size=40))
-@settings(max_examples=150, deadline=None, derandomize=True, database=None)
+@settings(max_examples=150)
 def test_any_text_is_a_literal_or_is_not(text: str) -> None:
     try:
         literal = read_literal(text)

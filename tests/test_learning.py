@@ -84,7 +84,7 @@ def test_two_rules_are_found_as_they_are() -> None:
     }
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(data=st.data())
 def test_nothing_learned_is_wrong_about_the_scenes_it_was_learned_from(data: st.DataObject) -> None:
     rows = data.draw(st.lists(st.sampled_from(SPACE), min_size=4, max_size=60))
@@ -103,7 +103,7 @@ def test_nothing_learned_is_wrong_about_the_scenes_it_was_learned_from(data: st.
     ]
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(data=st.data())
 def test_no_condition_can_be_left_out_of_what_is_generalised(data: st.DataObject) -> None:
     rows = data.draw(st.lists(st.sampled_from(SPACE), min_size=1, max_size=30, unique=True))
@@ -300,7 +300,7 @@ def test_rules_that_apply_together_are_learned_one_by_one() -> None:
     }
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(data=st.data())
 def test_what_is_learned_asks_nothing_that_no_reason_names(data: st.DataObject) -> None:
     of = {v: data.draw(st.sampled_from(["up", "down"])) for v in SPACE}
@@ -546,7 +546,7 @@ def test_alternatives_become_an_axiom_each_and_what_is_excluded_is_denied() -> N
     assert axiom_statement(one, signs.schema).endswith(f"if -shape(S, {shapes[-1]}).")
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(data=st.data())
 def test_a_statement_says_what_its_candidate_says(structures: Domain, data: st.DataObject) -> None:
     conditions = []

@@ -122,8 +122,6 @@ def spoiling(model_folder: Path, tmp_path: Path) -> Callable[[], Path]:
 
 FUZZ = settings(
     max_examples=60,
-    deadline=None,
-    derandomize=True,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 

@@ -304,7 +304,7 @@ def shortest(edges: list[tuple[str, str]], locked: list[str], goal: str) -> int 
     return None
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     edges=st.lists(
         st.tuples(st.sampled_from(PLACES), st.sampled_from(PLACES)).filter(lambda e: e[0] != e[1]),
@@ -436,7 +436,7 @@ def reaches_whatever_is_unknown(
     return True
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     known=WORLDS,
     goal=bodies(ANY, 1),

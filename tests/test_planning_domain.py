@@ -120,6 +120,22 @@ MISTAKES = {
         'hal = "the hall"',
         "planning.toml:8: 'hal' is of no sort; did you mean 'hall'?",
     ),
+    "a thing called by no word": (
+        'hall = "the hall"',
+        'hall = "★"',
+        "planning.toml:8: 'things.hall': must have a letter or a digit, got '★'",
+    ),
+    "a clause that is nothing but its slots": (
+        'say = "{0} is in {1}"',
+        'say = "{0} {1}"',
+        "planning.toml:11: 'fluents.at.say': must have a letter or a digit beside its slots, got "
+        "'{0} {1}'",
+    ),
+    "an instruction of no word": (
+        'do = "move to {1}"',
+        'do = ""',
+        "planning.toml:15: 'actions.move.do': must have a letter or a digit, got ''",
+    ),
     "a fluent that there is not": (
         "[fluents.at]",
         "[fluents.att]",

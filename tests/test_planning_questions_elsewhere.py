@@ -99,6 +99,15 @@ def two(tmp_path_factory: pytest.TempPathFactory) -> tuple[PlanningDomain, Run]:
     return domain, run_to(domain, "carries(rob2, crate), carries(rob1, letter)")
 
 
+def test_a_name_of_which_questions_keep_nothing(tmp_path: Path) -> None:
+    """Who is called "the" is asked about by the name of the term, and "his" stands for that."""
+    words = TWO_WORDS.replace('"the second robot"', '"the"') + '\n[possessives]\nrob2 = "his"\n'
+    domain = written(tmp_path, knowledge=TWO_KNOWLEDGE, words=words, history=TWO_HISTORY)
+    run = run_to(domain, "carries(rob2, crate)")
+    told = answer(domain, run, "is rob2 in his location?").query
+    assert (told.predicate, told.arguments) == ("at", ("rob2", "rob2"))
+
+
 TO_THE_ATTIC = (
     'because I wanted to {}fetch the crate. Otherwise I could not have done that: "a robot fetches '
     'what lies where it is", and {} was in the hall and the crate did not lie in the hall.'

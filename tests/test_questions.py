@@ -153,7 +153,7 @@ def _mistyped(draw: st.DrawFn) -> tuple[str, str]:
     return text, text[:start] + edited + text[end:]
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(_mistyped())
 def test_a_typing_error_never_asks_something_else(pair: tuple[str, str]) -> None:
     text, mistyped = pair
@@ -233,13 +233,13 @@ def test_what_is_no_question_is_refused(text: str, message: str) -> None:
         QUESTIONS.understand(nearest)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.text(max_size=400))
 def test_any_text_is_understood_or_refused(text: str) -> None:
     asked(text)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(
     st.lists(st.sampled_from(["is", "it", "not", "stable", "unstable", "why", "base"])).map(
         " ".join

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from conftest import draw_tile, one_process, write_domain
@@ -34,9 +34,7 @@ from seewhy.knowledge.scene import FeatureVector
 from seewhy.report.card import draw_card
 
 SPACE: list[FeatureVector] = list(product(*VALUES.values()))
-many = settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
-)
+many = settings(max_examples=60)
 
 
 @st.composite

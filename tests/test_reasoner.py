@@ -8,20 +8,14 @@ from itertools import product
 
 import clingo
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given, settings
 
 from knowledge_builders import Rule, World, facts, schema_of, solve, worlds
 from seewhy.knowledge.language import read_knowledge
 from seewhy.knowledge.reasoner import Decision, Minimality, Reasoner, Verdict
 from seewhy.knowledge.scene import SceneSchema
 
-thorough = settings(
-    max_examples=25,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+thorough = settings(max_examples=25)
 MINIMALITIES: tuple[Minimality, ...] = ("cardinality", "inclusion")
 
 # One world for every verdict; hypothesis may or may not come by them.

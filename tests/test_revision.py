@@ -354,7 +354,7 @@ LINE_ENDS = {"lf": KNOWLEDGE, "crlf": "\ufeff" + KNOWLEDGE.replace("\n", "\r\n")
              "no end": KNOWLEDGE.rstrip()}  # fmt: skip
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 @given(data=st.data())
 def test_what_is_taken_and_taken_back_leaves_nothing(
     data: st.DataObject, tmp_path_factory: pytest.TempPathFactory

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from conftest import TRUTH, draw_tile, seen
@@ -34,9 +34,7 @@ from test_reading import SPACE, distributions, logarithm
 # What else a picture may be -----------------------------------------------------------------
 
 
-@settings(
-    max_examples=80, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
-)
+@settings(max_examples=80)
 @given(
     world=worlds(),
     sure=distributions(),
@@ -407,9 +405,7 @@ def learned(tiles: Domain) -> Agent:
     return agent
 
 
-@settings(
-    max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
-)
+@settings(max_examples=120)
 @given(
     data=st.data(),
     rule=st.sampled_from(["argmax", "consistent", "with_class"]),
@@ -460,9 +456,7 @@ def test_nothing_is_supposed_silently_however_pictures_are_read(
             assert reply.certainty.adverb in reply.text.casefold()
 
 
-@settings(
-    max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
-)
+@settings(max_examples=120)
 @given(data=st.data(), rule=st.sampled_from(["argmax", "consistent", "with_class"]))
 def test_what_a_tree_is_in_doubt_about_is_not_supposed_silently_either(
     learned: Agent, data: st.DataObject, rule: str
@@ -491,9 +485,7 @@ def test_what_a_tree_is_in_doubt_about_is_not_supposed_silently_either(
     assert (plain.certainty is Certainty.SURE) <= (probable[scene.label] >= SURE_FROM - 2e-3)
 
 
-@settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
-)
+@settings(max_examples=60)
 @given(data=st.data())
 def test_the_classes_of_a_picture_read_feature_by_feature(data: st.DataObject) -> None:
     """Against going through all vectors; shares of open ones count as the tree would say."""

@@ -56,7 +56,7 @@ def test_classes_that_features_tell_apart_are_not_pruned_together() -> None:
     }
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.lists(st.tuples(VECTORS, st.sampled_from(["up", "down", "aside"])), min_size=1))
 def test_every_scene_satisfies_its_path_and_no_other(
     scenes: list[tuple[tuple[str, ...], str]],
@@ -78,7 +78,7 @@ def test_every_scene_satisfies_its_path_and_no_other(
             assert condition.values
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.lists(st.tuples(PARTLY_KNOWN, st.sampled_from(["up", "down"])), min_size=1))
 def test_unknown_values_are_classified_and_said(
     scenes: list[tuple[tuple[str | None, ...], str]],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given, settings
 
 from knowledge_builders import CLASSES, Rule, World, worlds
 from seewhy.knowledge import nearest_instances as module
@@ -16,13 +16,7 @@ NOTHING_OPEN = World((Rule("p(S)", ("f(S)", "not g(S, dark)")), Rule("p(S)", ("-
 
 @given(world=worlds())
 @example(world=NOTHING_OPEN)
-@settings(
-    max_examples=25,
-    deadline=None,
-    derandomize=True,
-    database=None,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
-)
+@settings(max_examples=25)
 def test_looking_up_and_solving_agree(world: World) -> None:
     reasoner = Reasoner(world.knowledge, world.schema)
     literals = [read_literal(text) for text in CLASSES[world.classes].values()]
@@ -38,7 +32,7 @@ def test_looking_up_and_solving_agree(world: World) -> None:
 
 
 @given(world=worlds(defaults=False))
-@settings(max_examples=25, deadline=None, derandomize=True, database=None)
+@settings(max_examples=25)
 def test_the_shortfall_is_that_of_the_nearest_axiom(world: World) -> None:
     reasoner = Reasoner(world.knowledge, world.schema)
     for vector in world.vectors[::7]:

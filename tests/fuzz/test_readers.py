@@ -29,7 +29,7 @@ def test_the_corpus_is_read(name: str, home: Path) -> None:
 
 
 @pytest.mark.parametrize("name", NAMED)
-@settings(max_examples=30, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(max_examples=30, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_any_bytes(name: str, data: st.DataObject, home: Path) -> None:
     NAMED[name].survive(data.draw(inputs(NAMED[name].corpus())), home)

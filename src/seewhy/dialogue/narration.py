@@ -102,9 +102,12 @@ def _steps(node: Node, said: _Said) -> list[str]:
     tree = next((descendant for descendant in node.walk() if descendant.basis is Basis.TREE), None)
     if tree is not None:
         path, *learned, undecided = tree.children
+        concluded = said.clause(tree)
         return [
             _why_undecided(undecided),
             f"so the decision tree is asked: {path.text}",
+            # The path says what is so of such scenes; of this one it may not be sure.
+            *([concluded] if concluded != tree.text else []),
             *(child.text for child in learned),
             *_axioms(node, said),
         ]

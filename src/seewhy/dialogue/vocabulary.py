@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 from seewhy.dialogue.grammar_file import around_phrases, aside_phrases
 from seewhy.dialogue.inflection import ARTICLES, lemma, lemmas, stem_of
@@ -10,7 +11,7 @@ from seewhy.dialogue.question_words import words_of
 from seewhy.domain.domain import Domain
 from seewhy.errors import DomainError
 
-__all__ = ["MANY", "SUBJECTS", "Vocabulary", "without_articles"]
+__all__ = ["MANY", "SUBJECTS", "Vocabulary", "says_something"]
 
 MANY = "many_of_its_kind"
 """What the grammar reads for a noun in the plural: "structures" are not the one that is shown."""
@@ -75,17 +76,7 @@ class Vocabulary:
         self._synonyms = _by_first(
             [(_lemmas(other), _lemmas(canonical)) for other, canonical in pairs]
         )
-        # "Clearly" says nothing of a picture, where "clear" may.
-        self._adverbs = frozenset(
-            phrase for phrase in aside_phrases() if " " not in phrase and phrase.endswith("ly")
-        )
-        self._aside = _by_first(
-            [
-                (_lemmas(words_of(phrase)), ())
-                for phrase in aside_phrases()
-                if phrase not in self._adverbs
-            ]
-        )
+        self._adverbs, self._aside = _asides()
         self._before, self._behind = (
             frozenset(_lemmas(words_of(phrase)) for phrase in phrases)
             for phrases in around_phrases()
@@ -113,7 +104,7 @@ class Vocabulary:
 
     def for_templates(self, text: str) -> tuple[str, ...]:
         """Return the words of a text as templates and the recurrent network read them."""
-        tokens = self._own_places(without_articles(words_of(text)))
+        tokens = self._own_places(_without_articles(words_of(text)))
         stems = _replaced([stem_of(token) for token in tokens], self._for_templates)
         words: list[str] = []
         for stem in stems:
@@ -126,7 +117,7 @@ class Vocabulary:
         """Return the words of a text without inflections, synonyms and what may be left out."""
         words = [
             part
-            for word in without_articles(words_of(text))
+            for word in _without_articles(words_of(text))
             for part in _of_owner(word)
             if part not in self._adverbs
         ]
@@ -252,7 +243,31 @@ class Vocabulary:
         return words
 
 
-def without_articles(words: Sequence[str]) -> list[str]:
+def says_something(text: str) -> bool:
+    """Whether anything is left of a text without what questions may leave out in any domain.
+
+    Examples
+    --------
+    >>> [says_something(text) for text in ("the apple", "the", "★", "er", "honestly")]
+    [True, False, False, False, False]
+    """
+    adverbs, aside = _asides()
+    words = [word for word in _without_articles(words_of(text)) if word not in adverbs]
+    return bool(_replaced(lemmas(words), aside))
+
+
+@cache
+def _asides() -> tuple[frozenset[str], dict[str, list[_Pair]]]:
+    """Adverbs and phrases that may stand in any question and change nothing of it."""
+    # "Clearly" says nothing of a picture, where "clear" may.
+    adverbs = frozenset(
+        phrase for phrase in aside_phrases() if " " not in phrase and phrase.endswith("ly")
+    )
+    phrases = [phrase for phrase in aside_phrases() if phrase not in adverbs]
+    return adverbs, _by_first([(_lemmas(words_of(phrase)), ()) for phrase in phrases])
+
+
+def _without_articles(words: Sequence[str]) -> list[str]:
     """Words without articles; "the only one" is not "only one"."""
     return [
         "sole" if before == "the" and word == "only" else word
@@ -303,7 +318,7 @@ def _check_words(domain: Domain) -> None:
         ("subject", domain.subject, "the apple"),
         ("scene", domain.scene, "apple"),
     ):
-        if not without_articles(words_of(said)):
+        if not _without_articles(words_of(said)):
             raise DomainError(
                 f"{domain.folder / 'domain.toml'}: {key} = '{said}' has no word; "
                 f'write one such as "{example}"'

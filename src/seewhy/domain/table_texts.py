@@ -2,17 +2,33 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated
 
 from pydantic import AfterValidator, BaseModel, ConfigDict
 
 from seewhy.text.slots import wrong_slot
 
+_SLOT = re.compile(r"\{\w*\}")
 
-def _with_letters(word: str) -> str:
-    if not any(character.isalnum() for character in word):
-        raise ValueError(f"must have a letter or a digit, got '{word}'")
-    return word
+
+def with_letters(text: str) -> str:
+    """Return a text that says something by itself, beside what its slots are filled with.
+
+    Raises
+    ------
+    ValueError
+        If it does not.
+
+    Examples
+    --------
+    >>> with_letters("{it} leans")
+    '{it} leans'
+    """
+    if not any(character.isalnum() for character in _SLOT.sub("", text)):
+        beside = " beside its slots" if _SLOT.search(text) else ""
+        raise ValueError(f"must have a letter or a digit{beside}, got '{text}'")
+    return text
 
 
 def _without_control(name: str) -> str:
@@ -22,13 +38,13 @@ def _without_control(name: str) -> str:
 
 
 def _with_it_alone(text: str) -> str:
-    if wrong_slot(_with_letters(text), ("it",)) is not None:
+    if wrong_slot(with_letters(text), ("it",)) is not None:
         raise ValueError(f"{{it}} is the only slot that there is, got '{text}'")
     return text
 
 
 def _with_value(text: str) -> str:
-    if wrong_slot(_with_letters(text), ("it", "value")) is not None or "{value}" not in text:
+    if wrong_slot(text, ("it", "value")) is not None or "{value}" not in text:
         raise ValueError(f"must have the slot {{value}} and may have {{it}}, got '{text}'")
     return text
 
@@ -39,7 +55,8 @@ def _without_braces(text: str) -> str:
     return text
 
 
-Word = Annotated[str, AfterValidator(_with_letters), AfterValidator(_without_braces)]
+Spoken = Annotated[str, AfterValidator(with_letters)]
+Word = Annotated[Spoken, AfterValidator(_without_braces)]
 Label = Annotated[str, AfterValidator(_without_braces)]
 Key = Annotated[str, AfterValidator(_without_control)]
 Clause = Annotated[str, AfterValidator(_with_it_alone)]

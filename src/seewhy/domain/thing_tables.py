@@ -8,7 +8,7 @@ from typing import Literal as OneOf
 
 from pydantic import AfterValidator, Field
 
-from seewhy.domain.table_texts import Clause, Key, StrictTable, Word
+from seewhy.domain.table_texts import Clause, Key, Spoken, StrictTable, Word
 from seewhy.text.slots import wrong_slot
 
 Measure = OneOf[
@@ -41,7 +41,7 @@ def _with_them(text: str) -> str:
     return text
 
 
-GroupClause = Annotated[str, AfterValidator(_with_them)]
+GroupClause = Annotated[Spoken, AfterValidator(_with_them)]
 
 
 def _beside_the_domain(name: str) -> str:
@@ -55,7 +55,7 @@ def _beside_the_domain(name: str) -> str:
 
 OnnxFile = Annotated[str, AfterValidator(_beside_the_domain)]
 
-RelationClause = Annotated[str, AfterValidator(_with_two_things)]
+RelationClause = Annotated[Spoken, AfterValidator(_with_two_things)]
 
 
 class ThingValueTable(StrictTable):

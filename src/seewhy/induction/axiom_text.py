@@ -51,7 +51,7 @@ def axiom_statement(candidate: Candidate, schema: SceneSchema) -> str:
     ...                                        PathCondition("lean", ("yes",)))), schema)
     '-stable(S) if num_blocks(S, N), N > 3, lean(S).'
     """
-    head = _of_scene(schema.classes[candidate.label], schema)
+    head = schema.of_any_scene(schema.classes[candidate.label])
     parts: list[str] = []
     variables = (f"N{n}" if n else "N" for n in range(len(candidate.conditions)))
     for condition in candidate.conditions:
@@ -75,11 +75,11 @@ def condition_text(condition: PathCondition, schema: SceneSchema, *, number: str
     """
     literals = schema.features[condition.feature]
     if len(condition.values) == 1:
-        return str(_of_scene(literals[condition.values[0]], schema))
+        return str(schema.of_any_scene(literals[condition.values[0]]))
     if _is_compared(condition, schema):
         return _compared(condition.values, literals, number, schema)
     excluded = (literal for value, literal in literals.items() if value not in condition.values)
-    return ", ".join(str(_of_scene(literal.complement, schema)) for literal in excluded)
+    return ", ".join(str(schema.of_any_scene(literal.complement)) for literal in excluded)
 
 
 def _is_compared(condition: PathCondition, schema: SceneSchema) -> bool:
@@ -90,14 +90,6 @@ def _is_one(condition: PathCondition, schema: SceneSchema) -> bool:
     """Whether one conjunction says that the value is among several."""
     literals = schema.features[condition.feature]
     return _are_numbers(literals) or len(literals) < 2 * len(condition.values)
-
-
-def _of_scene(literal: Literal, schema: SceneSchema) -> Literal:
-    """The literal about any scene; other arguments stay what they are."""
-    arguments = tuple(
-        SCENE if argument == schema.scene else argument for argument in literal.arguments
-    )
-    return Literal(literal.predicate, arguments, literal.positive)
 
 
 def _are_numbers(values: Mapping[str, Literal]) -> bool:
@@ -111,7 +103,7 @@ def _compared(
     everything = sorted(map(int, literals))
     allowed = sorted(map(int, values))
     some = literals[values[0]]
-    asked = Literal(some.predicate, (*_of_scene(some, schema).arguments[:-1], variable))
+    asked = Literal(some.predicate, (*schema.of_any_scene(some).arguments[:-1], variable))
     parts = [str(asked)]
     below = [number for number in everything if number < allowed[0]]
     above = [number for number in everything if number > allowed[-1]]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from seewhy.knowledge.axiom import Literal
@@ -52,6 +52,22 @@ class SceneSchema:
     @cached_property
     def _left_out(self) -> dict[str, str]:
         return dict.fromkeys(self.presence.values(), "no")
+
+    def of_any_scene(self, literal: Literal, variable: str = "S") -> Literal:
+        """Return a literal about the scene with a variable in its place.
+
+        A value may be called like the scene: of an apple, "apple" is a kind, too.
+
+        Examples
+        --------
+        >>> schema = SceneSchema("apple", {}, {}, {})
+        >>> str(schema.of_any_scene(Literal("of_kind", ("apple", "apple"))))
+        'of_kind(S, apple)'
+        """
+        arguments = list(literal.arguments)
+        if self.scene in arguments:
+            arguments[arguments.index(self.scene)] = variable
+        return replace(literal, arguments=tuple(arguments))
 
     def shown(self, feature: str, value: str) -> Iterator[str]:
         """Yield the keys of what is believed for a value: its literal, and the others denied."""

@@ -12,8 +12,7 @@ from seewhy.data.importers.class_features import ClassFeatures, read_class_featu
 from seewhy.data.importers.names import same_words
 from seewhy.data.importers.vocabulary import Vocabulary, vocabulary_of
 from seewhy.data.importers.writing import CLASSES, class_table
-from seewhy.dialogue.question_words import words_of
-from seewhy.dialogue.vocabulary import without_articles
+from seewhy.dialogue.vocabulary import says_something
 from seewhy.errors import DatasetError, DomainError
 from seewhy.new_domain.from_pictures import WrittenDomain, write_domain_of
 from seewhy.new_domain.sketch import (
@@ -141,7 +140,7 @@ def domain_from_names(named: NamedDomain, folder: Path, *, data: str) -> Written
     >>> written.classes, written.features
     (2, 1)
     """
-    if not without_articles(words_of(named.subject)):
+    if not says_something(named.subject):
         raise DomainError(f"'{named.subject}' has no word; write one such as 'the apple'")
     said = _table_of(named.table) if named.table.strip() else None
     # What is named is what pictures would show, one a class and one a value.
@@ -191,7 +190,7 @@ def domain_from_names(named: NamedDomain, folder: Path, *, data: str) -> Written
 def _things(named: NamedDomain, vocabulary: Vocabulary) -> SketchThings | None:
     """What is said of the things in a picture; None where it is looked at as a whole."""
     one = in_a_sentence(named.thing)
-    if not without_articles(words_of(one)):
+    if not says_something(one):
         if named.of_things:
             raise DomainError(
                 "things: say what one of them is called, such as 'card', or leave their features "

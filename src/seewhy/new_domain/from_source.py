@@ -21,8 +21,7 @@ from seewhy.data.importers.writing import (
     class_table,
     write_dataset,
 )
-from seewhy.dialogue.question_words import words_of
-from seewhy.dialogue.vocabulary import without_articles
+from seewhy.dialogue.vocabulary import says_something
 from seewhy.errors import DomainError
 from seewhy.new_domain.from_pictures import WrittenDomain, write_domain_of
 from seewhy.new_domain.sketch import look_features, sketch_of
@@ -104,7 +103,7 @@ def new_domain_from(
         If the source cannot be used, shows fewer than two classes, or a folder is taken.
     """
     check_new_folder(folder)
-    if not without_articles(words_of(subject)):
+    if not says_something(subject):
         raise DomainError(f"--subject '{subject}' has no word; write one such as 'the apple'")
     is_dataset = (request.source / TABLE).is_file()
     if not request.format:

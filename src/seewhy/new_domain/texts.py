@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from seewhy.data.importers.names import predicate_name, valid_name
 from seewhy.data.thing import CORNERS
+from seewhy.dialogue.vocabulary import says_something
 from seewhy.new_domain.common_keys import common_keys
 from seewhy.new_domain.proposals import Proposals
 from seewhy.new_domain.sketch import LOOK, Sketch, SketchFeature
@@ -44,7 +45,8 @@ _ABOUT_CLASSES = {
 
 def scene_sort(sketch: Sketch) -> str:
     """Return the sort that stands for the picture; never the name of a feature."""
-    sort = predicate_name(sketch.subject.split()[-1])
+    words = [word for word in sketch.subject.split() if says_something(word)]
+    sort = predicate_name([sketch.subject, *words][-1])
     return sort if sort not in sketch.features else f"shown_{sort}"
 
 
@@ -311,7 +313,7 @@ def _sort_lines(name: str, members: Iterable[str]) -> list[str]:
     lines, line = [], f"#sort {name} = {{"
     for number, member in enumerate(members):
         piece = f"{', ' if number else ''}{member}"
-        if len(line) + len(piece) > _WIDTH:
+        if number and len(line) + len(piece) > _WIDTH:
             lines.append(f"{line},")
             line, piece = "    ", member
         line += piece

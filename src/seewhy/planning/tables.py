@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from seewhy.domain.table_texts import StrictTable
+from seewhy.domain.table_texts import Spoken, StrictTable, Word
 
 Probability = Annotated[float, Field(ge=0.0, le=1.0)]
 Seconds = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
@@ -39,11 +39,11 @@ class FluentTable(StrictTable):
     ``[statics.NAME]`` says the same of statics.
     """
 
-    say: str = Field(
+    say: Spoken = Field(
         description="The clause that says that it holds, as in `{0} is in {1}`; {0}, {1}, … are "
         "its arguments in words.",
     )
-    deny: str | None = Field(
+    deny: Spoken | None = Field(
         default=None,
         description="The clause that says that it does not hold; where left out, `it is not so "
         "that …`.",
@@ -53,15 +53,15 @@ class FluentTable(StrictTable):
 class ActionTable(StrictTable):
     """``[actions.NAME]``: "move to {1}" (``do``), "moved to {1}" (``did``)."""
 
-    do: str | None = Field(
+    do: Spoken | None = Field(
         default=None,
         description="The instruction, as in `move to {1}`; what happens unasked has none.",
     )
-    did: str = Field(
+    did: Spoken = Field(
         description="What was done, as in `moved to {1}`; what happens unasked is said as a whole, "
         "as in `{0} walked to {1}`.",
     )
-    also: tuple[str, ...] = Field(
+    also: tuple[Spoken, ...] = Field(
         default=(),
         description="Other instructions by which goals and questions may name it, as in "
         "`go to {1}`.",
@@ -144,10 +144,10 @@ class PlanningFile(StrictTable):
     """The whole of planning.toml."""
 
     planning: PlanningTable = Field(description="What the domain is called, and who acts.")
-    things: dict[str, str] = Field(
+    things: dict[str, Word] = Field(
         default={}, description="For terms of the knowledge, how they are said."
     )
-    possessives: dict[str, str] = Field(
+    possessives: dict[str, Word] = Field(
         default={},
         description="For a thing, what stands for its name with 's once it was named, as in `her`.",
     )

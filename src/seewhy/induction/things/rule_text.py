@@ -111,10 +111,7 @@ class _Writer:
         self._numbers = count(1)
 
     def of_scene(self, literal: Literal) -> str:
-        arguments = [
-            SCENE if argument == self.schema.scene else argument for argument in literal.arguments
-        ]
-        return str(Literal(literal.predicate, tuple(arguments), literal.positive))
+        return str(self.schema.of_any_scene(literal))
 
     def whole(self, feature: str, value: str, holds: bool) -> str:
         literal = self.schema.features[feature][value]

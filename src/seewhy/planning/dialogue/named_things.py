@@ -68,14 +68,13 @@ class NamedThings:
                 self.sorts[term] = self.sorts.get(term, frozenset()) | {sort.name}
         self._names: dict[tuple[str, ...], str] = {}
         for term in self.sorts:
-            for name in (domain.words.name(term), term.strip('"').replace("_", " ")):
-                self._names.setdefault(tuple(plain_words(words_of(name))), term)
+            for words in self._called(term):
+                self._names.setdefault(words, term)
         self._several: dict[tuple[str, ...], tuple[str, ...]] = {}
         if domain.at_first is not None:
             self._describe(descriptions(domain.at_first))
         if domain.robot:
             self._names.update({(word,): domain.robot for word in _SELF})
-        self._names.pop((), None)
         self._longest = max(map(len, (*self._names, *self._several)), default=1)
         self.located = {
             signature.predicates[place.predicate].sorts[place.place]
@@ -87,12 +86,23 @@ class NamedThings:
         """Take descriptions as names; of those that fit several things it is asked which."""
         for said, terms in called.items():
             words = tuple(plain_words(words_of(said)))
+            if not words:
+                continue
             # "Cube" is a thing of that shape rather than the shape.
             if len(terms) == 1:
                 self._names[words] = terms[0]
             else:
                 self._names.pop(words, None)
                 self._several[words] = terms
+
+    def _called(self, term: str) -> list[tuple[str, ...]]:
+        """What a thing is called in questions, its name first.
+
+        A name of which nothing is left there, such as "the", is none.
+        """
+        names = (self.words.name(term), term.strip('"').replace("_", " "))
+        called = (tuple(plain_words(words_of(name))) for name in names)
+        return [words for words in called if words]
 
     @property
     def vocabulary(self) -> set[str]:
@@ -120,8 +130,8 @@ class NamedThings:
             if word in possessives.values():
                 for thing in self.marked(words[:place]):
                     if isinstance(thing, Thing) and possessives.get(thing.term) == word:
-                        name = plain_words(words_of(self.words.name(thing.term)))
-                        words = [*words[:place], *name[:-1], f"{name[-1]}'s", *words[place + 1 :]]
+                        *name, last = self._called(thing.term)[0]
+                        words = [*words[:place], *name, f"{last}'s", *words[place + 1 :]]
         return words
 
     def _named(self, words: Sequence[str], place: int) -> tuple[Thing, int] | None:

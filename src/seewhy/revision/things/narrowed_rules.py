@@ -12,7 +12,7 @@ from seewhy.domain.things import SEEN, Things
 from seewhy.induction.things.conditions import HasValue, Pattern, Related, There
 from seewhy.induction.things.rule_sentence import say_condition
 from seewhy.induction.things.rule_text import counted_condition
-from seewhy.knowledge.axiom import Axiom, AxiomKind, Literal
+from seewhy.knowledge.axiom import Axiom, AxiomKind
 from seewhy.knowledge.justification import Node
 from seewhy.knowledge.language import read_axioms
 from seewhy.knowledge.reasoner import Decision, Reasoner
@@ -125,7 +125,7 @@ def giving_way(doubted: Doubted, label: str) -> tuple[Asked, ...]:
         scene = _scene_variable(axiom, domain)
         if other is None or other.positive != axiom.head.positive or scene is None:
             continue
-        wanted = _of_variable(concluded.literal, domain.scene, scene)
+        wanted = str(domain.schema.of_any_scene(concluded.literal, scene))
         if f"not {wanted}" in {condition.text for condition in axiom.body}:
             continue
         said = f"unless it is {concluded.say}"
@@ -210,7 +210,7 @@ def _of_the_whole(axiom: Axiom, doubted: Doubted) -> Iterator[Asked]:
         if value is None or _asks(axiom, key, scene):
             continue
         for other in feature.values:
-            literal = _of_variable(domain.schema.features[key][other], domain.scene, scene)
+            literal = str(domain.schema.of_any_scene(domain.schema.features[key][other], scene))
             clause = feature.say[other].replace("{it}", domain.subject)
             if other == value:
                 yield Asked(axiom, Cause.EXCEPTION, f"not {literal}", f"unless {clause}")
@@ -310,12 +310,6 @@ def _scene_variable(axiom: Axiom, domain: Domain) -> str | None:
         if sort == domain.scene and argument in axiom.variables:
             return argument
     return None
-
-
-def _of_variable(literal: Literal, scene: str, variable: str) -> str:
-    """A literal about the picture with a variable in its place."""
-    arguments = tuple(variable if each == scene else each for each in literal.arguments)
-    return str(Literal(literal.predicate, arguments, literal.positive))
 
 
 # Judging -------------------------------------------------------------------------------------
