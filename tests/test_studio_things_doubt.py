@@ -127,6 +127,13 @@ def test_a_rule_in_words(asking: Browser, shown: Project) -> None:
     assert statement in knowledge(shown)
 
 
+def test_a_rule_by_example_is_not_made_of_things(asking: Browser) -> None:
+    sent = {"csrf": asking.csrf, "label": "tidy", "shows": ["light=bright"]}
+    refused = asking.client.post("/rules/example", data=sent)
+    assert refused.status_code == 422
+    assert "the domain has things; say the rule in words" in refused.text
+
+
 def test_rules_are_learned_of_the_labelled_things(asking: Browser, shown: Project) -> None:
     file = shown.folder / "shelf" / "knowledge.al"
     kept = file.read_text().split("%% the picture is untidy")[0]

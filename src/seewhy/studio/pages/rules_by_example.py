@@ -92,6 +92,8 @@ def make(
 ) -> Response:
     """The rules that examples or conditions make, with what each would change."""
     studio = studio_of(request)
+    if studio.project.has_things:
+        raise DomainError("the domain has things; say the rule in words")
     made = rules_from(
         studio.project,
         _knowledge(studio.project),
