@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import os
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -284,8 +286,27 @@ class Shelf(NamedTuple):
 
 @pytest.fixture(scope="session")
 def shelf(tmp_path_factory: pytest.TempPathFactory) -> Shelf:
-    """A model of shapes, trained in seconds."""
-    return trained_shelf(tmp_path_factory.mktemp("things"))
+    """A model of shapes, trained in seconds, once for all processes of pytest; only read it."""
+    base = tmp_path_factory.getbasetemp()
+    home = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    return made_once(home / "things", trained_shelf)
+
+
+def made_once(folder: Path, make: Callable[[Path], Shelf]) -> Shelf:
+    """What is made in a folder by whichever process comes first; the others wait for it."""
+    made, ends = folder / "made.json", time.monotonic() + 300
+    try:
+        folder.mkdir()
+    except FileExistsError:
+        while not made.exists():
+            assert time.monotonic() < ends, f"nobody has made {folder}"
+            time.sleep(0.1)
+        return Shelf(*map(Path, json.loads(made.read_text())))
+    found = make(folder)
+    whole = folder / "made.part"
+    whole.write_text(json.dumps(list(map(str, found))))
+    whole.rename(made)
+    return found
 
 
 def trained_shelf(folder: Path) -> Shelf:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -266,6 +269,32 @@ def test_names_that_are_not_those_of_the_pictures_are_no_names(folder: Path) -> 
     path.write_text(json.dumps(described))
     with pytest.raises(ModelError, match="there must be as many pictures as are counted"):
         Familiarity.load(folder, widths=WIDTHS)
+
+
+COMPARING = """\
+import time
+import numpy as np
+from seewhy.perception.familiarity import fit_familiarity
+
+draw = np.random.default_rng(0).random
+trained = draw((300, 3000), dtype=np.float32)
+familiarity = fit_familiarity({"colour": trained}, {"colour": ["red", "blue"] * 150}, kept=300)
+shown = {"colour": draw((50, 3000), dtype=np.float32)}
+of_all, of_this = time.process_time(), time.thread_time()
+for _ in range(20):
+    familiarity.likeness(shown, {"colour": ["red"] * 50})
+print(time.process_time() - of_all, time.thread_time() - of_this)
+"""
+
+
+def test_comparing_few_pictures_keeps_no_other_core_busy() -> None:
+    # Here all threads are forbidden: see conftest.
+    free = {key: text for key, text in os.environ.items() if key != "OMP_NUM_THREADS"}
+    told = subprocess.run(
+        [sys.executable, "-c", COMPARING], env=free, capture_output=True, text=True, check=True
+    )
+    of_all, of_this = map(float, told.stdout.split())
+    assert of_all - of_this < 0.02 + 0.1 * of_this
 
 
 def test_a_near_picture_as_text_and_json() -> None:

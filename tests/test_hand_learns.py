@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from functools import partial
+from functools import cache, partial
 from itertools import cycle
 from pathlib import Path
 
@@ -79,8 +79,14 @@ def write(folder: Path, texts: Sequence[str]) -> Path:
     return folder
 
 
+@cache
+def learned_of_balls() -> LearnedFromRuns:
+    """What is learned where nothing stays on a ball."""
+    return learn_from_runs(HAND, read(NOTHING_STAYS_ON_A_BALL))
+
+
 def test_that_nothing_stays_on_a_ball_is_learned() -> None:
-    found = learn_from_runs(HAND, read(NOTHING_STAYS_ON_A_BALL))
+    found = learned_of_balls()
     assert learned_text(found.axioms, source="the record of 36 runs") == (
         "% Axioms that 'seewhy learn' found in the record of 36 runs.\n"
         "\n"
@@ -161,7 +167,7 @@ def test_from_chance_nothing_is_learned(seed: int) -> None:
 
 
 def learned_axioms() -> tuple[Axiom, ...]:
-    return learn_from_runs(HAND, read(NOTHING_STAYS_ON_A_BALL)).axioms
+    return learned_of_balls().axioms
 
 
 def test_later_runs_are_counted_to_what_was_learned() -> None:

@@ -99,6 +99,28 @@ def test_many_at_once_are_answered_as_one_by_one(client: TestClient) -> None:
     assert found == [one_by_one[colour] for colour in colours]
 
 
+def test_a_damaged_picture_among_others_is_its_senders_alone(
+    served_agent: Agent, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("seewhy.studio.batches.torch.get_num_threads", lambda: 2)
+    sent = [b"no picture" if number % 3 == 0 else tile("blue") for number in range(36)]
+    with (
+        TestClient(application(served_agent, rules=RULES)) as client,
+        ThreadPoolExecutor(12) as threads,
+    ):
+        found = list(
+            threads.map(lambda content: client.post("/classify", files=shown(content)), sent)
+        )
+        alone = client.post("/classify", files=shown(tile("blue")))
+    assert alone.status_code == 200
+    for content, response in zip(sent, found, strict=True):
+        if content == b"no picture":
+            assert response.status_code == 422
+            assert response.json()["error"].startswith("a.png is not a picture of a known type")
+        else:
+            assert response.json() == alone.json()
+
+
 def test_health_metrics_and_the_description(client: TestClient) -> None:
     assert client.get("/health").json() == {
         "status": "ok",
@@ -222,11 +244,11 @@ class Slow:
     def __getattr__(self, name: str) -> object:
         return getattr(self._agent, name)
 
-    def classify_all(self, pictures: object) -> object:
+    def see(self, pictures: object) -> object:
         import time
 
         time.sleep(0.6)
-        return self._agent.classify_all(pictures)  # type: ignore[arg-type]
+        return self._agent.see(pictures)  # type: ignore[arg-type]
 
 
 def test_time_is_bounded_and_so_is_who_waits(agent: Agent) -> None:
@@ -237,6 +259,8 @@ def test_time_is_bounded_and_so_is_who_waits(agent: Agent) -> None:
             503,
             {"error": "no answer within 0.2 seconds; try again, or raise --seconds"},
         )
+        counted = 'seewhy_requests_total{path="/classify",status="503"} 1.0'
+        assert counted in client.get("/metrics").text
     limits = Limits(seconds=10, waiting=1)
     with (
         TestClient(application(slow, rules=RULES, limits=limits)) as client,

@@ -283,7 +283,9 @@ class ConsistentReading:
         self, relative: NDArray[np.float64], class_scores: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Probabilities of the classes, and of none: shape (pictures, classes + 1)."""
-        mass = (relative @ self._shares) * np.exp(class_scores)
+        from seewhy.perception.matrix_product import matrix_product  # PyTorch comes with it
+
+        mass = matrix_product(relative, self._shares) * np.exp(class_scores)
         found: NDArray[np.float64] = mass / np.maximum(mass.sum(axis=1, keepdims=True), SMALLEST)
         return found
 

@@ -14,6 +14,7 @@ from seewhy.dialogue.reply import Classification, Reply
 
 if TYPE_CHECKING:
     from seewhy.agent.seeing import Picture
+    from seewhy.perception.extractor import Seen
     from seewhy.perception.familiarity import NearPicture
     from seewhy.perception.where import Where
 
@@ -54,7 +55,18 @@ class Inference(Composition):
 
     def classify_all(self, pictures: Pictures) -> list[Classification]:
         """Classify pictures, uint8 of shape (scenes, size, size, 3), of :attr:`picture_size`."""
-        readings, scores = self.reading_by.read_and_score(pictures, self.reading)
+        return self.classify_seen(self.see(pictures))
+
+    def see(self, pictures: Pictures) -> Seen:
+        """Return what networks make of pictures; several threads may look at the same time.
+
+        ``pictures`` is as for :meth:`classify_all`.
+        """
+        return self.seeing.trained.see(pictures)
+
+    def classify_seen(self, seen: Seen) -> list[Classification]:
+        """Classify pictures by what networks make of them."""
+        readings, scores = self.reading_by.read_and_score(seen, self.reading)
         demands = Demands(self.gate, self.unknown_below, self.settings.believed_from(self.domain))
         return self.deciding.classify(readings, scores, demands)
 

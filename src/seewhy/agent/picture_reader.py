@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,9 @@ from seewhy.agent.picture_reading import Reading, read_separately
 from seewhy.agent.reading_weights import UNWEIGHTED
 from seewhy.agent.seeing import Pictures, Seeing, likeness
 from seewhy.domain.reading_rule import ReadingRule
+
+if TYPE_CHECKING:
+    from seewhy.perception.extractor import Seen
 
 __all__ = ["PictureReader"]
 
@@ -49,17 +53,15 @@ class PictureReader:
         return self.read(self.seeing.trained.probabilities(pictures), rule)
 
     def read_and_score(
-        self, pictures: Pictures, rule: ReadingRule
+        self, seen: Seen, rule: ReadingRule
     ) -> tuple[list[Reading], Sequence[float]]:
         """Return what the features of pictures are taken to be, and how like training's they are.
 
         Where every picture is answered, the score is how well a picture fits what is read.
         """
-        if self.seeing.familiarity is None:
-            readings = self.read_pictures(pictures, rule)
-            return readings, [reading.score for reading in readings]
-        seen = self.seeing.trained.see(pictures)
         readings = self.read(seen.probabilities, rule)
+        if self.seeing.familiarity is None:
+            return readings, [reading.score for reading in readings]
         features = self.deciding.known.domain.features
         return readings, likeness(self.seeing.familiarity, seen, readings, features=features)
 

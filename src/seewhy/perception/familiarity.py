@@ -14,6 +14,7 @@ from pydantic import Field, model_validator
 
 from seewhy.errors import ModelError
 from seewhy.files.json_file import Strict
+from seewhy.perception.matrix_product import matrix_product
 from seewhy.perception.weights import REMEDY, Described, check_tensors, read_weights, write_weights
 from seewhy.text.visible import visible
 
@@ -148,7 +149,7 @@ class Known:
         starts = np.cumsum((0, *self.counts[:-1]))
         for start in range(0, len(values), _AT_ONCE):
             part = slice(start, start + _AT_ONCE)
-            cosines = _directions(embeddings[part]) @ self._exact.T
+            cosines = matrix_product(_directions(embeddings[part]), self._exact.T)
             nearest[part, :-1] = np.maximum.reduceat(cosines, starts, axis=1).clip(max=1)
         return nearest[np.arange(len(values)), chosen].astype(np.float64)
 
@@ -163,7 +164,7 @@ class Known:
         """
         if not self.pictures:
             return ()
-        cosines = (_directions(embedding[None]) @ self._exact.T)[0].clip(0, 1)
+        cosines = matrix_product(_directions(embedding[None]), self._exact.T)[0].clip(0, 1)
         order = np.argsort(-cosines, kind="stable")[:count]
         return tuple(NearPicture(self.pictures[n], float(cosines[n])) for n in order)
 

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from seewhy.perception.matrix_product import matrix_product
+
 __all__ = ["Head", "Projection", "fit_head", "fit_projection"]
 
 WIDTH = 200
@@ -40,8 +42,7 @@ class Projection:
     def __call__(self, pooled: npt.NDArray[np.floating]) -> Floats:
         """Embeddings of shape (n, width) → (n, components)."""
         standardised: Floats = ((pooled - self.mean) / self.scale).astype(np.float32)
-        projected: Floats = standardised @ self.components
-        return projected
+        return matrix_product(standardised, self.components)
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +60,7 @@ class Head:
 
     def __call__(self, projected: Floats) -> Floats:
         """Shape (n, components) → logits of shape (n, values)."""
-        logits: Floats = projected @ self.weight.T + self.bias
+        logits: Floats = matrix_product(projected, self.weight.T) + self.bias
         return logits
 
 

@@ -6,16 +6,19 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
+import numpy as np
+import numpy.typing as npt
 import torch
 
 from seewhy.perception.one_thread import one_thread
 
-__all__ = ["Threads", "side_by_side", "threads"]
+__all__ = ["Threads", "even_pieces", "side_by_side", "single_core_threads", "threads"]
 
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")
+Rows = npt.NDArray[Any]
 
 
 @dataclass(frozen=True)
@@ -45,8 +48,22 @@ def threads(count: int) -> Iterator[Threads]:
         if count < 2:
             yield Threads(None)
             return
-        with ThreadPoolExecutor(count, initializer=lambda: torch.set_num_threads(1)) as pool:
+        with single_core_threads(count) as pool:
             yield Threads(pool)
+
+
+def single_core_threads(count: int, *, name: str = "") -> ThreadPoolExecutor:
+    """Threads in each of which PyTorch computes on one core.
+
+    Parameters
+    ----------
+    count : int
+    name : str, optional
+        How the threads are called.
+    """
+    return ThreadPoolExecutor(
+        count, thread_name_prefix=name, initializer=lambda: torch.set_num_threads(1)
+    )
 
 
 def side_by_side(work: Callable[[Piece], Result], pieces: Sequence[Piece]) -> list[Result]:
@@ -62,3 +79,19 @@ def side_by_side(work: Callable[[Piece], Result], pieces: Sequence[Piece]) -> li
     """
     with threads(min(torch.get_num_threads(), len(pieces))) as several:
         return several.map(work, pieces)
+
+
+def even_pieces(rows: Rows, *, most: int) -> list[Rows]:
+    """Rows in pieces of nearly the same size, at most so many each; every thread gets as many.
+
+    Examples
+    --------
+    >>> from seewhy.perception.one_thread import one_thread
+    >>> with one_thread():
+    ...     [len(piece) for piece in even_pieces(np.arange(25), most=8)]
+    [7, 6, 6, 6]
+    """
+    several = torch.get_num_threads()
+    count = -(-len(rows) // most)  # so many at least
+    count = min(len(rows), -(-count // several) * several)
+    return np.array_split(rows, count) if count else []

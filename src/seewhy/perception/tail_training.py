@@ -28,7 +28,7 @@ from seewhy.perception.optimisation import (
     slow_down,
 )
 from seewhy.perception.randomness import seed_of, seeded
-from seewhy.perception.side_by_side import side_by_side
+from seewhy.perception.side_by_side import even_pieces, side_by_side
 from seewhy.perception.stacking import Table, log_probabilities
 from seewhy.perception.tail import Tail
 
@@ -235,6 +235,5 @@ def see_with_tail(tail: Tail, plain: Maps) -> dict[str, Table]:
             }
 
     # No picture at all is one empty piece.
-    pieces = [plain[start : start + _SEEN] for start in range(0, max(1, len(plain)), _SEEN)]
-    parts = side_by_side(see, pieces)
+    parts = side_by_side(see, even_pieces(plain, most=_SEEN) or [plain])
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import cache
 from typing import Any
 
 from pydantic import BaseModel
@@ -102,6 +103,7 @@ def file_references() -> tuple[FileReference, ...]:
     )
 
 
+@cache
 def table_references(schema: type[BaseModel]) -> tuple[TableReference, ...]:
     """Return the tables that a file of some schema may have.
 

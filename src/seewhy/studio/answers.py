@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from seewhy.classification.pictures import ClassifiedPicture
-from seewhy.classification.rows import columns_of, row_of
+from seewhy.classification.rows import Column, row_of
 from seewhy.dialogue.question import Asks, Question
 from seewhy.dialogue.reply import Classification
 from seewhy.domain.assignments import named_values
@@ -53,11 +53,21 @@ def answered(agent: Agent, seen: Seen, question: str) -> dict[str, Any]:
     return {**reply.to_dict(), "nearest": [picture.to_dict() for picture in near]}
 
 
-def classified(agent: Agent, seen: Seen, name: Path) -> dict[str, Any]:
-    """Return the row of ``seewhy classify`` for a picture, column → cell."""
-    found = ClassifiedPicture(name, seen.scene, seen.reasons)
-    cells = row_of(found, agent.domain)
-    return {column.name: cell for column, cell in zip(columns_of(agent.domain), cells, strict=True)}
+def classified(
+    agent: Agent, seen: Seen, name: Path, *, columns: Sequence[Column]
+) -> dict[str, Any]:
+    """Return the row of ``seewhy classify`` for a picture, column → cell.
+
+    Parameters
+    ----------
+    agent : Agent
+    seen : Seen
+    name : Path
+    columns : sequence of Column
+        Those of the agent's domain.
+    """
+    cells = row_of(ClassifiedPicture(name, seen.scene, seen.reasons), agent.domain)
+    return {column.name: cell for column, cell in zip(columns, cells, strict=True)}
 
 
 def explained(agent: Agent, seen: Seen) -> dict[str, Any]:

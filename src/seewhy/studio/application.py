@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import asyncio
-import time
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
-from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -18,11 +15,12 @@ from fastapi.responses import JSONResponse
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
+from seewhy.classification.rows import columns_of
 from seewhy.errors import SeeWhyError
-from seewhy.perception.picture import picture_of_bytes
 from seewhy.studio.access import Access, AccessRules
 from seewhy.studio.answers import Seen, answered, classified, explained, supposed
 from seewhy.studio.batches import Batches, BusyError
+from seewhy.studio.bounded import Bounded
 from seewhy.studio.metrics import Metrics
 
 if TYPE_CHECKING:
@@ -64,6 +62,7 @@ def application(agent: Agent, *, rules: AccessRules, limits: Limits | None = Non
     bounds = limits or Limits()
     batches = Batches(agent, most=bounds.waiting)
     metrics = Metrics()
+    columns = columns_of(agent.domain)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -80,15 +79,7 @@ def application(agent: Agent, *, rules: AccessRules, limits: Limits | None = Non
     )
 
     async def look(image: UploadFile, *, with_reasons: bool = False) -> Seen:
-        content = await image.read()
-        read = partial(
-            picture_of_bytes,
-            content,
-            name=_named(image),
-            size=agent.picture_size,
-            fit=agent.domain.pictures.fit,
-        )
-        return await batches.look(await run_in_threadpool(read), with_reasons=with_reasons)
+        return await batches.look(image.file, name=_named(image), with_reasons=with_reasons)
 
     @app.post("/ask", summary="Answer a question about a picture, with the reasons.")
     async def ask(
@@ -100,7 +91,7 @@ def application(agent: Agent, *, rules: AccessRules, limits: Limits | None = Non
     @app.post("/classify", summary="Classify a picture: a row of the table of `seewhy classify`.")
     async def classify(image: Image) -> dict[str, Any]:
         seen = await look(image, with_reasons=True)
-        return classified(agent, seen, Path(_named(image)))
+        return classified(agent, seen, Path(_named(image)), columns=columns)
 
     @app.post("/explain", summary="Say why a picture is of its class.")
     async def explain(image: Image) -> dict[str, Any]:
@@ -140,21 +131,7 @@ def application(agent: Agent, *, rules: AccessRules, limits: Limits | None = Non
         headers = problem.headers
         return JSONResponse({"error": str(problem.detail)}, problem.status_code, headers)
 
-    @app.middleware("http")
-    async def bounded(
-        request: Request, answer: Callable[[Request], Awaitable[Response]]
-    ) -> Response:
-        path = request.url.path if request.url.path in _PATHS else "other"
-        began = time.perf_counter()
-        try:
-            async with asyncio.timeout(bounds.seconds):
-                response = await answer(request)
-        except TimeoutError:
-            text = f"no answer within {bounds.seconds:g} seconds; try again, or raise --seconds"
-            response = JSONResponse({"error": text}, 503)
-        metrics.note(path, response.status_code, time.perf_counter() - began)
-        return response
-
+    app.add_middleware(Bounded, seconds=bounds.seconds, paths=_PATHS, metrics=metrics)
     app.add_middleware(Access, rules=rules)
     return app
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import socket
@@ -93,6 +94,7 @@ def serve(agent: Agent, service: Service, listening: socket.socket) -> None:
         factory=not one,
         workers=service.workers,
         log_level="warning",
+        access_log=False,
         timeout_keep_alive=30,
         timeout_worker_healthcheck=60,
         limit_concurrency=2048,
@@ -106,11 +108,14 @@ def serve(agent: Agent, service: Service, listening: socket.socket) -> None:
 
 
 def from_environment() -> FastAPI:
-    """Load the model that this process was begun for."""
+    """Load the model that this process was begun for; the processes share the cores."""
+    import torch
+
     from seewhy.agent.agent import Agent
 
     read: Callable[..., Service] = Service
     service = read(**json.loads(os.environ[_SERVICE]))
+    torch.set_num_threads(max(1, torch.get_num_threads() // service.workers))
     return _application(Agent.load(service.model, device=service.device), service)
 
 
@@ -119,4 +124,7 @@ def _application(agent: Agent, service: Service) -> FastAPI:
     from seewhy.studio.application import Limits, application
 
     rules = AccessRules(frozenset(service.hosts), service.token, service.most_bytes)
-    return application(agent, rules=rules, limits=Limits(seconds=service.seconds))
+    answering = application(agent, rules=rules, limits=Limits(seconds=service.seconds))
+    # What is there by now stays: it need not be looked through for garbage ever again.
+    gc.freeze()
+    return answering

@@ -12,7 +12,7 @@ import torch
 import torch.nn.functional as functional
 from torch import nn
 
-from seewhy.perception.side_by_side import side_by_side
+from seewhy.perception.side_by_side import even_pieces, side_by_side
 
 __all__ = ["Backbone", "Embedded", "Tap", "Trunk", "halved", "pool"]
 
@@ -171,11 +171,10 @@ class Backbone:
     def _in_chunks(
         self, pictures: Pictures, look: Callable[[Pictures], Embedded]
     ) -> list[Embedded]:
-        size = CHUNK if self.device.type == "cpu" else ON_DEVICE
-        chunks = [pictures[start : start + size] for start in range(0, len(pictures), size)]
         if self.device.type != "cpu":
-            return [look(chunk) for chunk in chunks]
-        return side_by_side(look, chunks)
+            starts = range(0, len(pictures), ON_DEVICE)
+            return [look(pictures[start : start + ON_DEVICE]) for start in starts]
+        return side_by_side(look, even_pieces(pictures, most=CHUNK))
 
     def _embed(self, pictures: Pictures) -> Embedded:
         sides = {tap.stage: tap.side for tap in self.taps}
