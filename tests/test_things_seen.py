@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from conftest import Run, Shelf
+from conftest import EYES_SIDE, Run, Shelf, trained_shelf
 from seewhy.agent.agent import Agent
 from seewhy.agent.things import thing_fitting
 from seewhy.agent.things.thing_agent import ThingAgent
@@ -21,6 +21,8 @@ from seewhy.data.thing import BoundingBox
 from seewhy.domain.domain import load_domain
 from seewhy.errors import DatasetError, DomainError, ModelError, NotFittedError
 from seewhy.evaluation.things_seen import evaluate_things
+from seewhy.perception.backbones import EMBEDDED, sides_of
+from seewhy.perception.things import regions
 from things_builder import draw_shapes
 
 
@@ -78,6 +80,18 @@ def test_a_model_reads_as_before_it_was_saved(shelf: Shelf, agent: ThingAgent) -
     first, second = agent.read(scene.picture), ThingAgent.load(shelf.model).read(scene.picture)
     assert first.vector == second.vector
     assert [thing.box for thing in first.things] == [thing.box for thing in second.things]
+
+
+def test_things_of_many_pixels_are_seen_in_larger_regions(
+    agent: ThingAgent, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert agent.trained.eyes.side == EYES_SIDE
+    monkeypatch.setattr(regions, "_REDUCED", 0.1)  # as if the pictures had many more pixels
+    shelf = trained_shelf(tmp_path)
+    larger = ThingAgent.load(shelf.model)
+    assert larger.trained.eyes.side == sides_of(EMBEDDED)[-1] > EYES_SIDE
+    scene = Dataset.load(shelf.data, larger.domain).of_split("test").scenes[0]
+    assert larger.read(scene.picture).things
 
 
 def test_boxes_that_are_given_are_taken(shelf: Shelf, agent: ThingAgent) -> None:

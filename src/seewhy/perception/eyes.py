@@ -227,6 +227,7 @@ class Eyes:
             digest="",
             backbone=self.backbone.name,
             backbone_digest=self.backbone.digest,
+            side=self.backbone.side,
             tuned=self.tail is not None,
             features={
                 name: _Feature(
@@ -256,7 +257,7 @@ class Eyes:
         description, tensors = read_weights(
             _Description, number=FORMAT, weights=weights, described=described
         )
-        backbone = load_backbone(description.backbone, device=device)
+        backbone = load_backbone(description.backbone, device=device, side=description.side)
         if backbone.digest != description.backbone_digest:
             raise ModelError(
                 f"{described}: the model was trained with another {backbone.name} than the one "
@@ -336,6 +337,8 @@ class _Description(Described):
 
     backbone: str
     backbone_digest: str
+    side: int | None = None
+    """Of pictures, in pixels; None in models of before, which have the backbone's usual one."""
     tuned: bool
     features: Annotated[dict[str, _Feature], Field(min_length=1)]
 

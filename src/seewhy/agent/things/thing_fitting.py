@@ -13,12 +13,13 @@ from seewhy.agent.things.thing_lessons import (
     is_whole,
     lessons_of,
     require_boxes,
+    shown_boxes,
 )
 from seewhy.agent.things.thing_seeing import ThingSeeing
 from seewhy.agent.training_pictures import require_same_domain
 from seewhy.data.dataset import Dataset
 from seewhy.files.cache_folder import cache_folder
-from seewhy.perception.backbones import load_backbone
+from seewhy.perception.backbones import load_backbone, sides_of
 from seewhy.perception.backbones.backbone import Backbone
 from seewhy.perception.course import Course
 from seewhy.perception.domain_options import given_variations
@@ -31,7 +32,7 @@ from seewhy.perception.things.boxes import Boxes
 from seewhy.perception.things.detector import Detected, Detector, Trust
 from seewhy.perception.things.fitting_detector import fit_detector, fit_trust
 from seewhy.perception.things.fitting_thing_eyes import fit_thing_eyes
-from seewhy.perception.things.regions import LONGEST
+from seewhy.perception.things.regions import LONGEST, region_side
 
 if TYPE_CHECKING:
     from seewhy.domain.domain import Domain
@@ -67,7 +68,7 @@ def fitted_seeing(
     """
     domain = dataset.domain
     scenes = scenes_with_things(dataset, domain)
-    backbone = load_backbone(settings.eyes, device=settings.device)
+    backbone = _of_regions(scenes, settings)
     cache = EmbeddingCache(cache_folder())
     lessons: Lessons = lessons_of(scenes, side=backbone.side, with_places=detector is None)
     eyes = fit_thing_eyes(
@@ -84,8 +85,15 @@ def fitted_seeing(
     else:
         assert detector is not None
         trust = _trust_in(detector, scenes)
-    whole = _whole_eyes(scenes, settings, backbone, cache, course)
+    whole = _whole_eyes(scenes, settings, cache, course)
     return scenes, ThingSeeing(domain, eyes, detector, trust, whole)
+
+
+def _of_regions(scenes: Dataset, settings: Settings) -> Backbone:
+    """What looks at regions, as large as their details ask for."""
+    sides = sides_of(settings.eyes)
+    side = region_side(shown_boxes(scenes), sides) if sides else None
+    return load_backbone(settings.eyes, device=settings.device, side=side)
 
 
 def _trust_in(detector: Detector, scenes: Dataset) -> Trust:
@@ -101,10 +109,11 @@ def _trust_in(detector: Detector, scenes: Dataset) -> Trust:
 
 
 def _whole_eyes(
-    scenes: Dataset, settings: Settings, backbone: Backbone, cache: EmbeddingCache, course: Course
+    scenes: Dataset, settings: Settings, cache: EmbeddingCache, course: Course
 ) -> Eyes | None:
     """Eyes of the picture as a whole and of its class; None where nothing is annotated of it."""
     annotated = scenes.annotated()
+    backbone = load_backbone(settings.eyes, device=settings.device)
     lesson: Lesson | None = None
     if annotated.scenes:
         plain = annotated.of_scenes(annotated.scenes)

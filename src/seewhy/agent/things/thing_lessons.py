@@ -33,6 +33,7 @@ __all__ = [
     "lessons_of",
     "require_boxes",
     "seen_once",
+    "shown_boxes",
 ]
 
 FEWEST = 10
@@ -40,6 +41,8 @@ FEWEST = 10
 
 _MOST = 1500
 """Pictures that teach a detector: more would change it little."""
+
+_SAMPLED = 40  # pictures by which the size of things is told
 
 _BATCH = 64
 
@@ -111,6 +114,26 @@ def require_boxes(dataset: Dataset) -> None:
             f"{file}: {whole} picture{'s have' if whole != 1 else ' has'} a box around each thing; "
             f"to find things, at least {FEWEST} are needed, a hundred if you can"
         )
+
+
+def shown_boxes(dataset: Dataset) -> Boxes:
+    """The boxes of things in some pictures, in pixels of these as they are looked at.
+
+    Raises
+    ------
+    DatasetError, PictureError
+        If no thing has a box; if a file is no picture.
+    """
+    require_boxes(dataset)
+    boxed = [scene for scene in dataset.scenes if any(thing.box for thing in scene.things)]
+    chosen = np.random.default_rng(0).permutation(len(boxed))[:_SAMPLED]
+    some = [boxed[n] for n in np.sort(chosen)]
+    return np.concatenate(
+        [
+            boxes_of([thing for thing in scene.things if thing.box]) / picture.scale
+            for scene, picture in zip(some, _pictures(some), strict=True)
+        ]
+    )
 
 
 def is_whole(scene: Scene) -> bool:

@@ -12,7 +12,7 @@ from seewhy.text.nearest import did_you_mean
 if TYPE_CHECKING:
     from seewhy.perception.backbones.backbone import Backbone
 
-__all__ = ["EMBEDDED", "NONE", "load_backbone", "require_backbone"]
+__all__ = ["EMBEDDED", "NONE", "load_backbone", "require_backbone", "sides_of"]
 
 
 def _embedded(_: str) -> Backbone:
@@ -62,7 +62,20 @@ def require_backbone(name: str) -> None:
         raise DomainError(f"eyes '{name}' are not known; {did_you_mean(name, (*FAMILIES, NONE))}")
 
 
-def load_backbone(name: str, *, device: str = "auto") -> Backbone:
+def sides_of(name: str) -> tuple[int, ...]:
+    """The sides of pictures that a backbone may look at, its usual one first; none where one alone.
+
+    Examples
+    --------
+    >>> sides_of("timm:resnet18")
+    ()
+    """
+    from seewhy.perception.backbones.embedded import sides
+
+    return sides() if name == EMBEDDED else ()
+
+
+def load_backbone(name: str, *, device: str = "auto", side: int | None = None) -> Backbone:
     """Return the backbone of a name.
 
     Parameters
@@ -71,6 +84,8 @@ def load_backbone(name: str, *, device: str = "auto") -> Backbone:
         ``efficientnet-lite0``, whose last layers are tuned; or, with heads alone, ``timm:NAME``,
         ``torchvision:NAME`` or ``onnx:FILE``.
     device : {"auto", "cpu", "cuda", "mps"}
+    side : int, optional
+        Of the pictures that it looks at, one of :func:`sides_of`; its usual one where left out.
 
     Raises
     ------
@@ -88,4 +103,8 @@ def load_backbone(name: str, *, device: str = "auto") -> Backbone:
 
     require_backbone(name)
     family, _, rest = name.partition(":")
+    if side in sides_of(name):
+        from seewhy.perception.backbones.embedded import embedded_backbone
+
+        return embedded_backbone(side).to(device_of(device))
     return FAMILIES[family](rest).to(device_of(device))

@@ -2,19 +2,47 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
 from seewhy.perception.things.boxes import Boxes
 
-__all__ = ["LONGEST", "MARGIN", "regions_of"]
+__all__ = ["LONGEST", "MARGIN", "region_side", "regions_of"]
 
 LONGEST = 1024
 """Pixels of a picture's longer side at most when things are looked for in it."""
 
 MARGIN = 0.15
 """Of the longer side of a box, at each side: some of its surroundings are seen, too."""
+
+
+_REDUCED = 1.25
+"""By so much regions may be reduced: by more, lines of two pixels are lost."""
+
+
+def region_side(boxes: Boxes, sides: Sequence[int]) -> int:
+    """The smallest of some sides at which half of the regions are hardly reduced; else the largest.
+
+    Parameters
+    ----------
+    boxes : ndarray of float, shape (n, 4)
+        In pixels of their pictures, as they are looked at.
+    sides : sequence of int
+        In rising order.
+
+    Examples
+    --------
+    >>> region_side(np.array([[0.0, 0, 60, 90]]), (112, 160))
+    112
+    >>> region_side(np.array([[0.0, 0, 130, 190]]), (112, 160))
+    160
+    """
+    longer = (boxes[:, 2:] - boxes[:, :2]).max(axis=1)
+    shown = float(np.median(longer)) * (1.0 + 2.0 * MARGIN)
+    return next((side for side in sides if shown <= side * _REDUCED), sides[-1])
 
 
 def regions_of(image: Image.Image, boxes: Boxes, *, side: int) -> npt.NDArray[np.uint8]:
