@@ -88,7 +88,11 @@ def stacked(tables: Mapping[str, Table], weights: Mapping[str, float]) -> Table:
 
 
 def fit_stack(
-    tables: Mapping[str, Table], targets: npt.NDArray[np.int64], *, preferred: str
+    tables: Mapping[str, Table],
+    targets: npt.NDArray[np.int64],
+    *,
+    preferred: str,
+    clearly: bool = True,
 ) -> Stack:
     """Weigh ways of seeing so that the values of unseen pictures are most likely.
 
@@ -105,6 +109,9 @@ def fit_stack(
         The index of each picture's value.
     preferred : str
         The way of seeing that is asked where pictures do not clearly tell.
+    clearly : bool, default True
+        Whether another way alone has to be clearly better to be asked instead; all together
+        always have to.
 
     Examples
     --------
@@ -141,7 +148,8 @@ def fit_stack(
         bounds = [(0.0, MOST)] * len(names)
         result = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds)
         chosen = {name: float(x) for name, x in zip(names, result.x, strict=True)}
-        evidence = 0.0 if names == (preferred,) else _EVIDENCE
+        as_good = names == (preferred,) or (len(names) == 1 and not clearly)
+        evidence = 0.0 if as_good else _EVIDENCE
         return float(result.fun) + len(names) + evidence, chosen
 
     ranked = sorted(

@@ -191,7 +191,9 @@ def _stack(
     boxed = _kept_out(boxes, column, parts, values=values)[rows]
     known = column[rows] >= 0
     tables: dict[str, Table] = ways(seen[known], boxed[known])
-    return fit_stack(tables, column[rows][known], preferred=REGION)
+    # Neither is likelier from the start: how large a thing is shows its box, and what it is made
+    # of its region.
+    return fit_stack(tables, column[rows][known], preferred=REGION, clearly=False)
 
 
 def _pair_head(
