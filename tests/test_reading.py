@@ -31,6 +31,7 @@ from seewhy.knowledge.candidates import decided_vectors, most_probable_decided
 from seewhy.knowledge.justification import Basis
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.perception.extractor import Seen
 from seewhy.report.card import draw_card
 
 SPACE: list[FeatureVector] = list(product(*VALUES.values()))
@@ -219,6 +220,9 @@ class Networks:
         self.rows = {"colour": np.array([colour]), "round": np.array([is_round])}
         if classes is not None:
             self.rows[CLASS] = np.array([classes])
+
+    def see(self, pictures: np.ndarray[Any, Any]) -> Seen:
+        return Seen(self.probabilities(pictures), {})
 
     def probabilities(self, pictures: np.ndarray[Any, Any]) -> dict[str, np.ndarray[Any, Any]]:
         return {key: row.repeat(len(pictures), axis=0) for key, row in self.rows.items()}

@@ -29,6 +29,7 @@ from seewhy.evaluation import evaluate
 from seewhy.knowledge.candidates import decided_vectors
 from seewhy.knowledge.reasoner import Reasoner
 from seewhy.knowledge.scene import FeatureVector
+from seewhy.perception.extractor import Seen
 from test_reading import SPACE, distributions, logarithm
 
 # What else a picture may be -----------------------------------------------------------------
@@ -336,6 +337,9 @@ class Seeing:
     def __init__(self, tables: dict[str, np.ndarray[Any, Any]], classes: Iterable[str]) -> None:
         self.tables = tables
         self.classes = frozenset(classes)
+
+    def see(self, pictures: np.ndarray[Any, Any]) -> Seen:
+        return Seen(self.probabilities(pictures), {})
 
     def probabilities(self, pictures: np.ndarray[Any, Any]) -> dict[str, np.ndarray[Any, Any]]:
         return {key: np.repeat(table, len(pictures), axis=0) for key, table in self.tables.items()}

@@ -21,6 +21,7 @@ from seewhy.errors import ExperimentError
 from seewhy.files.folders import whole_folder
 from seewhy.files.locks import locked
 from seewhy.files.whole_files import whole_file
+from seewhy.perception import extractor
 from seewhy.perception.course import Course
 from seewhy.perception.domain_options import (
     class_options,
@@ -95,6 +96,10 @@ class Remembered:
         test = self._seen.test
         assert len(pictures) == len(test.scenes)
         return {**test.features, CLASS: test.classes}
+
+    def see(self, pictures: npt.NDArray[np.uint8]) -> extractor.Seen:
+        """The same, without embeddings: no trial asks how like training's pictures are."""
+        return extractor.Seen(self.probabilities(pictures), {})
 
     def shown(self, name: str) -> frozenset[str]:
         """The values of a feature, or the classes, that training pictures showed."""
