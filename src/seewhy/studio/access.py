@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Awaitable, Callable, MutableMapping
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers
 from starlette.responses import JSONResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 __all__ = ["LOOPBACK", "Access", "AccessRules"]
 
@@ -19,11 +18,6 @@ LOOPBACK = frozenset({"127.0.0.1", "localhost", "::1"})
 
 OPEN = frozenset({"/health"})
 """Paths that need no token."""
-
-_Message = MutableMapping[str, Any]
-_Receive = Callable[[], Awaitable[_Message]]
-_Send = Callable[[_Message], Awaitable[None]]
-_Application = Callable[[MutableMapping[str, Any], _Receive, _Send], Awaitable[None]]
 
 
 @dataclass(frozen=True)
@@ -52,13 +46,11 @@ class _TooLargeError(Exception):
 class Access:
     """Refuses what :class:`AccessRules` do not let in, before anything is read of it."""
 
-    def __init__(self, application: _Application, rules: AccessRules) -> None:
+    def __init__(self, application: ASGIApp, rules: AccessRules) -> None:
         self._application = application
         self._rules = rules
 
-    async def __call__(
-        self, scope: MutableMapping[str, Any], receive: _Receive, send: _Send
-    ) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
             await self._application(scope, receive, send)
             return
@@ -70,7 +62,7 @@ class Access:
             return
         left = self._rules.most_bytes
 
-        async def bounded() -> _Message:
+        async def bounded() -> Message:
             nonlocal left
             message = await receive()
             left -= len(message.get("body", b""))
@@ -78,7 +70,7 @@ class Access:
                 raise _TooLargeError
             return message
 
-        async def unless_too_large(message: _Message) -> None:
+        async def unless_too_large(message: Message) -> None:
             # Whoever reads forms takes the error for a damaged one, and would say so.
             if left >= 0:
                 await send(message)

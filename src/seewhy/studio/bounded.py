@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Awaitable, Callable, Collection, MutableMapping
-from typing import Any
+from collections.abc import Collection
 
 from starlette.responses import JSONResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from seewhy.studio.metrics import Metrics
 
@@ -15,12 +15,6 @@ __all__ = ["Bounded"]
 
 _OTHER = "other"
 _FAILED = 500
-
-_Message = MutableMapping[str, Any]
-_Scope = MutableMapping[str, Any]
-_Receive = Callable[[], Awaitable[_Message]]
-_Send = Callable[[_Message], Awaitable[None]]
-_Application = Callable[[_Scope, _Receive, _Send], Awaitable[None]]
 
 
 class Bounded:
@@ -39,7 +33,7 @@ class Bounded:
 
     def __init__(
         self,
-        application: _Application,
+        application: ASGIApp,
         seconds: float,
         paths: Collection[str],
         metrics: Metrics,
@@ -49,7 +43,7 @@ class Bounded:
         self._paths = frozenset(paths)
         self._metrics = metrics
 
-    async def __call__(self, scope: _Scope, receive: _Receive, send: _Send) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
             await self._application(scope, receive, send)
             return
@@ -57,7 +51,7 @@ class Bounded:
         began = time.perf_counter()
         status = 0  # none yet
 
-        async def noting(message: _Message) -> None:
+        async def noting(message: Message) -> None:
             nonlocal status
             if message["type"] == "http.response.start":
                 status = message["status"]

@@ -5,14 +5,13 @@ from __future__ import annotations
 import hashlib
 import hmac
 import secrets
-from collections.abc import Awaitable, Callable, MutableMapping
-from typing import Any
 from urllib.parse import parse_qs
 
 from fastapi import HTTPException, Request
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import cookie_parser
 from starlette.responses import RedirectResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from seewhy.studio.access import Access, AccessRules
 
@@ -41,12 +40,6 @@ _HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
 }
 
-_Message = MutableMapping[str, Any]
-_Scope = MutableMapping[str, Any]
-_Receive = Callable[[], Awaitable[_Message]]
-_Send = Callable[[_Message], Awaitable[None]]
-_Application = Callable[[_Scope, _Receive, _Send], Awaitable[None]]
-
 
 class Guard:
     """Refuses what :class:`~seewhy.studio.access.AccessRules` do not let in, and gives sessions.
@@ -60,11 +53,11 @@ class Guard:
     rules : AccessRules
     """
 
-    def __init__(self, application: _Application, rules: AccessRules) -> None:
+    def __init__(self, application: ASGIApp, rules: AccessRules) -> None:
         self._rules = rules
         self._inner = Access(application, rules)
 
-    async def __call__(self, scope: _Scope, receive: _Receive, send: _Send) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
             await self._inner(scope, receive, send)
             return
@@ -79,7 +72,7 @@ class Guard:
         if token and "authorization" not in headers:
             headers["authorization"] = f"Bearer {token}"
 
-        async def with_headers(message: _Message) -> None:
+        async def with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 answered = MutableHeaders(scope=message)
                 for name, text in _HEADERS.items():
@@ -106,7 +99,7 @@ class _Keeping:
     def __init__(self, token: str) -> None:
         self._token = token
 
-    async def __call__(self, scope: _Scope, receive: _Receive, send: _Send) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         response = RedirectResponse(scope["path"], 303)
         response.headers.append("Set-Cookie", f"{_TOKEN}={self._token}{_COOKIE}")
         await response(scope, receive, send)
