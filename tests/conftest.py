@@ -7,7 +7,6 @@ import io
 import json
 import os
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -40,6 +39,7 @@ from seewhy.data.dataset import Dataset
 from seewhy.dialogue import recurrent
 from seewhy.dialogue.reply import Classification, FeatureReading
 from seewhy.domain.domain import Domain, load_domain
+from seewhy.files.locks import locked
 from seewhy.knowledge.scene import FeatureVector
 from seewhy.perception import fitting_extractor, fitting_eyes, parallel
 from seewhy.perception.backbones import embedded
@@ -294,19 +294,14 @@ def shelf(tmp_path_factory: pytest.TempPathFactory) -> Shelf:
 
 def made_once(folder: Path, make: Callable[[Path], Shelf]) -> Shelf:
     """What is made in a folder by whichever process comes first; the others wait for it."""
-    made, ends = folder / "made.json", time.monotonic() + 300
-    try:
-        folder.mkdir()
-    except FileExistsError:
-        while not made.exists():
-            assert time.monotonic() < ends, f"nobody has made {folder}"
-            time.sleep(0.1)
-        return Shelf(*map(Path, json.loads(made.read_text())))
-    found = make(folder)
-    whole = folder / "made.part"
-    whole.write_text(json.dumps(list(map(str, found))))
-    whole.rename(made)
-    return found
+    made = folder / "made.json"
+    with locked(folder, wait=True):
+        if made.exists():
+            return Shelf(*map(Path, json.loads(made.read_text())))
+        folder.mkdir(exist_ok=True)
+        found = make(folder)
+        made.write_text(json.dumps(list(map(str, found))))
+        return found
 
 
 def trained_shelf(folder: Path) -> Shelf:

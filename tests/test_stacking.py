@@ -18,16 +18,16 @@ def table(wrong: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "clearly", "asked"),
+    ("region_wrong", "box_wrong", "clearly", "asked"),
     [
-        (1, True, "region"),  # by chance it may be as much better
-        (1, False, "box"),
-        (3, False, "region"),
-        (40, True, "region"),
+        (3, 1, True, "region"),  # by chance it may be as much better
+        (3, 1, False, "box"),
+        (2, 3, False, "region"),
+        (40, 1, True, "box"),
     ],
 )
-def test_a_little_better_is_clearly_better_only_where_nothing_is_preferred(
-    wrong: int, clearly: bool, asked: str
+def test_a_way_that_is_a_little_better_is_asked_where_it_need_not_be_clearly_so(
+    region_wrong: int, box_wrong: int, clearly: bool, asked: str
 ) -> None:
-    tables = {"region": table(3 if wrong != 3 else 2), "box": table(wrong)}
+    tables = {"region": table(region_wrong), "box": table(box_wrong)}
     assert fit_stack(tables, TARGETS, preferred="region", clearly=clearly).asked == (asked,)
